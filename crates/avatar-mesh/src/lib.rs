@@ -1,0 +1,1 @@
+//! Meshes of rigged faces: raw buffers, blend shapes, skinning on the CPU, OBJ.

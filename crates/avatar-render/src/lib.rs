@@ -1,0 +1,1 @@
+//! Draws rigged faces with wgpu: deformation in WGSL, skin, teeth, eyes and corneas.

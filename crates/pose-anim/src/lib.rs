@@ -1,0 +1,1 @@
+//! Controls, poses and smooth transitions for rigged faces.

@@ -1,0 +1,165 @@
+use crate::{Locals, RawRig, RigError, RigPose, XmlError, XmlProblem};
+use glam::{Affine3A, Mat3A, Mat4, Vec3, Vec4};
+
+/// How far a bind matrix may be from rigid: files print six digits. Applies to every element of `RᵀR − 1`, to
+/// `det R − 1` and to the last row.
+pub const RIGID_TOLERANCE: f32 = 1e-3;
+
+/// A joint of a [`Rig`]: its position in the parents-first arrays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct JointId(usize);
+
+impl JointId {
+    /// Position in every array of the rig.
+    pub const fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// A frozen rig: arrays over joints in which no joint precedes its parent.
+#[derive(Clone, Debug)]
+pub struct Rig {
+    names: Vec<String>,
+    parents: Vec<Option<JointId>>,
+    parent_from_joint: Vec<Affine3A>,
+    world_from_bind: Vec<Affine3A>,
+    bind_from_world: Vec<Affine3A>,
+}
+
+impl Rig {
+    /// Freezes an edited rig.
+    ///
+    /// # Errors
+    /// Names that are not unique, parents that are missing or form a cycle, matrices that are not rigid.
+    pub fn from_raw(raw: &RawRig) -> Result<Self, RigError> {
+        let (order, raw_parents) = raw.parents_first()?;
+        let mut frozen_index = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(frozen, &index)| frozen_index[index] = frozen);
+
+        let mut rig = Self {
+            names: Vec::with_capacity(order.len()),
+            parents: Vec::with_capacity(order.len()),
+            parent_from_joint: Vec::with_capacity(order.len()),
+            world_from_bind: Vec::with_capacity(order.len()),
+            bind_from_world: Vec::with_capacity(order.len()),
+        };
+        for &index in &order {
+            let joint = &raw.joints[index];
+            let parent_from_joint = rigid(&joint.name, joint.parent_from_joint)?;
+            let parent = raw_parents[index].map(|parent| JointId(frozen_index[parent]));
+            let world_from_bind = match parent {
+                Some(parent) => rig.world_from_bind[parent.0] * parent_from_joint,
+                None => parent_from_joint,
+            };
+            rig.names.push(joint.name.clone());
+            rig.parents.push(parent);
+            rig.parent_from_joint.push(parent_from_joint);
+            rig.world_from_bind.push(world_from_bind);
+            rig.bind_from_world.push(rigid_inverse(world_from_bind));
+        }
+        Ok(rig)
+    }
+
+    /// Reads and freezes a `Transformations.xml`.
+    ///
+    /// # Errors
+    /// As [`RawRig::from_xml`] and [`Rig::from_raw`]; the latter with the place of the joint.
+    pub fn from_xml(bytes: &[u8]) -> Result<Self, XmlError> {
+        let raw = RawRig::from_xml(bytes)?;
+        Self::from_raw(&raw).map_err(|error| {
+            let joint = raw.joints.iter().find(|joint| joint.name == error.joint());
+            let start = crate::Place { line: 1, column: 1 };
+            let place = joint.and_then(|joint| joint.place).unwrap_or(start);
+            XmlError { place, problem: XmlProblem::Rig(error) }
+        })
+    }
+
+    /// Number of joints.
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Whether there is no joint at all.
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    /// All joints, parents before children; reversed (`.rev()`) children before parents.
+    pub fn joints(&self) -> impl DoubleEndedIterator<Item = JointId> + ExactSizeIterator + use<> {
+        (0..self.names.len()).map(JointId)
+    }
+
+    /// The joint of this name.
+    pub fn joint(&self, name: &str) -> Option<JointId> {
+        self.names.iter().position(|other| other == name).map(JointId)
+    }
+
+    /// Names, by [`JointId::index`].
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Parents, by [`JointId::index`]; `None` at a root.
+    pub fn parents(&self) -> &[Option<JointId>] {
+        &self.parents
+    }
+
+    /// Bind matrices `B` relative to the parent, as the file has them.
+    pub fn parent_from_joint(&self) -> &[Affine3A] {
+        &self.parent_from_joint
+    }
+
+    /// World bind matrices `W`.
+    pub fn world_from_bind(&self) -> &[Affine3A] {
+        &self.world_from_bind
+    }
+
+    /// Rigid inverses of the world bind matrices, `W⁻¹`.
+    pub fn bind_from_world(&self) -> &[Affine3A] {
+        &self.bind_from_world
+    }
+
+    /// Local transforms of this rig, all identity.
+    pub fn locals(&self) -> Locals {
+        Locals::identity(self.len())
+    }
+
+    /// Room for the result of [`Rig::update`], in bind pose.
+    pub fn pose(&self) -> RigPose {
+        RigPose::in_bind(self)
+    }
+}
+
+/// `[Rᵀ ∣ −Rᵀt]`: the inverse of a rigid matrix, without dividing.
+fn rigid_inverse(a_from_b: Affine3A) -> Affine3A {
+    let transposed = a_from_b.matrix3.transpose();
+    Affine3A { matrix3: transposed, translation: -(transposed * a_from_b.translation) }
+}
+
+/// The matrix as an affine one, if it is rigid within [`RIGID_TOLERANCE`].
+fn rigid(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
+    if !matrix.is_finite() {
+        return Err(RigError::NotFinite { joint: joint.to_owned() });
+    }
+    let affine = Affine3A::from_mat4(matrix);
+    let gram = affine.matrix3.transpose() * affine.matrix3;
+    let off_identity = (gram - Mat3A::IDENTITY).to_cols_array();
+    let largest = |values: &[f32]| values.iter().fold(0.0f32, |most, value| most.max(value.abs()));
+    let checks = [
+        ("the last row", largest(&(matrix.row(3) - Vec4::W).to_array())),
+        ("the lengths and right angles of the axes", largest(&off_identity)),
+        ("the handedness (determinant)", (affine.matrix3.determinant() - 1.0).abs()),
+    ];
+    for (what, deviation) in checks {
+        // Not `deviation > tolerance`: an overflow to NaN must fail as well.
+        if !(deviation <= RIGID_TOLERANCE) {
+            let tolerance = RIGID_TOLERANCE;
+            return Err(RigError::NotRigid { joint: joint.to_owned(), what, deviation, tolerance });
+        }
+    }
+    // A translation that overflows when it is transformed would make W infinite further down.
+    if Vec3::from(affine.translation).abs().max_element() > 1e18 {
+        return Err(RigError::NotFinite { joint: joint.to_owned() });
+    }
+    Ok(affine)
+}
