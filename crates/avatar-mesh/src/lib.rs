@@ -1,1 +1,52 @@
-//! Meshes of rigged faces: raw buffers, blend shapes, skinning on the CPU, OBJ.
+//! Meshes of rigged faces: parts, blend shapes, raw buffers, deformation on the CPU, OBJ.
+//!
+//! ```text
+//!  VB, IB bytes ──raw──▶ Mesh { points, shapes, skinning } ──deform──▶ positions, normals ──obj──▶ text
+//! ```
+//!
+//! Spaces and units are those of the [rig](../rig_core/index.html): column vectors, right-handed, +Y up, the face
+//! looks along +Z, the character's left is +X. Texture coordinates have their origin at the top left corner of
+//! the image and v grows downward. Triangles run counter-clockwise seen from outside.
+//!
+//! With `b` the blend weights, `d`, `dn` a shape's offsets, `X` the bone matrices and `w` the four bone weights:
+//!
+//! ```text
+//!  v_blend = v + Σ_k b_k · d_k         v_out = Σ_{i=0..3} w_i · X_{bone_i} · v_blend
+//!  n_blend = n + Σ_k b_k · dn_k        n_out = normalize( Σ_{i=0..3} w_i · mat3(X_{bone_i}) · n_blend )
+//! ```
+//!
+//! [`deform()`] is the reference that the GPU's results are held against.
+//!
+//! ```
+//! use avatar_mesh::{deform, raw};
+//! use glam::{Affine3A, Vec3};
+//!
+//! // One vertex of a rigid part: position, uv, normal.
+//! let vertex: Vec<u8> = [1.0f32, 2.0, 3.0, 0.5, 0.5, 0.0, 0.0, 1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+//! let mesh = raw::read_rigid(&vertex, &[])?;
+//! let lifted = Affine3A::from_translation(Vec3::Y);
+//! let mut posed = mesh.deformed();
+//! deform(&mesh, &[lifted], &[], &mut posed)?;
+//! assert_eq!(posed.positions, [Vec3::new(1.0, 3.0, 3.0)]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! This crate knows no files and no GPU.
+
+mod bounds;
+mod deform;
+mod mesh;
+pub mod obj;
+mod parts;
+pub mod raw;
+mod validate;
+mod weld;
+mod winding;
+
+pub use bounds::Bounds;
+pub use deform::{DeformError, Deformed, MIN_NORMAL_LENGTH, deform};
+pub use mesh::{Mesh, Shape, Skinning};
+pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec};
+pub use validate::{MeshError, MeshWarning, WEIGHT_SUM_LIMIT, WEIGHT_SUM_TOLERANCE};
+pub use weld::{Welded, weld, weld_positions};
+pub use winding::Winding;

@@ -1,0 +1,53 @@
+use crate::{Bounds, Deformed};
+use glam::{Vec2, Vec3};
+
+/// A triangle mesh that shapes and bones can deform. All vertex arrays have one length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Positions in world space at bind pose.
+    pub positions: Vec<Vec3>,
+    /// Texture coordinates, origin top left; outside 0…1 the texture repeats.
+    pub uvs: Vec<Vec2>,
+    /// Normals in world space at bind pose, of about unit length.
+    pub normals: Vec<Vec3>,
+    /// Triangles, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Bones of each vertex; a mesh without follows one matrix.
+    pub skinning: Option<Skinning>,
+    /// Blend shapes; any number.
+    pub shapes: Vec<Shape>,
+}
+
+/// Which bones move a vertex, and how much. The arrays are as long as the mesh has vertices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skinning {
+    /// Four positions in the palette of bone matrices.
+    pub bones: Vec<[u16; 4]>,
+    /// Their weights, with sum 1.
+    pub weights: Vec<[f32; 4]>,
+    /// A column of the raw format without a known meaning, kept for writing it back; empty elsewhere.
+    pub blend_index: Vec<Vec3>,
+}
+
+/// A blend shape in relative form: offsets from the base shape at weight 1.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shape {
+    /// Name, unique in the mesh.
+    pub name: String,
+    /// Offset of each position.
+    pub positions: Vec<Vec3>,
+    /// Offset of each normal.
+    pub normals: Vec<Vec3>,
+}
+
+impl Mesh {
+    /// Room for the result of [`crate::deform()`], holding the undeformed mesh.
+    pub fn deformed(&self) -> Deformed {
+        Deformed { positions: self.positions.clone(), normals: self.normals.clone() }
+    }
+
+    /// The box around the undeformed mesh; `None` without vertices.
+    pub fn bounds(&self) -> Option<Bounds> {
+        Bounds::of(&self.positions)
+    }
+}

@@ -1,0 +1,218 @@
+use crate::Mesh;
+use std::fmt;
+
+/// Weights whose sum is this close to 1 are taken as they are.
+pub const WEIGHT_SUM_TOLERANCE: f64 = 1e-6;
+/// Weights whose sum is further from 1 than this are an error; between the two they are renormalised.
+pub const WEIGHT_SUM_LIMIT: f64 = 1e-3;
+
+/// What is wrong with a mesh or its bytes, and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// A buffer that is no whole number of elements.
+    #[error("expected a whole number of {element_bytes}-byte {element}, found {found} bytes")]
+    PartialElement {
+        /// `vertices` or `triangles`.
+        element: &'static str,
+        /// Bytes of one element.
+        element_bytes: usize,
+        /// Bytes of the buffer.
+        found: usize,
+    },
+    /// A mesh without vertices.
+    #[error("expected at least one vertex, found an empty buffer")]
+    NoVertices,
+    /// An array that is not as long as the mesh has vertices.
+    #[error("expected {expected} elements in {what}, found {found}")]
+    Count {
+        /// Which array.
+        what: String,
+        /// Number of vertices.
+        expected: usize,
+        /// Its length.
+        found: usize,
+    },
+    /// NaN or infinity.
+    #[error("vertex {vertex}: expected a finite number in {field}, found {found}")]
+    NotFinite {
+        /// The vertex.
+        vertex: usize,
+        /// Which of its fields.
+        field: String,
+        /// The number.
+        found: f32,
+    },
+    /// An index beyond the vertices.
+    #[error("triangle {triangle}, corner {corner}: expected a vertex below {vertices}, found {found}")]
+    IndexOutOfRange {
+        /// The triangle.
+        triangle: usize,
+        /// 0, 1 or 2.
+        corner: usize,
+        /// The index.
+        found: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A bone index that is no whole number, negative or beyond the palette.
+    #[error("vertex {vertex}, bone {slot}: expected a whole number from 0 to {last}, found {found}")]
+    BoneIndex {
+        /// The vertex.
+        vertex: usize,
+        /// 0 to 3.
+        slot: usize,
+        /// The number.
+        found: f32,
+        /// The last valid index.
+        last: usize,
+    },
+    /// Weights that do not sum to 1.
+    #[error(
+        "vertex {vertex}: expected bone weights that sum to 1 (within {WEIGHT_SUM_LIMIT}), found {found}"
+    )]
+    WeightSum {
+        /// The vertex.
+        vertex: usize,
+        /// The sum.
+        found: f64,
+    },
+}
+
+/// What was mended or deserves a look.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MeshWarning {
+    /// Weights were divided by their sum.
+    Renormalised {
+        /// Number of vertices concerned.
+        vertices: usize,
+        /// The vertex furthest off.
+        worst: usize,
+        /// Its sum.
+        sum: f64,
+    },
+    /// There is nothing to draw.
+    NoTriangles,
+}
+
+impl fmt::Display for MeshWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Renormalised { vertices, worst, sum } => write!(
+                f,
+                "expected bone weights that sum to 1, renormalised {vertices} vertices (vertex {worst}: sum {sum})"
+            ),
+            Self::NoTriangles => write!(f, "expected triangles, found none: the part is invisible"),
+        }
+    }
+}
+
+impl Mesh {
+    /// Checks everything that deformation and drawing rely on, for a palette of `bones` bones, and renormalises
+    /// weights that are slightly off.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its vertex or triangle.
+    pub fn validate(&mut self, bones: usize) -> Result<Vec<MeshWarning>, MeshError> {
+        let vertices = self.positions.len();
+        if vertices == 0 {
+            return Err(MeshError::NoVertices);
+        }
+        self.check_counts(vertices)?;
+        self.check_finite()?;
+        self.check_indices(vertices)?;
+        let mut warnings = Vec::new();
+        if self.triangles.is_empty() {
+            warnings.push(MeshWarning::NoTriangles);
+        }
+        warnings.extend(self.check_skinning(bones)?);
+        Ok(warnings)
+    }
+
+    fn check_counts(&self, expected: usize) -> Result<(), MeshError> {
+        let check = |what: &str, found| match found == expected {
+            true => Ok(()),
+            false => Err(MeshError::Count { what: what.to_owned(), expected, found }),
+        };
+        check("uvs", self.uvs.len())?;
+        check("normals", self.normals.len())?;
+        for shape in &self.shapes {
+            check(&format!("position offsets of shape {:?}", shape.name), shape.positions.len())?;
+            check(&format!("normal offsets of shape {:?}", shape.name), shape.normals.len())?;
+        }
+        if let Some(skinning) = &self.skinning {
+            check("bone indices", skinning.bones.len())?;
+            check("bone weights", skinning.weights.len())?;
+        }
+        Ok(())
+    }
+
+    fn check_finite(&self) -> Result<(), MeshError> {
+        finite("position", self.positions.iter().map(|p| p.to_array()))?;
+        finite("uv", self.uvs.iter().map(|uv| uv.to_array()))?;
+        finite("normal", self.normals.iter().map(|n| n.to_array()))?;
+        for shape in &self.shapes {
+            finite(
+                &format!("position offset of {}", shape.name),
+                shape.positions.iter().map(|p| p.to_array()),
+            )?;
+            finite(&format!("normal offset of {}", shape.name), shape.normals.iter().map(|n| n.to_array()))?;
+        }
+        match &self.skinning {
+            Some(skinning) => finite("bone weight", skinning.weights.iter().copied()),
+            None => Ok(()),
+        }
+    }
+
+    fn check_indices(&self, vertices: usize) -> Result<(), MeshError> {
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            for (corner, &found) in corners.iter().enumerate() {
+                if found as usize >= vertices {
+                    return Err(MeshError::IndexOutOfRange { triangle, corner, found, vertices });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_skinning(&mut self, bones: usize) -> Result<Option<MeshWarning>, MeshError> {
+        let Some(skinning) = &mut self.skinning else { return Ok(None) };
+        let (mut renormalised, mut worst, mut worst_sum) = (0, 0, 1.0f64);
+        for (vertex, (indices, weights)) in skinning.bones.iter().zip(&mut skinning.weights).enumerate() {
+            if let Some(slot) = indices.iter().position(|&bone| usize::from(bone) >= bones) {
+                let (found, last) = (f32::from(indices[slot]), bones.saturating_sub(1));
+                return Err(MeshError::BoneIndex { vertex, slot, found, last });
+            }
+            let sum: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
+            let off = (sum - 1.0).abs();
+            if off > WEIGHT_SUM_LIMIT {
+                return Err(MeshError::WeightSum { vertex, found: sum });
+            }
+            if off > WEIGHT_SUM_TOLERANCE {
+                renormalised += 1;
+                if off > (worst_sum - 1.0).abs() {
+                    (worst, worst_sum) = (vertex, sum);
+                }
+                weights.iter_mut().for_each(|weight| *weight = (f64::from(*weight) / sum) as f32);
+            }
+        }
+        let warning = MeshWarning::Renormalised { vertices: renormalised, worst, sum: worst_sum };
+        Ok((renormalised > 0).then_some(warning))
+    }
+}
+
+/// Sums of `x · 0` are NaN exactly where some x is not finite: one branch per array instead of one per number.
+fn finite<const N: usize>(
+    field: &str,
+    values: impl Iterator<Item = [f32; N]> + Clone,
+) -> Result<(), MeshError> {
+    let probe: f32 = values.clone().flatten().map(|x| x * 0.0).sum();
+    if probe == 0.0 {
+        return Ok(());
+    }
+    for (vertex, value) in values.enumerate() {
+        if let Some(&found) = value.iter().find(|x| !x.is_finite()) {
+            return Err(MeshError::NotFinite { vertex, field: field.to_owned(), found });
+        }
+    }
+    Ok(())
+}

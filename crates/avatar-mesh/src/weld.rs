@@ -1,0 +1,111 @@
+use crate::{Mesh, Shape, Skinning};
+use glam::Vec3;
+use std::collections::HashMap;
+
+/// A mesh without repeated vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Welded {
+    /// The mesh; triangles keep their order.
+    pub mesh: Mesh,
+    /// For each vertex of the original its vertex in [`Welded::mesh`].
+    pub welded_from_original: Vec<u32>,
+}
+
+/// Merges vertices that are alike in every attribute, to the bit: the welded mesh deforms and draws exactly as the
+/// original does. Vertices keep the order of their first appearance.
+pub fn weld(mesh: &Mesh) -> Welded {
+    let mut first_of: HashMap<Vec<u32>, u32> = HashMap::with_capacity(mesh.positions.len());
+    let mut originals = Vec::new();
+    let mut welded_from_original = Vec::with_capacity(mesh.positions.len());
+    for vertex in 0..mesh.positions.len() {
+        let next = originals.len() as u32;
+        let welded = *first_of.entry(bits(mesh, vertex)).or_insert(next);
+        if welded == next {
+            originals.push(vertex);
+        }
+        welded_from_original.push(welded);
+    }
+    let mesh = Mesh {
+        positions: pick(&mesh.positions, &originals),
+        uvs: pick(&mesh.uvs, &originals),
+        normals: pick(&mesh.normals, &originals),
+        triangles: mesh.triangles.iter().map(|t| t.map(|i| renamed(&welded_from_original, i))).collect(),
+        skinning: mesh.skinning.as_ref().map(|skinning| Skinning {
+            bones: pick(&skinning.bones, &originals),
+            weights: pick(&skinning.weights, &originals),
+            blend_index: pick(&skinning.blend_index, &originals),
+        }),
+        shapes: (mesh.shapes.iter())
+            .map(|shape| Shape {
+                name: shape.name.clone(),
+                positions: pick(&shape.positions, &originals),
+                normals: pick(&shape.normals, &originals),
+            })
+            .collect(),
+    };
+    Welded { mesh, welded_from_original }
+}
+
+fn renamed(welded_from_original: &[u32], vertex: u32) -> u32 {
+    welded_from_original.get(vertex as usize).copied().unwrap_or(vertex)
+}
+
+fn pick<T: Copy>(values: &[T], originals: &[usize]) -> Vec<T> {
+    originals.iter().filter_map(|&original| values.get(original).copied()).collect()
+}
+
+fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
+    let mut bits = Vec::with_capacity(20 + 6 * mesh.shapes.len());
+    let mut push = |values: &[f32]| bits.extend(values.iter().map(|value| value.to_bits()));
+    let at = |values: &[Vec3]| values.get(vertex).copied().unwrap_or_default().to_array();
+    push(&at(&mesh.positions));
+    push(&at(&mesh.normals));
+    push(&mesh.uvs.get(vertex).copied().unwrap_or_default().to_array());
+    for shape in &mesh.shapes {
+        push(&at(&shape.positions));
+        push(&at(&shape.normals));
+    }
+    if let Some(skinning) = &mesh.skinning {
+        push(&skinning.bones.get(vertex).copied().unwrap_or_default().map(f32::from));
+        push(&skinning.weights.get(vertex).copied().unwrap_or_default());
+    }
+    bits
+}
+
+/// Gives points that are within `tolerance` of each other (along chains, too) one number, counted from 0 in the
+/// order of first appearance: the topology under vertices that were split for uvs or normals.
+pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
+    let cell_size = f64::from(tolerance.max(f32::MIN_POSITIVE)) * 2.0;
+    let cell_of = |p: Vec3| (p.as_dvec3() / cell_size).floor().to_array().map(|x| x as i64);
+    let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    let mut roots: Vec<u32> = (0..positions.len() as u32).collect();
+    for (vertex, &position) in positions.iter().enumerate() {
+        let [x, y, z] = cell_of(position);
+        for neighbour in 0..27 {
+            let (dx, dy, dz) = (neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
+            let key = [x.saturating_add(dx), y.saturating_add(dy), z.saturating_add(dz)];
+            for &other in cells.get(&key).map_or(&[][..], Vec::as_slice) {
+                if positions[other as usize].distance(position) <= tolerance {
+                    let (a, b) = (root(&mut roots, other), root(&mut roots, vertex as u32));
+                    roots[a.max(b) as usize] = a.min(b);
+                }
+            }
+        }
+        cells.entry([x, y, z]).or_default().push(vertex as u32);
+    }
+    let mut numbers = HashMap::new();
+    (0..positions.len() as u32)
+        .map(|vertex| {
+            let next = numbers.len() as u32;
+            *numbers.entry(root(&mut roots, vertex)).or_insert(next)
+        })
+        .collect()
+}
+
+fn root(roots: &mut [u32], mut vertex: u32) -> u32 {
+    while roots[vertex as usize] != vertex {
+        roots[vertex as usize] = roots[roots[vertex as usize] as usize];
+        vertex = roots[vertex as usize];
+    }
+    vertex
+}
