@@ -1,1 +1,38 @@
 //! Avatar packs: rig, meshes, textures, controls and poses from a set of named byte strings.
+//!
+//! ```text
+//!  Source ──▶ Pack  { rig, parts, palette, controls, poses }      geometry and motion
+//!         └─▶ Textures { skin, eyes, teeth … }                    pictures, missing ones with a warning
+//!
+//!  Pack + control values ──FaceState──▶ bone matrices + blend weights ──▶ avatar-render, or avatar_mesh::deform
+//! ```
+//!
+//! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and an index
+//! buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally `controls.toml` and
+//! `poses.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
+//! bytes in the program.
+//!
+//! ```
+//! use avatar_pack::{Pack, Source, SourceError};
+//!
+//! struct Nothing;
+//! impl Source for Nothing {
+//!     fn read(&self, _name: &str) -> Result<Option<std::borrow::Cow<'_, [u8]>>, SourceError> {
+//!         Ok(None)
+//!     }
+//! }
+//! let error = Pack::load(&Nothing).expect_err("there is no rig");
+//! assert!(error.to_string().starts_with("Transformations.xml: expected the file"));
+//! ```
+
+mod error;
+mod face;
+mod pack;
+mod source;
+mod textures;
+
+pub use error::{PackError, PackProblem, Warning};
+pub use face::{FaceError, FaceState};
+pub use pack::{Pack, Part};
+pub use source::{MemorySource, Source, SourceError};
+pub use textures::{Texture, Textures};

@@ -1,0 +1,94 @@
+use crate::SourceError;
+use avatar_mesh::{MeshError, MeshWarning};
+use pose_anim::{BindError, TomlError};
+use rig_core::XmlError;
+use std::fmt;
+
+/// Why a pack could not be loaded, and which of its files is to blame.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{file}: {problem}")]
+pub struct PackError {
+    /// The file, as [`crate::Source::locate`] names it.
+    pub file: String,
+    /// What is wrong with it.
+    pub problem: PackProblem,
+}
+
+/// What is wrong with a file of a pack.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PackProblem {
+    /// A file that every pack needs is missing.
+    #[error("expected the file {0}, found none")]
+    Missing(String),
+    /// The file could not be read.
+    #[error("{0}")]
+    Unreadable(SourceError),
+    /// The rig's XML is not as the format demands.
+    #[error("{0}")]
+    Rig(XmlError),
+    /// The rig lacks a joint that the parts follow.
+    #[error("expected a joint named {joint:?}, found only {}", found.join(", "))]
+    MissingJoint {
+        /// The joint that is missing.
+        joint: String,
+        /// The joints that there are.
+        found: Vec<String>,
+    },
+    /// A vertex or index buffer is not as the format demands.
+    #[error("{0}")]
+    Mesh(MeshError),
+    /// A text file that is no UTF-8.
+    #[error("expected UTF-8 text, found a bad byte at offset {offset}")]
+    NotText {
+        /// Offset of the first bad byte.
+        offset: usize,
+    },
+    /// `controls.toml` or `poses.toml` is not as its format demands.
+    #[error("{0}")]
+    Toml(TomlError),
+    /// A control names a joint or shape that the pack does not have.
+    #[error("{0}")]
+    Bind(BindError),
+}
+
+/// Something that was mended or replaced while a pack was loaded; the face can be shown all the same.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Warning {
+    /// A mesh was mended, or has nothing to show.
+    Mesh {
+        /// The file.
+        file: String,
+        /// What it is.
+        warning: MeshWarning,
+    },
+    /// Most triangles of a part contradict their normals; it is turned around for drawing.
+    InsideOut {
+        /// Name of the part.
+        part: String,
+        /// Triangles that contradict their normals.
+        contradicting: usize,
+        /// All triangles.
+        triangles: usize,
+    },
+    /// A texture is missing or does not decode; a plain default takes its place.
+    Texture {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mesh { file, warning } => write!(f, "{file}: {warning}"),
+            Self::InsideOut { part, contradicting, triangles } => write!(
+                f,
+                "{part}: expected triangles that agree with their normals, found {contradicting} of {triangles} \
+                 against them: turned around for drawing"
+            ),
+            Self::Texture { file, problem } => write!(f, "{file}: {problem}: a plain default takes its place"),
+        }
+    }
+}

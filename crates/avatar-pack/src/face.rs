@@ -1,0 +1,104 @@
+use crate::Pack;
+use glam::Affine3A;
+use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
+
+/// Why control values could not be turned into a face.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FaceError {
+    /// Another number of values than the pack has controls.
+    #[error("expected {expected} control values, found {found}")]
+    ValueCount {
+        /// Number of controls.
+        expected: usize,
+        /// Number of values.
+        found: usize,
+    },
+    /// The state belongs to another pack.
+    #[error(transparent)]
+    Joint(#[from] UnknownJoint),
+    /// The state belongs to another pack.
+    #[error(transparent)]
+    Length(#[from] LengthMismatch),
+    /// The controls do not fit the rig.
+    #[error(transparent)]
+    Apply(#[from] pose_anim::ApplyError),
+}
+
+/// The way from control values to what a renderer takes: bone matrices and blend weights. Reused from frame to
+/// frame; only making it allocates.
+#[derive(Clone, Debug)]
+pub struct FaceState {
+    effective: Vec<f32>,
+    locals: Locals,
+    pose: RigPose,
+    bones: Vec<Affine3A>,
+    weights: Vec<f32>,
+}
+
+impl FaceState {
+    /// A state for this pack, at bind pose.
+    pub fn new(pack: &Pack) -> Self {
+        Self {
+            effective: pack.controls.defaults(),
+            locals: pack.rig.locals(),
+            pose: pack.rig.pose(),
+            bones: vec![Affine3A::IDENTITY; pack.palette.len()],
+            weights: vec![0.0; pack.shapes.len()],
+        }
+    }
+
+    /// Takes control values (degrees or weights, in the table's order) through the couplings, then to the joints.
+    ///
+    /// # Errors
+    /// The number of values is not the number of controls, or the state was made for another pack.
+    pub fn pose(&mut self, pack: &Pack, values: &[f32]) -> Result<(), FaceError> {
+        self.pose_with(pack, values, |_| {}, &[])
+    }
+
+    /// As [`FaceState::pose`], with a hand on the way: `adjust` may change the values after the couplings, and
+    /// `locals` replaces the `L` of single joints after the controls.
+    ///
+    /// # Errors
+    /// As [`FaceState::pose`].
+    pub fn pose_with(
+        &mut self,
+        pack: &Pack,
+        values: &[f32],
+        adjust: impl FnOnce(&mut [f32]),
+        locals: &[(JointId, Affine3A)],
+    ) -> Result<(), FaceError> {
+        let expected = pack.controls.controls().len();
+        if values.len() != expected || self.effective.len() != expected {
+            return Err(FaceError::ValueCount { expected, found: values.len() });
+        }
+        pack.binding.couple(values, &mut self.effective);
+        adjust(&mut self.effective);
+        pack.binding.apply(&self.effective, &mut self.locals, &mut self.weights)?;
+        for &(joint, local) in locals {
+            self.locals.set(joint, local)?;
+        }
+        pack.rig.update(self.locals.as_slice(), &mut self.pose)?;
+        self.pose.gather(&pack.palette, &mut self.bones)?;
+        Ok(())
+    }
+
+    /// Bone matrices `X` in the order of the pack's palette.
+    pub fn bones(&self) -> &[Affine3A] {
+        &self.bones
+    }
+
+    /// Blend weights in the order of the pack's shapes.
+    pub fn weights(&self) -> &[f32] {
+        &self.weights
+    }
+
+    /// World and bone matrices of all joints.
+    pub fn rig_pose(&self) -> &RigPose {
+        &self.pose
+    }
+
+    /// Control values after the couplings.
+    pub fn effective(&self) -> &[f32] {
+        &self.effective
+    }
+}

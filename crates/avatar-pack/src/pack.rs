@@ -1,0 +1,167 @@
+use crate::{PackError, PackProblem, Source, Warning};
+use avatar_mesh::{Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartSpec, Winding, raw};
+use pose_anim::{Binding, ControlTable, PoseSet};
+use rig_core::{JointId, Rig};
+use std::borrow::Cow;
+
+/// The rig's file, under the two names that it has in the wild.
+const RIG_FILES: [&str; 2] = ["Transformations.xml", "Transformationen.xml"];
+
+/// A face, ready to be posed: everything of a pack but its textures.
+#[derive(Clone, Debug)]
+pub struct Pack {
+    /// The joints.
+    pub rig: Rig,
+    /// The parts, in the order of [`FACE_PARTS`].
+    pub parts: Vec<Part>,
+    /// The joint that each bone index of the meshes means, in the order of [`FACE_BONES`].
+    pub palette: Vec<JointId>,
+    /// Names of the blend shapes, in the order of the blend weights.
+    pub shapes: Vec<String>,
+    /// The controls, from `controls.toml` or the default table.
+    pub controls: ControlTable,
+    /// The controls, bound to this rig and these shapes.
+    pub binding: Binding,
+    /// The poses, from `poses.toml` or the default set.
+    pub poses: PoseSet,
+    /// What was mended while loading.
+    pub warnings: Vec<Warning>,
+}
+
+/// One part of a face.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its place in the format.
+    pub spec: PartSpec,
+    /// Its valid mesh.
+    pub mesh: Mesh,
+    /// Bytes of its two files.
+    pub bytes: usize,
+    /// For a rigid part the bone that it follows, as an index into [`Pack::palette`].
+    pub bone: Option<usize>,
+}
+
+impl Pack {
+    /// Loads a pack in the raw format.
+    ///
+    /// # Errors
+    /// The first file that is missing, unreadable or not as the format demands, and where in it.
+    pub fn load(source: &impl Source) -> Result<Self, PackError> {
+        let (rig_file, rig) = load_rig(source)?;
+        let palette = load_palette(source, rig_file, &rig)?;
+        let mut warnings = Vec::new();
+        let parts = FACE_PARTS
+            .iter()
+            .map(|spec| load_part(source, *spec, &mut warnings))
+            .collect::<Result<Vec<_>, _>>()?;
+
+        let (controls, binding) = load_controls(source, &rig)?;
+        let poses = match read_text(source, "poses.toml")? {
+            None => PoseSet::default_face(&controls),
+            Some(text) => PoseSet::from_toml(&text, &controls)
+                .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error)))?,
+        };
+        let shapes = FACE_SHAPES.map(str::to_owned).into();
+        Ok(Self { rig, parts, palette, shapes, controls, binding, poses, warnings })
+    }
+
+    /// The part of this name.
+    pub fn part(&self, name: &str) -> Option<&Part> {
+        self.parts.iter().find(|part| part.spec.name == name)
+    }
+
+    /// The box around all parts at bind pose.
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.parts.iter().filter_map(|part| part.mesh.bounds()).reduce(Bounds::union)
+    }
+}
+
+fn at(source: &impl Source, name: &str, problem: PackProblem) -> PackError {
+    PackError { file: source.locate(name), problem }
+}
+
+fn read<'a>(source: &'a impl Source, name: &str) -> Result<Option<Cow<'a, [u8]>>, PackError> {
+    source.read(name).map_err(|error| at(source, name, PackProblem::Unreadable(error)))
+}
+
+fn read_needed<'a>(source: &'a impl Source, name: &str) -> Result<Cow<'a, [u8]>, PackError> {
+    read(source, name)?.ok_or_else(|| at(source, name, PackProblem::Missing(name.to_owned())))
+}
+
+fn read_text(source: &impl Source, name: &str) -> Result<Option<String>, PackError> {
+    let Some(bytes) = read(source, name)? else { return Ok(None) };
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(Some(text.to_owned())),
+        Err(error) => Err(at(source, name, PackProblem::NotText { offset: error.valid_up_to() })),
+    }
+}
+
+fn load_rig(source: &impl Source) -> Result<(&'static str, Rig), PackError> {
+    for name in RIG_FILES {
+        if let Some(bytes) = read(source, name)? {
+            let rig = Rig::from_xml(&bytes).map_err(|error| at(source, name, PackProblem::Rig(error)))?;
+            return Ok((name, rig));
+        }
+    }
+    Err(at(source, RIG_FILES[0], PackProblem::Missing(RIG_FILES.join(" or "))))
+}
+
+fn load_palette(source: &impl Source, rig_file: &str, rig: &Rig) -> Result<Vec<JointId>, PackError> {
+    let joint = |name: &&str| {
+        rig.joint(name).ok_or_else(|| {
+            let problem = PackProblem::MissingJoint { joint: (*name).to_owned(), found: rig.names().to_vec() };
+            at(source, rig_file, problem)
+        })
+    };
+    FACE_BONES.iter().map(joint).collect()
+}
+
+fn load_part(
+    source: &impl Source,
+    spec: PartSpec,
+    warnings: &mut Vec<Warning>,
+) -> Result<Part, PackError> {
+    let (vertex_file, index_file) = (format!("{}_VB.raw", spec.stem), format!("{}_IB.raw", spec.stem));
+    let vertices = read_needed(source, &vertex_file)?;
+    let indices = read_needed(source, &index_file)?;
+    let blame = |error: MeshError| {
+        let file = match error {
+            MeshError::PartialElement { element: "triangles", .. } | MeshError::IndexOutOfRange { .. } => &index_file,
+            _ => &vertex_file,
+        };
+        at(source, file, PackProblem::Mesh(error))
+    };
+    let (mut mesh, bone) = match spec.follows {
+        Follows::Bones => (raw::read_skin(&vertices, &indices).map_err(blame)?, None),
+        Follows::Joint(joint) => {
+            let bone = FACE_BONES.iter().position(|name| *name == joint);
+            (raw::read_rigid(&vertices, &indices).map_err(blame)?, bone)
+        }
+    };
+    for warning in mesh.validate(FACE_BONES.len()).map_err(blame)? {
+        warnings.push(Warning::Mesh { file: source.locate(&vertex_file), warning });
+    }
+    let winding = Winding::of(&mesh);
+    if winding.is_inside_out() {
+        warnings.push(Warning::InsideOut {
+            part: spec.name.to_owned(),
+            contradicting: winding.contradicting,
+            triangles: mesh.triangles.len(),
+        });
+    }
+    Ok(Part { spec, mesh, bytes: vertices.len() + indices.len(), bone })
+}
+
+fn load_controls(source: &impl Source, rig: &Rig) -> Result<(ControlTable, Binding), PackError> {
+    let file = "controls.toml";
+    let controls = match read_text(source, file)? {
+        None => ControlTable::default_face(),
+        Some(text) => {
+            ControlTable::from_toml(&text).map_err(|error| at(source, file, PackProblem::Toml(error)))?
+        }
+    };
+    let binding = controls.bind(rig, &FACE_SHAPES);
+    let binding = binding.map_err(|error| at(source, file, PackProblem::Bind(error)))?;
+    Ok((controls, binding))
+}

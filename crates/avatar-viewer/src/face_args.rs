@@ -1,0 +1,153 @@
+use crate::usage::{unknown, usage};
+use anyhow::Result;
+use avatar_pack::{FaceState, Pack};
+use clap::{ArgMatches, Args};
+use glam::Affine3A;
+use rig_core::{Axis, Elementary, JointId, product};
+use std::str::FromStr;
+
+/// A face state on the command line: a pose, then single controls and joints.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct FaceArgs {
+    /// Pose to start from
+    #[arg(long, value_name = "NAME")]
+    pose: Option<String>,
+    /// Set exactly this control, in degrees or as a weight; may be repeated
+    #[arg(long, value_name = "CONTROL=VALUE", allow_hyphen_values = true)]
+    set: Vec<Setting>,
+    /// Set this joint's local transform to a product of rotations about its own axes, left to right; may be repeated
+    #[arg(long, value_name = "JOINT=AXIS:DEG[,AXIS:DEG...]", allow_hyphen_values = true)]
+    rotate: Vec<Rotation>,
+}
+
+/// `CONTROL=VALUE`
+#[derive(Clone, Debug)]
+struct Setting {
+    control: String,
+    value: f32,
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (control, value) = text.split_once('=').ok_or("expected CONTROL=VALUE, as in jaw.open=12")?;
+        let value = number(value)?;
+        Ok(Self { control: control.trim().to_owned(), value })
+    }
+}
+
+/// `JOINT=AXIS:DEG[,AXIS:DEG…]`
+#[derive(Clone, Debug)]
+struct Rotation {
+    joint: String,
+    factors: Vec<Elementary>,
+}
+
+impl FromStr for Rotation {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = "expected JOINT=AXIS:DEGREES[,AXIS:DEGREES…] with x, y or z, as in HeadJoint=x:20,y:-10";
+        let (joint, factors) = text.split_once('=').ok_or(form)?;
+        let factor = |factor: &str| {
+            let (axis, degrees) = factor.split_once(':').ok_or(form)?;
+            let axis = match axis.trim() {
+                "x" | "X" => Axis::X,
+                "y" | "Y" => Axis::Y,
+                "z" | "Z" => Axis::Z,
+                _ => return Err(form.to_owned()),
+            };
+            Ok(Elementary::rotation(axis, number(degrees)?.to_radians()))
+        };
+        let factors = factors.split(',').map(factor).collect::<Result<_, _>>()?;
+        Ok(Self { joint: joint.trim().to_owned(), factors })
+    }
+}
+
+fn number(text: &str) -> Result<f32, String> {
+    let number = text.trim().parse().ok().filter(|x: &f32| x.is_finite());
+    number.ok_or_else(|| format!("expected a finite number, found {text:?}"))
+}
+
+/// A face state that is known to fit a pack.
+#[derive(Clone, Debug)]
+pub(crate) struct FaceChoice {
+    /// Control values of the pose, before couplings.
+    pub(crate) values: Vec<f32>,
+    settings: Vec<(usize, f32)>,
+    locals: Vec<(JointId, Affine3A)>,
+}
+
+impl FaceChoice {
+    /// A pose's values on top of the defaults, and nothing else.
+    pub(crate) fn of_values(values: Vec<f32>) -> Self {
+        Self { values, settings: Vec::new(), locals: Vec::new() }
+    }
+
+    /// Brings the state into this choice.
+    pub(crate) fn apply(&self, pack: &Pack, state: &mut FaceState) -> Result<()> {
+        let set = |values: &mut [f32]| {
+            for &(control, value) in &self.settings {
+                values[control] = value;
+            }
+        };
+        Ok(state.pose_with(pack, &self.values, set, &self.locals)?)
+    }
+}
+
+impl FaceArgs {
+    /// Looks all names up. `matches` tells the order in which options were given: where `--set` and `--rotate`
+    /// concern one joint, the later one wins.
+    pub(crate) fn resolve(&self, pack: &Pack, matches: &ArgMatches) -> Result<FaceChoice> {
+        let mut values = pack.controls.defaults();
+        if let Some(name) = &self.pose {
+            let pose = pack.poses.get(name);
+            let pose = pose.ok_or_else(|| unknown("pose", name, pack.poses.iter().map(|p| p.name.as_str())))?;
+            pose.values.iter().for_each(|&(control, value)| values[control] = value);
+        }
+        let positions = |option: &str| matches.indices_of(option).into_iter().flatten();
+        let mut choice = FaceChoice::of_values(values);
+        let mut driven_later = Vec::new();
+        for (setting, position) in self.set.iter().zip(positions("set")) {
+            let (control, value) = self.setting(pack, setting)?;
+            choice.settings.push((control, value));
+            driven_later.push((joint_of(pack, control), position));
+        }
+        for (rotation, position) in self.rotate.iter().zip(positions("rotate")) {
+            let joint = pack.rig.joint(&rotation.joint);
+            let joint = joint.ok_or_else(|| {
+                unknown("joint", &rotation.joint, pack.rig.names().iter().map(String::as_str))
+            })?;
+            if !driven_later.iter().any(|&(driven, later)| driven == Some(joint) && later > position) {
+                choice.locals.push((joint, product(&rotation.factors)));
+            }
+        }
+        Ok(choice)
+    }
+
+    fn setting(&self, pack: &Pack, setting: &Setting) -> Result<(usize, f32)> {
+        let controls = pack.controls.controls();
+        let index = pack.controls.index(&setting.control).ok_or_else(|| {
+            let nearest = pack.controls.nearest(&setting.control);
+            let hint = nearest.map(|name| format!(" (did you mean {name:?}?)")).unwrap_or_default();
+            let names: Vec<_> = controls.iter().map(|control| control.name.as_str()).collect();
+            let names = names.join(", ");
+            usage(format!("expected the name of a control, found {:?}{hint}; there are: {names}", setting.control))
+        })?;
+        let control = &controls[index];
+        let value = setting.value.clamp(control.min, control.max);
+        if value != setting.value {
+            let (min, max, found) = (control.min, control.max, setting.value);
+            eprintln!("warning: --set {}: expected {min} to {max}, found {found}: clamped to {value}", control.name);
+        }
+        Ok((index, value))
+    }
+}
+
+fn joint_of(pack: &Pack, control: usize) -> Option<JointId> {
+    match &pack.controls.controls()[control].drives {
+        pose_anim::Drive::Joint { joint, .. } => pack.rig.joint(joint),
+        pose_anim::Drive::Shape { .. } => None,
+    }
+}

@@ -1,0 +1,87 @@
+//! From a pack to what the renderer takes, the same for pictures and for the window.
+
+use anyhow::Result;
+use avatar_mesh::PartKind;
+use avatar_pack::{Pack, Part, Texture, Textures};
+use avatar_render::{AvatarModel, Camera, Image, PartBones, PartDesc, PartTextures, Renderer, Scene};
+
+/// Angle of view from top to bottom: long enough a lens not to distort a face.
+const VERTICAL_FOV_DEGREES: f32 = 24.0;
+
+/// Where the camera stands around the face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct View {
+    /// Around the vertical axis; 90 stands at the character's left.
+    pub(crate) yaw_degrees: f32,
+    /// Above the horizon.
+    pub(crate) pitch_degrees: f32,
+    /// Distance as a multiple of the one that shows the whole head.
+    pub(crate) distance: f32,
+}
+
+impl View {
+    pub(crate) const FRONT: Self = Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0 };
+    pub(crate) const THREE_QUARTER: Self = Self { yaw_degrees: 35.0, ..Self::FRONT };
+}
+
+/// The picture's camera, light and background. `background` is sRGB with straight alpha.
+pub(crate) fn scene(pack: &Pack, view: View, width: u32, height: u32, background: [u8; 4]) -> Scene {
+    let bounds = pack.bounds().unwrap_or(avatar_mesh::Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
+    let aspect = width.max(1) as f32 / height.max(1) as f32;
+    let camera = Camera::frame(
+        bounds,
+        view.yaw_degrees.to_radians(),
+        view.pitch_degrees.to_radians(),
+        VERTICAL_FOV_DEGREES.to_radians(),
+        aspect,
+        view.distance,
+    );
+    Scene { camera, background: background_linear(background), ..Scene::default() }
+}
+
+/// sRGB to linear light (IEC 61966-2-1), alpha unchanged.
+fn background_linear(srgb: [u8; 4]) -> [f32; 4] {
+    let [red, green, blue, alpha] = srgb.map(|byte| f32::from(byte) / 255.0);
+    let linear = |c: f32| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
+    [linear(red), linear(green), linear(blue), alpha]
+}
+
+/// Uploads the pack's meshes and textures.
+pub(crate) fn upload(
+    pack: &Pack,
+    textures: &Textures,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    renderer: &Renderer,
+) -> Result<AvatarModel> {
+    let image = |texture| {
+        textures.get(texture).map(|image| Image {
+            width: image.width(),
+            height: image.height(),
+            rgba: image.as_raw().clone(),
+        })
+    };
+    let skin = [Texture::SkinColor, Texture::SkinOcclusion, Texture::SkinGloss].map(image);
+    let (eye, teeth) = (image(Texture::Eye(0)), image(Texture::Teeth));
+    let textures_of = |kind| match kind {
+        PartKind::Skin => PartTextures {
+            color: skin[0].as_ref(),
+            occlusion: skin[1].as_ref(),
+            gloss: skin[2].as_ref(),
+            ..PartTextures::default()
+        },
+        PartKind::Teeth => PartTextures { color: teeth.as_ref(), ..PartTextures::default() },
+        PartKind::Eyeball => PartTextures { color: eye.as_ref(), ..PartTextures::default() },
+        PartKind::Cornea => PartTextures::default(),
+    };
+    let describe = |part: &Part| PartDesc {
+        label: part.spec.name,
+        mesh: &part.mesh,
+        kind: part.spec.kind,
+        bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
+        textures: textures_of(part.spec.kind),
+    };
+    // The descriptions borrow from the pack, whose labels and meshes live longer than this call.
+    let parts: Vec<PartDesc<'_>> = pack.parts.iter().map(describe).collect();
+    Ok(AvatarModel::new(device, queue, renderer, &parts, pack.palette.len(), pack.shapes.len())?)
+}

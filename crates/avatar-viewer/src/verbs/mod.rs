@@ -1,0 +1,31 @@
+//! One module per verb of the command line.
+
+mod bones;
+mod deform;
+mod info;
+mod keys;
+mod trace;
+
+use crate::cli::{Cli, PackArg, Verb};
+use crate::files::Files;
+use anyhow::Result;
+use clap::ArgMatches;
+
+/// Runs the verb, or opens the window where there is none.
+pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
+    let Some(verb) = cli.verb else { anyhow::bail!("no window yet") };
+    let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);
+    match verb {
+        Verb::Render(_args) => anyhow::bail!("not yet"),
+        Verb::Sheet(_args) => anyhow::bail!("not yet"),
+        Verb::Bones(args) => bones::run(&args, matches),
+        Verb::Deform(args) => deform::run(&args, matches),
+        Verb::Trace(args) => trace::run(&args),
+        Verb::Info(args) => info::run(&args),
+        Verb::Keys(args) => keys::run(&args),
+    }
+}
+
+fn open(pack: &PackArg) -> Result<Files> {
+    Files::open(pack.pack.as_deref())
+}

@@ -1,0 +1,63 @@
+use crate::cli::TraceArgs;
+use crate::output;
+use crate::usage::{unknown, usage};
+use anyhow::Result;
+use avatar_pack::Pack;
+use pose_anim::{Player, Pose};
+use std::fmt::Write;
+
+/// More rows than this are a slip of the keyboard, not a wish.
+const MAX_ROWS: f64 = 10_000_000.0;
+
+pub(super) fn run(args: &TraceArgs) -> Result<()> {
+    let pack = super::open(&args.pack)?.load_pack()?;
+    let presses = parse_script(&args.script, &pack)?;
+    // The product may lie a rounding error below a whole number of ticks.
+    let last_row = (args.duration * args.hz * (1.0 + 1e-12)).floor();
+    if last_row > MAX_ROWS {
+        return Err(usage(format!("expected at most {MAX_ROWS} rows, found --hz × --duration = {last_row}")));
+    }
+    output::print(&trace(&pack, &presses, args.hz, last_row as u64)?)
+}
+
+/// `TIME POSE; TIME POSE; …` in the order of the times.
+fn parse_script<'a>(script: &str, pack: &'a Pack) -> Result<Vec<(f64, &'a Pose)>> {
+    let mut presses = Vec::new();
+    for entry in script.split(';').map(str::trim).filter(|entry| !entry.is_empty()) {
+        let wrong = || usage(format!("--script: expected \"SECONDS POSE; SECONDS POSE; …\", found {entry:?}"));
+        let (time, name) = entry.split_once(char::is_whitespace).ok_or_else(wrong)?;
+        let time: f64 = time.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0).ok_or_else(wrong)?;
+        let pose = pack.poses.get(name.trim());
+        let names = || pack.poses.iter().map(|pose| pose.name.as_str());
+        presses.push((time, pose.ok_or_else(|| unknown("pose", name.trim(), names()))?));
+    }
+    presses.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    Ok(presses)
+}
+
+fn trace(pack: &Pack, presses: &[(f64, &Pose)], hz: f64, last_row: u64) -> Result<String> {
+    let mut player = Player::new(&pack.controls);
+    let mut presses = presses.iter().peekable();
+    let mut now = 0.0;
+    let mut out = String::from("t");
+    for control in pack.controls.controls() {
+        let _ = write!(out, ",{}", control.name);
+    }
+    out.push('\n');
+    for row in 0..=last_row {
+        let t = row as f64 / hz;
+        while let Some((time, pose)) = presses.next_if(|(time, _)| *time <= t) {
+            player.advance(time - now)?;
+            player.press(pose);
+            now = *time;
+        }
+        player.advance(t - now)?;
+        now = t;
+        let _ = write!(out, "{t}");
+        for value in player.values() {
+            let _ = write!(out, ",{value}");
+        }
+        out.push('\n');
+    }
+    Ok(out)
+}

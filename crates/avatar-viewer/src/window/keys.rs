@@ -1,0 +1,76 @@
+use avatar_pack::Pack;
+use pose_anim::Pose;
+use winit::keyboard::{Key, KeyCode, NamedKey, PhysicalKey};
+
+/// What a key does in the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Action {
+    /// Turn the camera: degrees around, degrees up.
+    Orbit(f32, f32),
+    /// Multiply the camera's distance.
+    Zoom(f32),
+    /// Camera to the front.
+    Front,
+    /// Back to the default face.
+    Defaults,
+    /// Close the window.
+    Close,
+}
+
+/// A key that the window handles itself: name, what it does, in words and in deed. The same table handles keys and
+/// prints them.
+pub(crate) const WINDOW_KEYS: [(NamedKey, &str, &str, Action); 10] = [
+    (NamedKey::ArrowLeft, "Left", "camera to the character's right", Action::Orbit(-5.0, 0.0)),
+    (NamedKey::ArrowRight, "Right", "camera to the character's left", Action::Orbit(5.0, 0.0)),
+    (NamedKey::ArrowUp, "Up", "camera up", Action::Orbit(0.0, 5.0)),
+    (NamedKey::ArrowDown, "Down", "camera down", Action::Orbit(0.0, -5.0)),
+    (NamedKey::PageUp, "PageUp", "nearer", Action::Zoom(0.9)),
+    (NamedKey::PageDown, "PageDown", "farther", Action::Zoom(1.0 / 0.9)),
+    (NamedKey::Home, "Home", "camera to the front", Action::Front),
+    (NamedKey::Backspace, "Backspace", "back to the default face", Action::Defaults),
+    (NamedKey::Delete, "Delete", "back to the default face", Action::Defaults),
+    (NamedKey::Escape, "Escape", "close the window", Action::Close),
+];
+
+/// What the mouse does.
+pub(crate) const MOUSE: [(&str, &str); 2] =
+    [("drag", "turn the camera around the face"), ("wheel", "nearer, farther")];
+
+/// The action of a key that the window handles itself.
+pub(crate) fn action(key: &Key) -> Option<Action> {
+    let Key::Named(named) = key else { return None };
+    WINDOW_KEYS.iter().find(|(key, ..)| key == named).map(|(.., action)| *action)
+}
+
+/// The pose that this key presses: by the character that the key types, or, where a layout puts that character
+/// behind Shift (digits on French keyboards), by the key's place.
+pub(crate) fn pose<'a>(pack: &'a Pack, logical: &Key, physical: PhysicalKey) -> Option<&'a Pose> {
+    let named = |name: &str| {
+        pack.poses.iter().find(|pose| pose.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(name)))
+    };
+    let typed = match logical {
+        Key::Character(typed) => named(typed),
+        Key::Named(key) => named(&format!("{key:?}")),
+        _ => None,
+    };
+    typed.or_else(|| match physical {
+        PhysicalKey::Code(code) => digit(code).and_then(named),
+        PhysicalKey::Unidentified(_) => None,
+    })
+}
+
+fn digit(code: KeyCode) -> Option<&'static str> {
+    Some(match code {
+        KeyCode::Digit0 | KeyCode::Numpad0 => "0",
+        KeyCode::Digit1 | KeyCode::Numpad1 => "1",
+        KeyCode::Digit2 | KeyCode::Numpad2 => "2",
+        KeyCode::Digit3 | KeyCode::Numpad3 => "3",
+        KeyCode::Digit4 | KeyCode::Numpad4 => "4",
+        KeyCode::Digit5 | KeyCode::Numpad5 => "5",
+        KeyCode::Digit6 | KeyCode::Numpad6 => "6",
+        KeyCode::Digit7 | KeyCode::Numpad7 => "7",
+        KeyCode::Digit8 | KeyCode::Numpad8 => "8",
+        KeyCode::Digit9 | KeyCode::Numpad9 => "9",
+        _ => return None,
+    })
+}

@@ -1,0 +1,218 @@
+//! The window: winit's events in, presses and camera moves out, a frame drawn only when something moves.
+
+pub(crate) mod keys;
+mod stage;
+
+use crate::cli::WindowArgs;
+use crate::files::Files;
+use crate::scene::View;
+use anyhow::{Context, Result};
+use avatar_pack::{FaceState, Pack, Textures};
+use clap::ArgMatches;
+use keys::Action;
+use pose_anim::Player;
+use stage::Stage;
+use std::sync::Arc;
+use std::time::Instant;
+use winit::application::ApplicationHandler;
+use winit::dpi::{PhysicalPosition, PhysicalSize};
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::window::{Window, WindowId};
+
+/// Degrees that the camera turns for a pixel of dragging.
+const DEGREES_PER_PIXEL: f32 = 0.35;
+/// How far up or down the camera may go: at the poles "up" would flip.
+const MAX_PITCH_DEGREES: f32 = 85.0;
+/// How near and far, as multiples of the distance that shows the whole head.
+const DISTANCES: std::ops::RangeInclusive<f32> = 0.35..=4.0;
+/// One notch of the wheel.
+const WHEEL_ZOOM: f32 = 0.92;
+/// A frame that takes longer (a suspended laptop) does not let the motion jump.
+const MAX_FRAME_SECS: f64 = 0.25;
+
+/// Opens the window and runs until it is closed.
+pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
+    let files = Files::open(args.pack.pack.as_deref())?;
+    let pack = files.load_pack()?;
+    let textures = files.load_textures();
+    let start = args.face.resolve(&pack, matches)?;
+    let event_loop = EventLoop::new().context("expected a display (X11 or Wayland) to open a window on")?;
+    let mut player = Player::new(&pack.controls);
+    player.jump_to(&start.values);
+    let mut app = App {
+        title: format!("Mimik: {}", files.name()),
+        size: PhysicalSize::new(args.size.width, args.size.height),
+        state: FaceState::new(&pack),
+        pack,
+        textures,
+        player,
+        view: View::FRONT,
+        stage: None,
+        last_frame: None,
+        drag: None,
+        failure: None,
+    };
+    event_loop.run_app(&mut app).context("the window's event loop")?;
+    app.failure.map_or(Ok(()), Err)
+}
+
+struct App {
+    title: String,
+    size: PhysicalSize<u32>,
+    pack: Pack,
+    textures: Textures,
+    player: Player,
+    state: FaceState,
+    view: View,
+    stage: Option<Stage>,
+    /// When the last frame of a running motion was drawn; `None` while nothing moves.
+    last_frame: Option<Instant>,
+    /// The pointer's last place while the camera is dragged; `Some(None)` until the pointer first moves.
+    drag: Option<Option<PhysicalPosition<f64>>>,
+    failure: Option<anyhow::Error>,
+}
+
+impl ApplicationHandler for App {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        event_loop.set_control_flow(ControlFlow::Wait);
+        if self.stage.is_none()
+            && let Err(error) = self.open(event_loop)
+        {
+            self.fail(event_loop, error);
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        match event {
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::Resized(size) => {
+                if let Some(stage) = &mut self.stage {
+                    stage.resize(size);
+                }
+                self.redraw();
+            }
+            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => self.key(event_loop, &event),
+            WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
+                self.drag = (state == ElementState::Pressed).then_some(None);
+            }
+            WindowEvent::CursorMoved { position, .. } => self.pointer(position),
+            WindowEvent::MouseWheel { delta, .. } => {
+                let notches = match delta {
+                    MouseScrollDelta::LineDelta(_, lines) => lines,
+                    MouseScrollDelta::PixelDelta(pixels) => pixels.y as f32 / 40.0,
+                };
+                self.zoom(WHEEL_ZOOM.powf(notches));
+            }
+            WindowEvent::RedrawRequested => {
+                if let Err(error) = self.frame() {
+                    self.fail(event_loop, error);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+impl App {
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
+        let attributes = Window::default_attributes().with_title(&self.title).with_inner_size(self.size);
+        let window = event_loop.create_window(attributes).context("expected a window, found none")?;
+        let stage = Stage::open(Arc::new(window), event_loop.owned_display_handle(), &self.pack, &self.textures)?;
+        self.stage = Some(stage);
+        self.redraw();
+        Ok(())
+    }
+
+    fn fail(&mut self, event_loop: &ActiveEventLoop, error: anyhow::Error) {
+        self.failure = Some(error);
+        event_loop.exit();
+    }
+
+    fn redraw(&self) {
+        if let Some(stage) = &self.stage {
+            stage.window().request_redraw();
+        }
+    }
+
+    fn key(&mut self, event_loop: &ActiveEventLoop, event: &KeyEvent) {
+        if event.state != ElementState::Pressed {
+            return;
+        }
+        match keys::action(&event.logical_key) {
+            Some(Action::Close) => event_loop.exit(),
+            Some(Action::Orbit(yaw, pitch)) => self.orbit(yaw, pitch),
+            Some(Action::Zoom(factor)) => self.zoom(factor),
+            Some(Action::Front) => {
+                self.view = View::FRONT;
+                self.redraw();
+            }
+            Some(Action::Defaults) => {
+                let defaults = self.pack.controls.defaults();
+                self.catch_up();
+                self.player.press(&pose_anim::Pose::from_values("defaults", &defaults));
+                self.redraw();
+            }
+            // A key that is held down repeats itself; a pose is pressed once.
+            None if event.repeat => {}
+            None => {
+                if let Some(pose) = keys::pose(&self.pack, &event.logical_key, event.physical_key).cloned() {
+                    self.catch_up();
+                    self.player.press(&pose);
+                    self.redraw();
+                }
+            }
+        }
+    }
+
+    fn pointer(&mut self, position: PhysicalPosition<f64>) {
+        let Some(last) = &mut self.drag else { return };
+        if let Some(last) = last.replace(position) {
+            // The face follows the pointer: dragging to the right brings the character's right side to the front.
+            let (dx, dy) = (position.x - last.x, position.y - last.y);
+            self.orbit(-dx as f32 * DEGREES_PER_PIXEL, dy as f32 * DEGREES_PER_PIXEL);
+        }
+    }
+
+    fn orbit(&mut self, yaw: f32, pitch: f32) {
+        self.view.yaw_degrees = (self.view.yaw_degrees + yaw).rem_euclid(360.0);
+        self.view.pitch_degrees = (self.view.pitch_degrees + pitch).clamp(-MAX_PITCH_DEGREES, MAX_PITCH_DEGREES);
+        self.redraw();
+    }
+
+    fn zoom(&mut self, factor: f32) {
+        self.view.distance = (self.view.distance * factor).clamp(*DISTANCES.start(), *DISTANCES.end());
+        self.redraw();
+    }
+
+    /// Brings the motion to this moment, so that a press acts at the time of the press.
+    fn catch_up(&mut self) {
+        let now = Instant::now();
+        if let Some(last) = self.last_frame.replace(now) {
+            let elapsed = now.duration_since(last).as_secs_f64().min(MAX_FRAME_SECS);
+            // Elapsed times are neither negative nor NaN, the only errors there are.
+            let _ = self.player.advance(elapsed);
+        }
+    }
+
+    fn frame(&mut self) -> Result<()> {
+        let Some(stage) = &mut self.stage else { return Ok(()) };
+        if self.last_frame.is_some() {
+            self.catch_up();
+        }
+        let stage = match &mut self.stage {
+            Some(stage) => stage,
+            None => return Ok(()),
+        };
+        self.state.pose(&self.pack, self.player.values())?;
+        stage.draw(&self.pack, &self.state, self.view)?;
+        if self.player.is_at_rest() {
+            // Nothing moves: no frame until something happens.
+            self.last_frame = None;
+        } else {
+            self.last_frame.get_or_insert_with(Instant::now);
+            self.redraw();
+        }
+        Ok(())
+    }
+}

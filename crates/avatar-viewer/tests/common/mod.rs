@@ -1,0 +1,98 @@
+//! The program as a process, and packs to try it on.
+#![allow(dead_code, reason = "every test file uses its own share of these helpers")]
+#![allow(unreachable_pub, reason = "a module of several test programs")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// The program under test.
+pub fn viewer() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_avatar-viewer"))
+}
+
+/// What a run came to.
+#[derive(Debug)]
+pub struct Run {
+    pub status: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// Runs the program with these arguments.
+pub fn run<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Run {
+    finish(viewer().args(arguments))
+}
+
+/// Runs a prepared command to its end.
+pub fn finish(command: &mut Command) -> Run {
+    let Output { status, stdout, stderr } = command.output().expect("the program starts");
+    let run = Run {
+        status: status.code().expect("no signal ended the program"),
+        stdout: String::from_utf8(stdout).expect("standard output is text"),
+        stderr: String::from_utf8(stderr).expect("standard error is text"),
+    };
+    assert!(!run.stderr.contains("panicked"), "a panic: {}", run.stderr);
+    run
+}
+
+impl Run {
+    /// The run succeeded; its standard output.
+    #[track_caller]
+    pub fn ok(self) -> String {
+        assert_eq!(self.status, 0, "expected success, found: {}", self.stderr);
+        self.stdout
+    }
+
+    /// The run failed with this status and one error message that holds all of `parts`.
+    #[track_caller]
+    pub fn fails(self, status: i32, parts: &[&str]) {
+        assert_eq!(self.status, status, "stdout: {} stderr: {}", self.stdout, self.stderr);
+        assert_eq!(self.stdout, "", "a failing verb prints nothing on standard output");
+        let errors = self.stderr.lines().filter(|line| line.starts_with("error:")).count();
+        assert_eq!(errors, 1, "expected one error, found: {}", self.stderr);
+        for part in parts {
+            assert!(self.stderr.contains(part), "expected {part:?} in: {}", self.stderr);
+        }
+    }
+}
+
+/// The small pack that is part of the repository.
+pub fn golden_pack() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/pack")
+}
+
+/// The real face, where it is at hand; else the reason is printed.
+pub fn real_face() -> Option<PathBuf> {
+    let face = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/avatar-course-format-makehuman");
+    if !face.is_dir() {
+        eprintln!("skipped: {} is not there", face.display());
+        return None;
+    }
+    Some(face)
+}
+
+/// A copy of the small pack, to be damaged.
+pub fn copy_of_golden_pack() -> TempDir {
+    let copy = tempfile::tempdir().expect("a temporary folder");
+    for entry in std::fs::read_dir(golden_pack()).expect("the golden pack is there") {
+        let entry = entry.expect("a readable folder");
+        std::fs::copy(entry.path(), copy.path().join(entry.file_name())).expect("a copy");
+    }
+    copy
+}
+
+/// Whether drawing can be tested here. Where `MIMIK_REQUIRE_GPU=1` promises an adapter, a missing one is a failure.
+pub fn has_adapter() -> bool {
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let picture = out.path().join("probe.png");
+    let run = finish(viewer().args(["render", "--size", "8x8", "--out"]).arg(&picture));
+    if run.status == 0 {
+        return true;
+    }
+    let required = std::env::var_os("MIMIK_REQUIRE_GPU").is_some_and(|value| value == "1");
+    assert!(!required, "MIMIK_REQUIRE_GPU=1, but nothing can be drawn: {}", run.stderr);
+    assert!(run.stderr.contains("adapter"), "rendering failed for another reason: {}", run.stderr);
+    eprintln!("skipped: {}", run.stderr.trim());
+    false
+}
