@@ -1,0 +1,159 @@
+use avatar_mesh::Bounds;
+use glam::{Affine3A, Mat4, Quat, Vec3, Vec4};
+
+/// Where a picture is taken from. Its own axes: +X right, +Y up, looking along −Z.
+///
+/// Clip space is that of wgpu (y up, depth 0…1) with reversed, infinite depth: 1 at the near plane, 0 far away.
+/// That spreads f32's precision evenly over distances, and there is no far plane to choose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Rigid.
+    pub world_from_camera: Affine3A,
+    /// Angle between the upper and lower edge of the picture.
+    pub vertical_fov_rad: f32,
+    /// Width of the picture by its height.
+    pub aspect: f32,
+    /// Distance of the near plane.
+    pub near: f32,
+}
+
+/// The near plane of a camera around a target, as a share of the distance.
+const NEAR_SHARE: f32 = 0.02;
+/// Room around a box that is to fill a picture.
+const FRAME_MARGIN: f32 = 1.06;
+
+impl Camera {
+    /// A camera that looks at `target`. Yaw 0 stands in front of the face (at +Z), yaw +90° on the character's left
+    /// side (at +X); a positive pitch lifts the camera. Any pitch is valid, ±90° too.
+    pub fn orbit(
+        target: Vec3,
+        distance: f32,
+        yaw_rad: f32,
+        pitch_rad: f32,
+        vertical_fov_rad: f32,
+        aspect: f32,
+    ) -> Self {
+        let rotation = orbit_rotation(yaw_rad, pitch_rad);
+        let eye = target + rotation * (distance * Vec3::Z);
+        Self {
+            world_from_camera: Affine3A::from_rotation_translation(rotation, eye),
+            vertical_fov_rad,
+            aspect,
+            near: (distance.abs() * NEAR_SHARE).max(1e-4),
+        }
+    }
+
+    /// A camera around the middle of a box, just far enough away that the whole box is in the picture.
+    pub fn frame(bounds: Bounds, yaw_rad: f32, pitch_rad: f32, vertical_fov_rad: f32, aspect: f32) -> Self {
+        let camera_from_world = orbit_rotation(yaw_rad, pitch_rad).inverse();
+        let half = bounds.size() * 0.5;
+        let slope_y = half_fov_tan(vertical_fov_rad);
+        let slope_x = slope_y * valid_aspect(aspect);
+        let mut distance = 0.0f32;
+        for corner in 0..8u8 {
+            let sign = |bit: u8| if corner >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            let p = camera_from_world * (half * Vec3::new(sign(0), sign(1), sign(2)));
+            distance = distance.max(p.z + (p.x.abs() / slope_x).max(p.y.abs() / slope_y));
+        }
+        let distance = (distance * FRAME_MARGIN).max(1e-3);
+        Self::orbit(bounds.center(), distance, yaw_rad, pitch_rad, vertical_fov_rad, aspect)
+    }
+
+    /// Where the camera stands.
+    pub fn eye(&self) -> Vec3 {
+        self.world_from_camera.translation.into()
+    }
+
+    /// The matrix that takes points of the world to clip space. A field of view outside 0…180° and an aspect or a
+    /// near plane that is not positive are replaced by the nearest usable number.
+    pub fn clip_from_world(&self) -> Mat4 {
+        let zoom = 1.0 / half_fov_tan(self.vertical_fov_rad);
+        let near = if self.near > 0.0 { self.near } else { 1e-4 };
+        let clip_from_camera = Mat4::from_cols(
+            Vec4::new(zoom / valid_aspect(self.aspect), 0.0, 0.0, 0.0),
+            Vec4::new(0.0, zoom, 0.0, 0.0),
+            Vec4::new(0.0, 0.0, 0.0, -1.0),
+            Vec4::new(0.0, 0.0, near, 0.0),
+        );
+        clip_from_camera * Mat4::from(self.world_from_camera.inverse())
+    }
+}
+
+fn orbit_rotation(yaw_rad: f32, pitch_rad: f32) -> Quat {
+    Quat::from_rotation_y(yaw_rad) * Quat::from_rotation_x(-pitch_rad)
+}
+
+fn half_fov_tan(vertical_fov_rad: f32) -> f32 {
+    // Not clamp: NaN must become a usable number as well.
+    (vertical_fov_rad * 0.5).max(0.005).min(1.56).tan()
+}
+
+fn valid_aspect(aspect: f32) -> f32 {
+    if aspect > 0.0 && aspect.is_finite() { aspect } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+
+    #[test]
+    fn yaw_ninety_stands_at_the_characters_left() {
+        let camera = Camera::orbit(Vec3::ZERO, 5.0, FRAC_PI_2, 0.0, 0.5, 1.0);
+        assert!((camera.eye() - Vec3::new(5.0, 0.0, 0.0)).length() < 1e-5);
+    }
+
+    #[test]
+    fn positive_pitch_lifts_the_camera() {
+        assert!(Camera::orbit(Vec3::ZERO, 5.0, 0.0, FRAC_PI_4, 0.5, 1.0).eye().y > 3.0);
+    }
+
+    #[test]
+    fn the_characters_left_is_on_the_right_of_the_picture_and_up_is_up() {
+        let clip_from_world = Camera::orbit(Vec3::ZERO, 5.0, 0.0, 0.0, 0.5, 1.0).clip_from_world();
+        let left = clip_from_world.project_point3(Vec3::X);
+        let up = clip_from_world.project_point3(Vec3::Y);
+        assert!(left.x > 0.1 && left.y.abs() < 1e-6);
+        assert!(up.y > 0.1 && up.x.abs() < 1e-6);
+    }
+
+    #[test]
+    fn depth_falls_from_one_to_zero() {
+        let camera = Camera::orbit(Vec3::ZERO, 5.0, 0.0, 0.0, 0.5, 1.0);
+        let depth = |z: f32| camera.clip_from_world().project_point3(Vec3::new(0.0, 0.0, z)).z;
+        assert!((depth(5.0 - camera.near) - 1.0).abs() < 1e-5);
+        assert!(depth(0.0) > depth(-5.0) && depth(-1e6) > 0.0);
+    }
+
+    #[test]
+    fn a_framed_box_fits_from_everywhere_and_fills_the_picture() {
+        let bounds = Bounds { min: Vec3::new(-3.0, -8.0, -4.0), max: Vec3::new(5.0, 9.0, 6.0) };
+        for (yaw, pitch, aspect) in
+            [(0.0, 0.0, 1.0), (0.7, 0.2, 1.8), (FRAC_PI_2, -0.5, 0.4), (2.5, FRAC_PI_2, 1.0)]
+        {
+            let clip_from_world = Camera::frame(bounds, yaw, pitch, 0.6, aspect).clip_from_world();
+            let mut reach = 0.0f32;
+            for corner in 0..8 {
+                let pick = |bit: u32, min, max| if corner >> bit & 1 == 0 { min } else { max };
+                let (min, max) = (bounds.min, bounds.max);
+                let corner = Vec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z));
+                let p = clip_from_world.project_point3(corner);
+                reach = reach.max(p.x.abs()).max(p.y.abs());
+            }
+            assert!((0.8..=1.0).contains(&reach), "{reach}");
+        }
+    }
+
+    #[test]
+    fn unusable_numbers_still_give_a_finite_matrix() {
+        for bad in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+            let camera = Camera {
+                world_from_camera: Affine3A::IDENTITY,
+                vertical_fov_rad: bad,
+                aspect: bad,
+                near: if bad.is_infinite() { 0.0 } else { bad },
+            };
+            assert!(camera.clip_from_world().is_finite(), "{bad}");
+        }
+    }
+}

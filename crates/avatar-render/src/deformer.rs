@@ -1,0 +1,160 @@
+use crate::part::Geometry;
+use crate::readback::{ReadbackError, mapped};
+use crate::shaders::DEFORM_PASS;
+use crate::state::avatar_layout;
+use crate::{AvatarModel, AvatarState};
+use avatar_mesh::Deformed;
+
+/// Vertices per workgroup. 128 of them reach the largest binding that WebGPU promises with the number of workgroups
+/// that it promises.
+pub(crate) const DEFORM_WORKGROUP_SIZE: u32 = 128;
+
+/// WGSL `DeformedVertex`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct GpuDeformedVertex {
+    pub(crate) position: [f32; 3],
+    pub(crate) pad_0: f32,
+    pub(crate) normal: [f32; 3],
+    pub(crate) pad_1: f32,
+}
+
+/// Why a part could not be deformed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DeformerError {
+    /// The model has no such part.
+    #[error("expected a part below {parts}, found {found}")]
+    NoSuchPart {
+        /// Number of parts.
+        parts: usize,
+        /// The part.
+        found: usize,
+    },
+    /// The state of another model.
+    #[error("expected the state of this model, found that of another one")]
+    StateOfAnotherModel,
+    /// The result did not come back.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
+}
+
+/// Deforms parts with the very WGSL function that draws them, and reads the result back.
+#[derive(Debug)]
+pub struct Deformer {
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+impl Deformer {
+    /// Builds the pipeline.
+    pub fn new(device: &wgpu::Device) -> Self {
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("deformed vertices"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage { read_only: false },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("deform"),
+            bind_group_layouts: &[
+                Some(&layout),
+                Some(&avatar_layout(device)),
+                Some(&Geometry::layout(device)),
+            ],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(DEFORM_PASS.label),
+            layout: Some(&pipeline_layout),
+            module: &DEFORM_PASS.module(device),
+            entry_point: Some(DEFORM_PASS.entry),
+            compilation_options: Default::default(),
+            cache: None,
+        });
+        Self { layout, pipeline }
+    }
+
+    /// Deforms a part and waits for the result: one position and normal per vertex of the mesh, in its order.
+    ///
+    /// # Errors
+    /// A part or state that does not belong to the model, or a lost device.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn run(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        model: &AvatarModel,
+        state: &AvatarState,
+        part: usize,
+    ) -> Result<Deformed, DeformerError> {
+        crate::readback::block_on(self.run_async(device, queue, model, state, part))
+    }
+
+    /// The same, for callers that cannot block.
+    ///
+    /// # Errors
+    /// As above.
+    pub async fn run_async(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        model: &AvatarModel,
+        state: &AvatarState,
+        part: usize,
+    ) -> Result<Deformed, DeformerError> {
+        let missing = DeformerError::NoSuchPart { parts: model.parts.len(), found: part };
+        let part = model.parts.get(part).ok_or(missing)?;
+        if !state.fits(model) {
+            return Err(DeformerError::StateOfAnotherModel);
+        }
+        if part.geometry.vertex_count == 0 {
+            return Ok(Deformed::default());
+        }
+        let size = u64::from(part.geometry.vertex_count) * size_of::<GpuDeformedVertex>() as u64;
+        let buffer = |label, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let output = buffer("deformed vertices", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+        let readable = buffer(
+            "deformed vertices: readable",
+            wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        );
+        let output_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("deformed vertices"),
+            layout: &self.layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: output.as_entire_binding() }],
+        });
+        let mut encoder = device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("deform and read back") });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("deform"),
+            timestamp_writes: None,
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &output_group, &[]);
+        pass.set_bind_group(1, &state.bind_group, &[]);
+        pass.set_bind_group(2, &part.geometry.bind_group, &[]);
+        pass.dispatch_workgroups(part.geometry.vertex_count.div_ceil(DEFORM_WORKGROUP_SIZE), 1, 1);
+        drop(pass);
+        encoder.copy_buffer_to_buffer(&output, 0, &readable, 0, size);
+        queue.submit([encoder.finish()]);
+        let view = mapped(device, &readable).await?;
+        let vertices: &[GpuDeformedVertex] = bytemuck::cast_slice(&view);
+        Ok(Deformed {
+            positions: vertices.iter().map(|vertex| vertex.position.into()).collect(),
+            normals: vertices.iter().map(|vertex| vertex.normal.into()).collect(),
+        })
+    }
+}

@@ -1,0 +1,229 @@
+//! The geometry of one part on the GPU, shared by all avatars of a model.
+
+use crate::PartBones;
+use crate::model::PartProblem;
+use avatar_mesh::{Mesh, Winding};
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+use wgpu::util::DeviceExt;
+
+/// WGSL `Part`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuPart {
+    pub(crate) vertex_count: u32,
+    pub(crate) shape_count: u32,
+    pub(crate) rigid_bone: u32,
+    pub(crate) has_vertex_bones: u32,
+}
+
+/// WGSL `Vertex`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuVertex {
+    pub(crate) position: [f32; 3],
+    pub(crate) u: f32,
+    pub(crate) normal: [f32; 3],
+    pub(crate) v: f32,
+}
+
+/// WGSL `VertexBones`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuVertexBones {
+    pub(crate) indices: [u32; 4],
+    pub(crate) weights: [f32; 4],
+}
+
+/// WGSL `ShapeOffset`; the arrays are three scalars each there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuShapeOffset {
+    pub(crate) position: [f32; 3],
+    pub(crate) normal: [f32; 3],
+}
+
+/// What drawing and deforming a part need.
+#[derive(Debug)]
+pub(crate) struct Geometry {
+    pub(crate) vertex_count: u32,
+    pub(crate) index_count: u32,
+    pub(crate) indices: wgpu::Buffer,
+    pub(crate) bind_group: wgpu::BindGroup,
+    /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by distance.
+    pub(crate) center: Vec3,
+    pub(crate) center_bone: usize,
+}
+
+impl Geometry {
+    pub(crate) fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+        let storage = wgpu::BufferBindingType::Storage { read_only: true };
+        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+            count: None,
+        };
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("part geometry"),
+            entries: &[
+                entry(0, wgpu::BufferBindingType::Uniform),
+                entry(1, storage),
+                entry(2, storage),
+                entry(3, storage),
+            ],
+        })
+    }
+
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        label: &str,
+        mesh: &Mesh,
+        bones: PartBones,
+        palette_len: usize,
+    ) -> Result<Self, PartProblem> {
+        check(mesh, bones, palette_len, &device.limits())?;
+        let skinning = mesh.skinning.as_ref().filter(|_| bones == PartBones::PerVertex);
+        let rigid_bone = match bones {
+            PartBones::Rigid(bone) => bone,
+            PartBones::PerVertex => 0,
+        };
+        let head = GpuPart {
+            vertex_count: mesh.positions.len() as u32,
+            shape_count: mesh.shapes.len() as u32,
+            rigid_bone: rigid_bone as u32,
+            has_vertex_bones: skinning.is_some().into(),
+        };
+        let part = buffer(device, &[head], label, "part", wgpu::BufferUsages::UNIFORM);
+        let vertices = storage(device, &vertices(mesh), label, "vertices");
+        let vertex_bones: Vec<GpuVertexBones> = skinning.map_or_else(Vec::new, |skinning| {
+            let both = skinning.bones.iter().zip(&skinning.weights);
+            both.map(|(b, w)| GpuVertexBones { indices: b.map(u32::from), weights: *w }).collect()
+        });
+        let vertex_bones = storage(device, &vertex_bones, label, "vertex bones");
+        let shapes = storage(device, &shape_offsets(mesh), label, "shape offsets");
+        let center_bone = match skinning.and_then(|skinning| skinning.bones.first()) {
+            Some(bones) => bones[0].into(),
+            None => rigid_bone,
+        };
+        Ok(Self {
+            vertex_count: head.vertex_count,
+            index_count: (mesh.triangles.len() * 3) as u32,
+            indices: buffer(device, &triangles(mesh), label, "indices", wgpu::BufferUsages::INDEX),
+            bind_group: device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(&format!("{label}: geometry")),
+                layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: part.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 1, resource: vertices.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 2, resource: vertex_bones.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 3, resource: shapes.as_entire_binding() },
+                ],
+            }),
+            center: mesh.bounds().map_or(Vec3::ZERO, |bounds| bounds.center()),
+            center_bone,
+        })
+    }
+}
+
+fn vertices(mesh: &Mesh) -> Vec<GpuVertex> {
+    let all = mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs);
+    all.map(|((position, normal), uv)| GpuVertex {
+        position: position.to_array(),
+        u: uv.x,
+        normal: normal.to_array(),
+        v: uv.y,
+    })
+    .collect()
+}
+
+fn shape_offsets(mesh: &Mesh) -> Vec<GpuShapeOffset> {
+    let all = mesh.shapes.iter().flat_map(|shape| shape.positions.iter().zip(&shape.normals));
+    all.map(|(position, normal)| GpuShapeOffset { position: position.to_array(), normal: normal.to_array() })
+        .collect()
+}
+
+/// The triangles, turned around where most contradict their normals (mirrored parts with the original's indices).
+fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
+    match Winding::of(mesh).is_inside_out() {
+        true => mesh.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect(),
+        false => mesh.triangles.clone(),
+    }
+}
+
+/// A storage buffer. WebGPU binds no empty buffers: an empty one gets a zero element that no shader reads.
+fn storage<T: Pod>(device: &wgpu::Device, values: &[T], label: &str, what: &str) -> wgpu::Buffer {
+    let usage = wgpu::BufferUsages::STORAGE;
+    match values {
+        [] => buffer(device, &[T::zeroed()], label, what, usage),
+        values => buffer(device, values, label, what, usage),
+    }
+}
+
+fn buffer<T: Pod>(
+    device: &wgpu::Device,
+    values: &[T],
+    label: &str,
+    what: &str,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(&format!("{label}: {what}")),
+        contents: bytemuck::cast_slice(values),
+        usage,
+    })
+}
+
+fn check(
+    mesh: &Mesh,
+    bones: PartBones,
+    palette_len: usize,
+    limits: &wgpu::Limits,
+) -> Result<(), PartProblem> {
+    let expected = mesh.positions.len();
+    let count = |what, found| match found == expected {
+        true => Ok(()),
+        false => Err(PartProblem::Count { what, expected, found }),
+    };
+    count("normals", mesh.normals.len())?;
+    count("uvs", mesh.uvs.len())?;
+    for shape in &mesh.shapes {
+        count("position offsets of a shape", shape.positions.len())?;
+        count("normal offsets of a shape", shape.normals.len())?;
+    }
+    match (bones, &mesh.skinning) {
+        (PartBones::Rigid(found), _) if found >= palette_len => {
+            return Err(PartProblem::RigidBone { found, palette_len });
+        }
+        (PartBones::Rigid(_), _) => {}
+        (PartBones::PerVertex, None) => return Err(PartProblem::NoVertexBones),
+        (PartBones::PerVertex, Some(skinning)) => {
+            count("bone indices", skinning.bones.len())?;
+            count("bone weights", skinning.weights.len())?;
+            let beyond = |bones: &[u16; 4]| bones.iter().copied().find(|b| usize::from(*b) >= palette_len);
+            let mut vertices = skinning.bones.iter().enumerate();
+            if let Some((vertex, found)) = vertices.find_map(|(vertex, bones)| Some((vertex, beyond(bones)?)))
+            {
+                return Err(PartProblem::VertexBone { vertex, found: found.into(), palette_len });
+            }
+        }
+    }
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        if let Some(&found) = corners.iter().find(|corner| **corner as usize >= expected) {
+            return Err(PartProblem::Index { triangle, found, vertices: expected });
+        }
+    }
+    let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    let fits = |what, count: usize, element: usize, limit: u64| {
+        let bytes = (count as u64).saturating_mul(element as u64);
+        match bytes <= limit {
+            true => Ok(()),
+            false => Err(PartProblem::TooLarge { what, count, bytes, limit }),
+        }
+    };
+    fits("vertices", expected, size_of::<GpuVertex>(), binding)?;
+    let offsets = expected.saturating_mul(mesh.shapes.len());
+    fits("shape offsets (vertices times shapes)", offsets, size_of::<GpuShapeOffset>(), binding)?;
+    fits("triangles", mesh.triangles.len(), size_of::<[u32; 3]>(), limits.max_buffer_size)
+}

@@ -1,0 +1,11 @@
+// The cornea: almost clear, blended over the eyeball. Its body is weighted by its opacity, its reflections are
+// not: a highlight stays as bright as the lamp makes it, and covers what lies behind by as much.
+
+@fragment
+fn cornea_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    let surface = surface_at(in, is_front);
+    let lit = lit_surface(surface);
+    let body = surface.color * lit.diffuse * surface.opacity;
+    let brightest = max(lit.specular.r, max(lit.specular.g, lit.specular.b)) * frame.exposure;
+    return target_color(body + lit.specular, saturate(max(surface.opacity, brightest)));
+}

@@ -1,0 +1,52 @@
+// Blend shapes, then bones: the one place where vertices move. Vertex stages and compute passes call `deform_vertex`;
+// its twin on the CPU is avatar_mesh::deform.
+//
+//   v_blend = v + sum_k b_k d_k         v_out = sum_i w_i X_i v_blend
+//   n_blend = n + sum_k b_k dn_k        n_out = normalize(sum_i w_i mat3(X_i) n_blend)
+
+struct Deformed {
+    position_world: vec3f,
+    normal_world: vec3f,
+}
+
+fn blended_from_bind(vertex: u32, bind: Deformed) -> Deformed {
+    var blended = bind;
+    for (var i = 0u; i < active_shapes.count; i++) {
+        let active = active_shapes.shapes[i];
+        // Indices rise: whatever follows belongs to parts with more shapes.
+        if active.index >= part.shape_count {
+            break;
+        }
+        let offset = shape_offsets[active.index * part.vertex_count + vertex];
+        blended.position_world += active.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
+        blended.normal_world += active.weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
+    }
+    if length(blended.normal_world) < MIN_NORMAL_LENGTH {
+        blended.normal_world = bind.normal_world;
+    }
+    return blended;
+}
+
+// The matrices are summed instead of the transformed points: one product each for the position and the normal.
+fn vertex_posed_from_bind(vertex: u32) -> Bone {
+    if part.has_vertex_bones == 0u {
+        return posed_from_bind[part.rigid_bone];
+    }
+    let bones = vertex_bones[vertex];
+    return bones.weights.x * posed_from_bind[bones.indices.x]
+        + bones.weights.y * posed_from_bind[bones.indices.y]
+        + bones.weights.z * posed_from_bind[bones.indices.z]
+        + bones.weights.w * posed_from_bind[bones.indices.w];
+}
+
+fn deform_vertex(vertex: u32) -> Deformed {
+    let bind = Deformed(vertices[vertex].position, vertices[vertex].normal);
+    let blended = blended_from_bind(vertex, bind);
+    let posed = vertex_posed_from_bind(vertex);
+    let normal = vec4f(blended.normal_world, 0.0) * posed;
+    let normal_length = length(normal);
+    var out: Deformed;
+    out.position_world = vec4f(blended.position_world, 1.0) * posed;
+    out.normal_world = select(normal / normal_length, bind.normal_world, normal_length < MIN_NORMAL_LENGTH);
+    return out;
+}

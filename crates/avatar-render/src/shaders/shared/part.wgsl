@@ -1,0 +1,36 @@
+// Group 2: the geometry of one part, shared by all avatars of a model.
+
+struct Part {
+    vertex_count: u32,
+    shape_count: u32,
+    // The bone of a part that is rigid; not read where vertices have bones of their own.
+    rigid_bone: u32,
+    has_vertex_bones: u32,
+}
+
+struct Vertex {
+    position: vec3f,
+    u: f32,
+    normal: vec3f,
+    v: f32,
+}
+
+struct VertexBones {
+    indices: vec4u,
+    weights: vec4f,
+}
+
+// Scalars instead of vectors: 24 bytes without padding. Shape by shape, so that shapes at rest are never touched.
+struct ShapeOffset {
+    position_x: f32,
+    position_y: f32,
+    position_z: f32,
+    normal_x: f32,
+    normal_y: f32,
+    normal_z: f32,
+}
+
+@group(2) @binding(0) var<uniform> part: Part;
+@group(2) @binding(1) var<storage, read> vertices: array<Vertex>;
+@group(2) @binding(2) var<storage, read> vertex_bones: array<VertexBones>;
+@group(2) @binding(3) var<storage, read> shape_offsets: array<ShapeOffset>;

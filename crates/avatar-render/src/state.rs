@@ -1,0 +1,171 @@
+use crate::AvatarModel;
+use crate::part::Geometry;
+use bytemuck::Zeroable;
+use glam::{Affine3A, Vec3};
+use wgpu::util::DeviceExt;
+
+/// WGSL `Bone`: the rows of a bone matrix.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct GpuBone {
+    pub(crate) rows: [[f32; 4]; 3],
+}
+
+/// WGSL `ActiveShapes` up to its array.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct GpuActiveShapesHead {
+    pub(crate) count: u32,
+}
+
+/// WGSL `ActiveShape`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct GpuActiveShape {
+    pub(crate) index: u32,
+    pub(crate) weight: f32,
+}
+
+/// What one avatar has for itself: bone matrices and blend weights.
+#[derive(Debug)]
+pub struct AvatarState {
+    bones: Vec<GpuBone>,
+    active_shapes: Vec<GpuActiveShape>,
+    shape_count: usize,
+    bone_buffer: wgpu::Buffer,
+    shape_buffer: wgpu::Buffer,
+    pub(crate) bind_group: wgpu::BindGroup,
+}
+
+/// Why a state could not be set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StateError {
+    /// Another number of bone matrices than the model's palette has.
+    #[error("expected {expected} bone matrices, found {found}")]
+    BoneCount {
+        /// Length of the palette.
+        expected: usize,
+        /// Number of matrices.
+        found: usize,
+    },
+    /// Another number of weights than the model has shapes.
+    #[error("expected {expected} blend weights, found {found}")]
+    WeightCount {
+        /// Number of shapes.
+        expected: usize,
+        /// Number of weights.
+        found: usize,
+    },
+}
+
+/// Layout of group 1.
+pub(crate) fn avatar_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("avatar state"),
+        entries: &[entry(0), entry(1)],
+    })
+}
+
+impl AvatarState {
+    /// An avatar of this model at bind pose, all shapes at rest.
+    pub fn new(device: &wgpu::Device, model: &AvatarModel) -> Self {
+        let bones = vec![GpuBone::new(&Affine3A::IDENTITY); model.palette_len()];
+        // WebGPU binds no empty buffers.
+        let no_bones = [GpuBone::zeroed()];
+        let initial: &[GpuBone] = if bones.is_empty() { &no_bones } else { &bones };
+        let bone_buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("avatar: bones"),
+            contents: bytemuck::cast_slice(initial),
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        });
+        let room = model.shape_count().max(1) * size_of::<GpuActiveShape>();
+        let shape_buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("avatar: active shapes"),
+            size: (size_of::<GpuActiveShapesHead>() + room) as u64,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            // wgpu clears new buffers: no active shapes.
+            mapped_at_creation: false,
+        });
+        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("avatar"),
+            layout: &avatar_layout(device),
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: bone_buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: shape_buffer.as_entire_binding() },
+            ],
+        });
+        Self {
+            bones,
+            active_shapes: Vec::with_capacity(model.shape_count()),
+            shape_count: model.shape_count(),
+            bone_buffer,
+            shape_buffer,
+            bind_group,
+        }
+    }
+
+    /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a
+    /// placement in the world, if there is one), `weights` one blend weight per shape; shapes with weight 0 cost
+    /// nothing. Allocates nothing here.
+    ///
+    /// # Errors
+    /// Lengths that do not fit the model; the state is unchanged then.
+    pub fn set(
+        &mut self,
+        queue: &wgpu::Queue,
+        bones: &[Affine3A],
+        weights: &[f32],
+    ) -> Result<(), StateError> {
+        if bones.len() != self.bones.len() {
+            return Err(StateError::BoneCount { expected: self.bones.len(), found: bones.len() });
+        }
+        if weights.len() != self.shape_count {
+            return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
+        }
+        self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
+        self.active_shapes.clear();
+        let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+        self.active_shapes.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
+        let head = GpuActiveShapesHead { count: self.active_shapes.len() as u32 };
+        if !self.bones.is_empty() {
+            queue.write_buffer(&self.bone_buffer, 0, bytemuck::cast_slice(&self.bones));
+        }
+        queue.write_buffer(&self.shape_buffer, 0, bytemuck::bytes_of(&head));
+        if !self.active_shapes.is_empty() {
+            let after_head = size_of::<GpuActiveShapesHead>() as u64;
+            queue.write_buffer(&self.shape_buffer, after_head, bytemuck::cast_slice(&self.active_shapes));
+        }
+        Ok(())
+    }
+
+    /// Whether this state was made for a model of the same size.
+    pub(crate) fn fits(&self, model: &AvatarModel) -> bool {
+        self.bones.len() == model.palette_len() && self.shape_count == model.shape_count()
+    }
+
+    /// Where the middle of a part is now, roughly.
+    pub(crate) fn center_of(&self, geometry: &Geometry) -> Vec3 {
+        let Some(bone) = self.bones.get(geometry.center_bone) else { return geometry.center };
+        let point = geometry.center.extend(1.0);
+        Vec3::from_array(bone.rows.map(|row| point.dot(row.into())))
+    }
+}
+
+impl GpuBone {
+    fn new(posed_from_bind: &Affine3A) -> Self {
+        let columns = posed_from_bind.matrix3.transpose();
+        let t = posed_from_bind.translation;
+        let row = |axes: glam::Vec3A, t: f32| [axes.x, axes.y, axes.z, t];
+        Self { rows: [row(columns.x_axis, t.x), row(columns.y_axis, t.y), row(columns.z_axis, t.z)] }
+    }
+}
