@@ -16,9 +16,18 @@ impl Place {
         while !text.is_char_boundary(end) {
             end -= 1;
         }
-        let before = &text[..end];
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        Self { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 }
+        Self { line: 1, column: 1 }.advanced(&text[..end])
+    }
+
+    /// The place behind `text`, which starts here.
+    pub(crate) fn advanced(self, text: &str) -> Self {
+        match text.rfind('\n') {
+            None => Self { column: self.column + text.chars().count(), ..self },
+            Some(last) => Self {
+                line: self.line + text.matches('\n').count(),
+                column: text[last + 1..].chars().count() + 1,
+            },
+        }
     }
 }
 
@@ -72,6 +81,14 @@ pub enum XmlProblem {
     /// A joint without `name`, or with an empty one.
     #[error("expected a joint with a name, found <Joint> without one")]
     MissingName,
+    /// A name longer than [`crate::MAX_NAME_BYTES`].
+    #[error("expected a joint name of at most {limit} bytes, found {found}")]
+    NameTooLong {
+        /// The limit.
+        limit: usize,
+        /// Length of the name in bytes.
+        found: usize,
+    },
     /// Two joints of one name.
     #[error("expected unique joint names, found {name:?} again (first at {first})")]
     DuplicateName {
@@ -169,6 +186,33 @@ pub enum RigError {
         /// [`crate::RIGID_TOLERANCE`].
         tolerance: f32,
     },
+    /// A bind matrix whose translation leaves no room for products: W would become infinite further down.
+    #[error("joint {joint:?}: expected a translation of at most {limit} along each axis, found {found}")]
+    TooFar {
+        /// Name of the joint.
+        joint: String,
+        /// The coordinate.
+        found: f32,
+        /// [`crate::TRANSLATION_LIMIT`].
+        limit: f32,
+    },
+    /// A name that the text format cannot hold: empty, blank, longer than [`crate::MAX_NAME_BYTES`], or with a
+    /// character that XML 1.0 forbids.
+    #[error("joint {joint:?}: expected a name of 1 to {limit} bytes in characters that XML allows")]
+    UnwritableName {
+        /// The name.
+        joint: String,
+        /// [`crate::MAX_NAME_BYTES`].
+        limit: usize,
+    },
+    /// A joint too deep in the tree to be written: the reader would refuse the file.
+    #[error("joint {joint:?}: expected at most {limit} levels of joints, found more")]
+    TooDeep {
+        /// Name of the joint.
+        joint: String,
+        /// [`crate::MAX_DEPTH`].
+        limit: usize,
+    },
     /// A bind matrix with NaN or infinity.
     #[error("joint {joint:?}: expected 16 finite numbers, found NaN or infinity")]
     NotFinite {
@@ -185,6 +229,9 @@ impl RigError {
             | Self::UnknownParent { joint, .. }
             | Self::Cycle { joint }
             | Self::NotRigid { joint, .. }
+            | Self::TooFar { joint, .. }
+            | Self::UnwritableName { joint, .. }
+            | Self::TooDeep { joint, .. }
             | Self::NotFinite { joint } => joint,
         }
     }

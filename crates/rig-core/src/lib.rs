@@ -59,5 +59,5 @@ pub use elementary::{Axis, Elementary, product};
 pub use error::{LengthMismatch, Place, RigError, UnknownJoint, XmlError, XmlProblem};
 pub use pose::{Locals, RigPose};
 pub use raw::{MatrixLayout, RawJoint, RawRig};
-pub use rig::{JointId, RIGID_TOLERANCE, Rig};
-pub use xml::MAX_DEPTH;
+pub use rig::{JointId, RIGID_TOLERANCE, Rig, TRANSLATION_LIMIT};
+pub use xml::{MAX_DEPTH, MAX_NAME_BYTES};

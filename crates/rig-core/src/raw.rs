@@ -65,7 +65,8 @@ impl RawRig {
     /// Writes a `Transformations.xml`. Reading it back gives every matrix to the last bit.
     ///
     /// # Errors
-    /// Duplicate names, unknown parents, cycles and matrices that are not finite cannot be written.
+    /// What could not be read back: duplicate or empty names, unknown parents, cycles, more than
+    /// [`crate::MAX_DEPTH`] levels, matrices that are not finite.
     pub fn to_xml(&self) -> Result<String, RigError> {
         xml::write(self)
     }
@@ -105,7 +106,11 @@ impl RawRig {
         if order.len() < self.joints.len() {
             let mut reached = vec![false; self.joints.len()];
             order.iter().for_each(|&index| reached[index] = true);
-            let lost = reached.iter().position(|reached| !reached).unwrap_or(0);
+            let mut lost = reached.iter().position(|reached| !reached).unwrap_or(0);
+            // It may only hang below the cycle: as many steps up as there are joints end on the cycle itself.
+            for _ in 0..self.joints.len() {
+                lost = parents[lost].unwrap_or(lost);
+            }
             return Err(RigError::Cycle { joint: self.joints[lost].name.clone() });
         }
         Ok((order, parents))

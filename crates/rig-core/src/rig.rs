@@ -1,9 +1,12 @@
 use crate::{Locals, RawRig, RigError, RigPose, XmlError, XmlProblem};
-use glam::{Affine3A, Mat3A, Mat4, Vec3, Vec4};
+use glam::{Affine3A, Mat3A, Mat4, Vec4};
 
 /// How far a bind matrix may be from rigid: files print six digits. Applies to every element of `RᵀR − 1`, to
 /// `det R − 1` and to the last row.
 pub const RIGID_TOLERANCE: f32 = 1e-3;
+
+/// How far a bind matrix may move a joint along each axis: sums and rotations of such numbers stay finite.
+pub const TRANSLATION_LIMIT: f32 = 1e18;
 
 /// A joint of a [`Rig`]: its position in the parents-first arrays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -151,15 +154,15 @@ fn rigid(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
         ("the handedness (determinant)", (affine.matrix3.determinant() - 1.0).abs()),
     ];
     for (what, deviation) in checks {
-        // Not `deviation > tolerance`: an overflow to NaN must fail as well.
-        if !(deviation <= RIGID_TOLERANCE) {
+        // Numbers near the limit of f32 overflow to infinity, and their differences to NaN.
+        if deviation > RIGID_TOLERANCE || deviation.is_nan() {
             let tolerance = RIGID_TOLERANCE;
             return Err(RigError::NotRigid { joint: joint.to_owned(), what, deviation, tolerance });
         }
     }
-    // A translation that overflows when it is transformed would make W infinite further down.
-    if Vec3::from(affine.translation).abs().max_element() > 1e18 {
-        return Err(RigError::NotFinite { joint: joint.to_owned() });
+    let far = affine.translation.to_array().into_iter().find(|x| x.abs() > TRANSLATION_LIMIT);
+    match far {
+        Some(found) => Err(RigError::TooFar { joint: joint.to_owned(), found, limit: TRANSLATION_LIMIT }),
+        None => Ok(affine),
     }
-    Ok(affine)
 }

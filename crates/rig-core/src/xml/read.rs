@@ -1,4 +1,4 @@
-use super::{MAX_DEPTH, encoding};
+use super::{MAX_DEPTH, MAX_NAME_BYTES, encoding};
 use crate::{MatrixLayout, Place, RawJoint, RawRig, XmlError, XmlProblem};
 use glam::Mat4;
 use quick_xml::Reader;
@@ -36,7 +36,9 @@ impl MatrixText {
 
 pub(crate) fn read(bytes: &[u8]) -> Result<RawRig, XmlError> {
     let text = encoding::decode(bytes)?;
-    Parser { text: &text, rig: RawRig::default(), open: Vec::new(), depth: 0, seen: HashMap::new() }.run()
+    let cursor = (0, Place { line: 1, column: 1 });
+    Parser { text: &text, rig: RawRig::default(), open: Vec::new(), depth: 0, seen: HashMap::new(), cursor }
+        .run()
 }
 
 struct Parser<'a> {
@@ -45,7 +47,10 @@ struct Parser<'a> {
     /// Explicit, so that no nesting can overflow the stack.
     open: Vec<Open>,
     depth: usize,
+    /// Offsets of the joints by name.
     seen: HashMap<String, usize>,
+    /// The joint before and its place: counting lines from the start for each would take quadratic time.
+    cursor: (usize, Place),
 }
 
 impl Parser<'_> {
@@ -68,13 +73,14 @@ impl Parser<'_> {
                     finished = false;
                 }
                 Event::End(_) => finished = self.end()?,
-                Event::Text(piece) => self.piece(&piece.xml10_content(), at)?,
-                Event::CData(piece) => self.piece(&piece.xml10_content(), at + "<![CDATA[".len())?,
+                // Raw text, not `xml10_content()`: dropping the CR of each CRLF would move every place behind it.
+                Event::Text(piece) => self.piece(&piece, at, finished)?,
+                Event::CData(piece) => self.piece(&piece, at + "<![CDATA[".len(), finished)?,
                 Event::GeneralRef(name) => {
-                    let reference = format!("&{};", name.xml10_content());
+                    let reference = format!("&{};", &*name);
                     let piece = escape::unescape(&reference)
                         .map_err(|error| self.malformed(self.place(at), &error))?;
-                    self.piece(&piece, at)?;
+                    self.piece(&piece, at, finished)?;
                 }
                 Event::Eof => break,
                 Event::Empty(_) | Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::DocType(_) => {}
@@ -115,6 +121,10 @@ impl Parser<'_> {
     fn start(&mut self, element: &BytesStart<'_>, at: usize, finished: bool) -> Result<(), XmlError> {
         let name = element.name();
         let name: &str = name.as_ref();
+        // All of them, also those that nobody asks for: a repeated or damaged one is no XML.
+        for attribute in element.attributes() {
+            attribute.map_err(|error| self.malformed(self.place(at), &error))?;
+        }
         let unexpected = |parser: &Self, expected| {
             Err(parser.error(at, XmlProblem::UnexpectedElement { found: name.to_owned(), expected }))
         };
@@ -162,19 +172,25 @@ impl Parser<'_> {
         }
         let name = self.attribute(element, "name", at)?.filter(|name| !name.trim().is_empty());
         let name = name.ok_or_else(|| self.error(at, XmlProblem::MissingName))?;
+        if name.len() > MAX_NAME_BYTES {
+            return Err(self.error(at, XmlProblem::NameTooLong { limit: MAX_NAME_BYTES, found: name.len() }));
+        }
         if let Some(first) = self.seen.insert(name.clone(), at) {
             let first = self.place(first);
             return Err(self.error(at, XmlProblem::DuplicateName { name, first }));
         }
         let omit = self.flag(element, "omit", at)?;
         let index = self.rig.joints.len();
+        let (before, place) = self.cursor;
+        let place = place.advanced(&self.text[before..at]);
+        self.cursor = (at, place);
         self.rig.joints.push(RawJoint {
             name,
             parent: parent.map(|parent| self.joint_name(parent)),
             parent_from_joint: Mat4::IDENTITY,
             layout: MatrixLayout::RowByRow,
             omit,
-            place: Some(self.place(at)),
+            place: Some(place),
         });
         self.open.push(Open::Joint { index, has_matrix: false, has_children: false });
         Ok(())
@@ -204,12 +220,13 @@ impl Parser<'_> {
         }
     }
 
-    fn piece(&mut self, piece: &str, at: usize) -> Result<(), XmlError> {
+    fn piece(&mut self, piece: &str, at: usize, finished: bool) -> Result<(), XmlError> {
         let expected = match self.open.last_mut() {
             Some(Open::Matrix { text, .. }) => {
                 text.push(piece, at);
                 return Ok(());
             }
+            None if finished => "the end of the file",
             None => "<JointSet>",
             Some(Open::JointSet | Open::Children { .. }) => "<Joint>",
             Some(Open::Joint { .. }) => "<Matrix> or <Children>",

@@ -1,3 +1,4 @@
+use super::{MAX_DEPTH, MAX_NAME_BYTES};
 use crate::{MatrixLayout, RawJoint, RawRig, RigError};
 use std::fmt::Write;
 
@@ -12,8 +13,17 @@ pub(crate) fn write(raw: &RawRig) -> Result<String, RigError> {
         if !joint.parent_from_joint.is_finite() {
             return Err(RigError::NotFinite { joint: joint.name.clone() });
         }
+        if joint.name.trim().is_empty()
+            || joint.name.len() > MAX_NAME_BYTES
+            || !joint.name.chars().all(is_xml_char)
+        {
+            return Err(RigError::UnwritableName { joint: joint.name.clone(), limit: MAX_NAME_BYTES });
+        }
         let depth = parents[index].map_or(0, |parent| depths[parent] + 1);
         depths[index] = depth;
+        if depth >= MAX_DEPTH {
+            return Err(RigError::TooDeep { joint: joint.name.clone(), limit: MAX_DEPTH });
+        }
         close(&mut out, open, depth);
         if depth > 0 && open == depth {
             // The first child: its parent's <Children> is not open yet.
@@ -58,4 +68,9 @@ fn start(out: &mut String, joint: &RawJoint, depth: usize) {
 fn escaped(name: &str) -> String {
     let escaped = quick_xml::escape::escape(name);
     escaped.replace('\n', "&#10;").replace('\t', "&#9;").replace('\r', "&#13;")
+}
+
+/// The characters of XML 1.0, section 2.2; surrogates are no `char` anyway.
+fn is_xml_char(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{FFFD}' | '\u{10000}'..)
 }
