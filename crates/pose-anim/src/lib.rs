@@ -1,1 +1,88 @@
 //! Controls, poses and smooth transitions for rigged faces.
+//!
+//! ```text
+//!  controls.toml ──▶ ControlTable ──bind(rig, shapes)──▶ Binding
+//!  poses.toml ─────▶ PoseSet                               │
+//!                      │ press                             │ couple, apply
+//!                      ▼                                   ▼
+//!                    Player ──advance(dt)──▶ values ──▶ Locals (L per joint), weights per shape
+//! ```
+//!
+//! # Conventions
+//!
+//! - A **control** is one elementary rotation or translation of a joint, or the weight of one blend shape, with a range
+//!   and a default. Its value is in **degrees** (rotations), units of the rig (translations) or weights; radians exist
+//!   inside [`Binding::apply`] only. A positive angle turns right-handed about the control's axis, in the joint's own frame.
+//! - Slices of values have one entry per control, in the order of the [`ControlTable`]. This is also the order of
+//!   composition within a joint: `L = M₀ · M₁ · …`, so the last control acts on a point first. All other conventions are
+//!   those of [`rig_core`].
+//! - A **pose** is a named set of values. It may leave controls out.
+//! - Times are seconds. The crate has no clock: the caller says how much time passes.
+//! - Left and right are the character's own.
+//!
+//! # Example
+//!
+//! ```
+//! use pose_anim::{ControlTable, Player, PoseSet};
+//! use rig_core::Rig;
+//!
+//! let controls = ControlTable::from_toml(
+//!     r#"
+//!     [[control]]
+//!     name = "head.turn"
+//!     joint = "HeadJoint"
+//!     axis = "+x"
+//!     min = -70
+//!     max = 70
+//!
+//!     [[control]]
+//!     name = "smile"
+//!     shape = "SSmile"
+//!     "#,
+//! )?;
+//! let poses = PoseSet::from_toml(
+//!     r#"
+//!     [[pose]]
+//!     name = "happy"
+//!     key = "1"
+//!     controls = { head.turn = 10, smile = 0.8 }
+//!     "#,
+//!     &controls,
+//! )?;
+//! let rig = Rig::from_xml(br#"<JointSet><Joint name="HeadJoint"><Matrix>1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1</Matrix></Joint></JointSet>"#)?;
+//! let binding = controls.bind(&rig, &["SSmile"])?;
+//! let (mut locals, mut weights) = (rig.locals(), [0.0]);
+//! let mut player = Player::new(&controls);
+//! let mut effective = controls.defaults();
+//!
+//! player.press(poses.get("happy").ok_or("no such pose")?);
+//! while !player.is_at_rest() {
+//!     player.advance(1.0 / 60.0)?;
+//!     binding.couple(player.values(), &mut effective);
+//!     binding.apply(&effective, &mut locals, &mut weights)?;
+//! }
+//! assert_eq!(player.values(), [10.0, 0.8]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! This crate knows no files, no clock, no threads and no GPU, and allocates nothing once its objects are made.
+
+mod bind;
+mod channel;
+mod control;
+mod control_toml;
+mod error;
+mod jet;
+mod nearest;
+mod player;
+mod pose;
+mod pose_toml;
+mod quintic;
+mod text;
+
+pub use bind::Binding;
+pub use control::{Control, ControlTable, Coupling, DEFAULT_CONTROLS_TOML, Drive, JointMotion, Pace};
+pub use error::{AdvanceError, ApplyError, BindError, JumpError, TomlError};
+pub use jet::Jet;
+pub use player::Player;
+pub use pose::{DEFAULT_POSES_TOML, Pose, PoseSet};

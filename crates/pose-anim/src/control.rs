@@ -1,0 +1,184 @@
+use crate::{TomlError, control_toml, nearest::nearest};
+use glam::Vec3;
+
+/// The controls of the nine-joint face as a text, to be copied beside a face and changed.
+pub const DEFAULT_CONTROLS_TOML: &str = include_str!("../assets/controls.toml");
+
+/// One elementary transformation or one blend-shape weight, with its range: the unit of posing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Control {
+    /// Unique name, such as `head.turn`.
+    pub name: String,
+    /// What the value does.
+    pub drives: Drive,
+    /// Least value: degrees for rotations, the rig's units for translations, weights for shapes.
+    pub min: f32,
+    /// Greatest value.
+    pub max: f32,
+    /// Value in the undeformed face, within the range.
+    pub default: f32,
+    /// How long moves of this control take by themselves.
+    pub pace: Pace,
+}
+
+/// What a control drives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drive {
+    /// A factor of a joint's local transform `L`.
+    Joint {
+        /// Name of the joint.
+        joint: String,
+        /// Unit vector in the joint's own frame; a positive value turns about it right-handed, or moves along it.
+        axis: Vec3,
+        /// Whether it turns or moves.
+        kind: JointMotion,
+    },
+    /// The weight of a blend shape.
+    Shape {
+        /// Name of the shape.
+        shape: String,
+    },
+}
+
+/// How a control moves its joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JointMotion {
+    /// About the axis, by degrees.
+    #[default]
+    Rotation,
+    /// Along the axis, in the rig's units.
+    Translation,
+}
+
+/// Duration of a move of a control, growing linearly with its distance.
+///
+/// Eye movements follow such a line closely (the *main sequence*; Bahill, Clark & Stark 1975, Carpenter 1988: about
+/// 21 ms plus 2.2 ms per degree). For heads, jaws and lids it is a good approximation within their small ranges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Seconds of the smallest move.
+    pub shortest_secs: f32,
+    /// Seconds of a move through the whole range.
+    pub longest_secs: f32,
+}
+
+impl Pace {
+    /// A head or neck: 0.4 to 0.9 s.
+    pub const HEAD: Self = Self::new(0.4, 0.9);
+    /// A jaw: 0.18 to 0.4 s.
+    pub const JAW: Self = Self::new(0.18, 0.4);
+    /// An eye: 0.06 to 0.2 s.
+    pub const EYE: Self = Self::new(0.06, 0.2);
+    /// An eyelid: 0.1 to 0.15 s, as long as a blink takes to close.
+    pub const LID: Self = Self::new(0.1, 0.15);
+    /// A blend shape: 0.2 to 0.4 s.
+    pub const SHAPE: Self = Self::new(0.2, 0.4);
+    /// Any other joint: 0.3 to 0.6 s.
+    pub const OTHER: Self = Self::new(0.3, 0.6);
+
+    /// A pace from its two durations in seconds.
+    pub const fn new(shortest_secs: f32, longest_secs: f32) -> Self {
+        Self { shortest_secs, longest_secs }
+    }
+
+    /// The pace that suits what a control drives. A joint is known by the part of the face that its name contains.
+    pub fn of(drives: &Drive) -> Self {
+        let Drive::Joint { joint, .. } = drives else { return Self::SHAPE };
+        let joint = joint.to_lowercase();
+        let parts = [
+            ("lid", Self::LID),
+            ("eye", Self::EYE),
+            ("jaw", Self::JAW),
+            ("head", Self::HEAD),
+            ("neck", Self::HEAD),
+        ];
+        parts.iter().find(|(part, _)| joint.contains(part)).map_or(Self::OTHER, |(_, pace)| *pace)
+    }
+
+    /// Seconds of a move by `distance` in a control whose range is `range` wide.
+    pub fn duration_secs(self, distance: f64, range: f64) -> f64 {
+        let (shortest, longest) = (f64::from(self.shortest_secs), f64::from(self.longest_secs));
+        let share = if range > 0.0 { (distance.abs() / range).min(1.0) } else { 0.0 };
+        shortest + (longest - shortest) * share
+    }
+}
+
+/// One control that follows another. See [`crate::Binding::couple`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// Index of the control that leads.
+    pub from: usize,
+    /// Index of the control that follows.
+    pub to: usize,
+    /// Change of the follower per change of the leader.
+    pub factor: f32,
+}
+
+/// All controls of a face. The order is that of every slice of values, and within a joint that of composition:
+/// `L = M₀ · M₁ · …`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ControlTable {
+    controls: Vec<Control>,
+    couplings: Vec<Coupling>,
+}
+
+impl ControlTable {
+    /// The fifteen controls of the nine-joint face: [`DEFAULT_CONTROLS_TOML`].
+    pub fn default_face() -> Self {
+        // The text is part of the crate and a test reads it, so the error cannot happen.
+        Self::from_toml(DEFAULT_CONTROLS_TOML).unwrap_or_default()
+    }
+
+    /// Reads a `controls.toml`; its format is described at the top of [`DEFAULT_CONTROLS_TOML`].
+    ///
+    /// # Errors
+    /// The first thing in the text that is not as it has to be, with its place.
+    pub fn from_toml(text: &str) -> Result<Self, TomlError> {
+        control_toml::read(text)
+    }
+
+    /// Only through here: the reader has checked names, ranges and indices.
+    pub(crate) const fn checked(controls: Vec<Control>, couplings: Vec<Coupling>) -> Self {
+        Self { controls, couplings }
+    }
+
+    /// The controls in order.
+    pub fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    /// The couplings in the order in which they act.
+    pub fn couplings(&self) -> &[Coupling] {
+        &self.couplings
+    }
+
+    /// Number of controls.
+    pub fn len(&self) -> usize {
+        self.controls.len()
+    }
+
+    /// Whether there is no control at all.
+    pub fn is_empty(&self) -> bool {
+        self.controls.is_empty()
+    }
+
+    /// Index of the control of this name.
+    pub fn index(&self, name: &str) -> Option<usize> {
+        self.controls.iter().position(|control| control.name == name)
+    }
+
+    /// The control's name that is probably meant by a misspelt one.
+    pub fn nearest(&self, name: &str) -> Option<&str> {
+        nearest(name, self.names())
+    }
+
+    /// The names in order.
+    pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
+        self.controls.iter().map(|control| control.name.as_str())
+    }
+
+    /// The values of the undeformed face.
+    pub fn defaults(&self) -> Vec<f32> {
+        self.controls.iter().map(|control| control.default).collect()
+    }
+}

@@ -1,0 +1,121 @@
+use rig_core::Place;
+
+/// Why a TOML text could not be read, and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{place}: {}expected {expected}, found {found}{}", subject(.key), hint(.nearest))]
+pub struct TomlError {
+    /// Where in the text.
+    pub place: Place,
+    /// The key with its tables, such as `pose.controls."head.turn"`; empty where no key is at fault.
+    pub key: String,
+    /// What would have been right there.
+    pub expected: String,
+    /// What stands there.
+    pub found: String,
+    /// The nearest valid name, if the fault is a name and one is close to it.
+    pub nearest: Option<String>,
+}
+
+fn subject(key: &str) -> String {
+    if key.is_empty() { String::new() } else { format!("{key}: ") }
+}
+
+fn hint(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
+}
+
+/// Why a [`crate::ControlTable`] does not fit a rig and its shapes.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BindError {
+    /// A control that drives a joint which the rig does not have.
+    #[error("control {control:?}: expected a joint of the rig, found {joint:?}{}", hint(.nearest))]
+    UnknownJoint {
+        /// Name of the control.
+        control: String,
+        /// The joint that it names.
+        joint: String,
+        /// The rig's joint that is probably meant.
+        nearest: Option<String>,
+    },
+    /// A control that drives a blend shape which does not exist.
+    #[error("control {control:?}: expected a blend shape of the face, found {shape:?}{}", hint(.nearest))]
+    UnknownShape {
+        /// Name of the control.
+        control: String,
+        /// The shape that it names.
+        shape: String,
+        /// The face's shape that is probably meant.
+        nearest: Option<String>,
+    },
+}
+
+/// Why control values could not be applied.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ApplyError {
+    /// A slice of a wrong length.
+    #[error("expected {expected} {what}, found {found}")]
+    Length {
+        /// Which slice.
+        what: &'static str,
+        /// Length that the binding asks for.
+        expected: usize,
+        /// Length of the slice.
+        found: usize,
+    },
+    /// A value that is NaN or infinite.
+    #[error("control {control}: expected a finite value, found {value}")]
+    NotFinite {
+        /// Index of the control.
+        control: usize,
+        /// The value.
+        value: f32,
+    },
+}
+
+/// Why time could not go on.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum AdvanceError {
+    /// Time runs forward only.
+    #[error("expected a time step of 0 or more seconds, found {dt_secs}")]
+    Negative {
+        /// The time step.
+        dt_secs: f64,
+    },
+    /// A time step that is no number.
+    #[error("expected a time step of 0 or more seconds, found NaN")]
+    NotANumber,
+}
+
+impl AdvanceError {
+    /// Accepts 0, positive numbers and positive infinity (everything arrives).
+    pub(crate) fn check(dt_secs: f64) -> Result<(), Self> {
+        if dt_secs.is_nan() {
+            Err(Self::NotANumber)
+        } else if dt_secs < 0.0 {
+            Err(Self::Negative { dt_secs })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// Why a state could not be taken over.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum JumpError {
+    /// Not one value per control.
+    #[error("expected {expected} values, one per control, found {found}")]
+    Length {
+        /// Number of controls.
+        expected: usize,
+        /// Number of values.
+        found: usize,
+    },
+    /// A value that is NaN or infinite.
+    #[error("control {control}: expected a finite value, found {value}")]
+    NotFinite {
+        /// Index of the control.
+        control: usize,
+        /// The value.
+        value: f32,
+    },
+}

@@ -1,0 +1,154 @@
+use crate::channel::{Channel, Range};
+use crate::{AdvanceError, ControlTable, Jet, JumpError, Pace, Pose};
+
+/// Durations that a press may have: a shorter one has derivatives without meaning, a longer one no end.
+const DURATIONS_SECS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
+
+/// Moves the controls of one face from pose to pose.
+///
+/// A press sends controls towards a pose from wherever they are and however they move. Value, velocity and acceleration
+/// of every control are continuous at every press, every value is in its control's range all the time, and after
+/// its duration each control has exactly the pose's value, at rest. The state is a closed function of the time since
+/// the last press: how that time is cut into steps does not matter.
+///
+/// A player has no clock: time passes in [`Self::advance`] only, and a press happens between two advances. Neither
+/// allocates.
+#[derive(Clone, Debug)]
+pub struct Player {
+    channels: Vec<Channel>,
+    paces: Vec<Pace>,
+    values: Vec<f32>,
+    velocities: Vec<f32>,
+    accelerations: Vec<f32>,
+}
+
+impl Player {
+    /// All controls at rest at their defaults.
+    pub fn new(controls: &ControlTable) -> Self {
+        let channel = |control: &crate::Control| {
+            let range = Range { min: control.min.into(), max: control.max.into() };
+            Channel::rest(range, control.default.into())
+        };
+        Self {
+            channels: controls.controls().iter().map(channel).collect(),
+            paces: controls.controls().iter().map(|control| control.pace).collect(),
+            values: controls.defaults(),
+            velocities: vec![0.0; controls.len()],
+            accelerations: vec![0.0; controls.len()],
+        }
+    }
+
+    /// Heads for a pose, from now on. The controls that the pose leaves out go on with whatever they do.
+    ///
+    /// Takes any pose: values are clamped to the ranges, and a control that does not exist or a value that is not
+    /// finite is passed over. (Poses that were read from a text are right already.)
+    pub fn press(&mut self, pose: &Pose) {
+        for (control, value) in &pose.values {
+            let (Some(channel), Some(pace)) = (self.channels.get_mut(*control), self.paces.get(*control))
+            else {
+                continue;
+            };
+            if !value.is_finite() {
+                continue;
+            }
+            let range = channel.range();
+            let target = range.clamp(f64::from(*value));
+            let own_secs = pace.duration_secs(target - channel.state().value, range.width());
+            let wanted_secs = pose.duration_secs.map_or(own_secs, f64::from);
+            channel.press(target, sensible_duration(wanted_secs, own_secs));
+        }
+    }
+
+    /// Lets time pass. 0 changes nothing; enough of it (even infinity) brings every control to its target.
+    ///
+    /// # Errors
+    /// A negative time step or NaN; then nothing changes.
+    pub fn advance(&mut self, dt_secs: f64) -> Result<(), AdvanceError> {
+        AdvanceError::check(dt_secs)?;
+        if dt_secs == 0.0 {
+            // Not even by rounding: just after a press, the new motion repeats the old state up to the last bit.
+            return Ok(());
+        }
+        let outputs = self.values.iter_mut().zip(&mut self.velocities).zip(&mut self.accelerations);
+        for (channel, ((value, velocity), acceleration)) in self.channels.iter_mut().zip(outputs) {
+            if channel.is_at_rest() {
+                // Also after a press of the very value that the control has.
+                *value = channel.target() as f32;
+                continue;
+            }
+            channel.advance(dt_secs);
+            let state = channel.state();
+            *value = state.value as f32;
+            *velocity = state.velocity as f32;
+            *acceleration = state.acceleration as f32;
+        }
+        Ok(())
+    }
+
+    /// Lets the same time pass for many players.
+    ///
+    /// # Errors
+    /// As [`Self::advance`]; then none of them changes.
+    pub fn advance_all(players: &mut [Self], dt_secs: f64) -> Result<(), AdvanceError> {
+        AdvanceError::check(dt_secs)?;
+        players.iter_mut().try_for_each(|player| player.advance(dt_secs))
+    }
+
+    /// Puts all controls at rest at these values, at once; they are clamped to the ranges.
+    ///
+    /// # Errors
+    /// Not one value per control, or a value that is not finite; then nothing changes.
+    pub fn jump_to(&mut self, values: &[f32]) -> Result<(), JumpError> {
+        let (expected, found) = (self.channels.len(), values.len());
+        if expected != found {
+            return Err(JumpError::Length { expected, found });
+        }
+        if let Some(control) = values.iter().position(|value| !value.is_finite()) {
+            return Err(JumpError::NotFinite { control, value: values[control] });
+        }
+        for (index, (channel, value)) in self.channels.iter_mut().zip(values).enumerate() {
+            let range = channel.range();
+            *channel = Channel::rest(range, range.clamp(f64::from(*value)));
+            self.values[index] = channel.target() as f32;
+        }
+        self.velocities.fill(0.0);
+        self.accelerations.fill(0.0);
+        Ok(())
+    }
+
+    /// Present values, one per control, each in its range.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// First derivatives of the values, per second.
+    pub fn velocities(&self) -> &[f32] {
+        &self.velocities
+    }
+
+    /// Second derivatives of the values, per second squared.
+    pub fn accelerations(&self) -> &[f32] {
+        &self.accelerations
+    }
+
+    /// Value, velocity and acceleration of one control in full precision; `None` if there is no such control.
+    pub fn state(&self, control: usize) -> Option<Jet> {
+        self.channels.get(control).map(Channel::state)
+    }
+
+    /// Whether all controls have arrived.
+    pub fn is_at_rest(&self) -> bool {
+        self.channels.iter().all(Channel::is_at_rest)
+    }
+
+    /// Seconds until all controls have arrived, if nothing is pressed.
+    pub fn secs_to_rest(&self) -> f64 {
+        self.channels.iter().map(Channel::remaining_secs).fold(0.0, f64::max)
+    }
+}
+
+/// The wanted duration, kept within [`DURATIONS_SECS`]; `otherwise` if it is no number.
+fn sensible_duration(wanted_secs: f64, otherwise_secs: f64) -> f64 {
+    let secs = if wanted_secs.is_nan() { otherwise_secs } else { wanted_secs };
+    secs.max(*DURATIONS_SECS.start()).min(*DURATIONS_SECS.end())
+}

@@ -1,0 +1,107 @@
+use crate::{ControlTable, TomlError, pose_toml};
+
+/// The poses of the nine-joint face as a text, to be copied beside a face and changed.
+pub const DEFAULT_POSES_TOML: &str = include_str!("../assets/poses.toml");
+
+/// A named set of control values.
+///
+/// A pose may leave controls out; a press leaves those to whatever they do.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Pose {
+    /// Unique name.
+    pub name: String,
+    /// Name of the key that calls the pose, such as `1`, `q` or `F5`.
+    pub key: Option<String>,
+    /// Index of a control and its value, in degrees, units of the rig or weights.
+    pub values: Vec<(usize, f32)>,
+    /// Seconds that a move to this pose takes. `None`: each control takes its own time ([`crate::Pace`]).
+    pub duration_secs: Option<f32>,
+}
+
+impl Pose {
+    /// A pose without key, whose controls take their own time.
+    pub fn new(name: impl Into<String>, values: Vec<(usize, f32)>) -> Self {
+        Self { name: name.into(), values, ..Self::default() }
+    }
+
+    /// A pose from one value per control.
+    pub fn from_values(name: impl Into<String>, values: &[f32]) -> Self {
+        Self::new(name, values.iter().copied().enumerate().collect())
+    }
+
+    /// The same pose, whose move takes this many seconds.
+    #[must_use]
+    pub fn lasting(self, duration_secs: f32) -> Self {
+        Self { duration_secs: Some(duration_secs), ..self }
+    }
+
+    /// The value of a control, if the pose has one.
+    pub fn value(&self, control: usize) -> Option<f32> {
+        self.values.iter().rev().find(|(index, _)| *index == control).map(|(_, value)| *value)
+    }
+}
+
+/// Poses in the order of their file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PoseSet {
+    /// The poses. Names and keys of a set that was read are unique.
+    pub poses: Vec<Pose>,
+}
+
+impl PoseSet {
+    /// Reads a `poses.toml`; its format is described at the top of [`DEFAULT_POSES_TOML`].
+    ///
+    /// # Errors
+    /// The first thing in the text that is not as it has to be, with its place: also a control that the table does
+    /// not have, a value out of its range, a name or key that occurs twice.
+    pub fn from_toml(text: &str, controls: &ControlTable) -> Result<Self, TomlError> {
+        pose_toml::read(text, controls)
+    }
+
+    /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without those that
+    /// it lacks, and within its ranges.
+    pub fn default_face(controls: &ControlTable) -> Self {
+        let face = ControlTable::default_face();
+        // The text is part of the crate and a test reads it, so the error cannot happen.
+        let mut set = Self::from_toml(DEFAULT_POSES_TOML, &face).unwrap_or_default();
+        for pose in &mut set.poses {
+            let values = pose.values.iter().filter_map(|(index, value)| {
+                let here = controls.index(&face.controls()[*index].name)?;
+                let control = &controls.controls()[here];
+                Some((here, value.max(control.min).min(control.max)))
+            });
+            pose.values = values.collect();
+        }
+        set
+    }
+
+    /// The pose of this name.
+    pub fn get(&self, name: &str) -> Option<&Pose> {
+        self.poses.iter().find(|pose| pose.name == name)
+    }
+
+    /// The pose that this key calls.
+    pub fn by_key(&self, key: &str) -> Option<&Pose> {
+        self.poses.iter().find(|pose| pose.key.as_deref() == Some(key))
+    }
+
+    /// The pose's name that is probably meant by a misspelt one.
+    pub fn nearest(&self, name: &str) -> Option<&str> {
+        crate::nearest::nearest(name, self.poses.iter().map(|pose| pose.name.as_str()))
+    }
+
+    /// All poses, in order.
+    pub fn iter(&self) -> std::slice::Iter<'_, Pose> {
+        self.poses.iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a PoseSet {
+    type Item = &'a Pose;
+    type IntoIter = std::slice::Iter<'a, Pose>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}

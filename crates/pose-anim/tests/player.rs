@@ -1,0 +1,346 @@
+//! What a player promises, whatever is pressed whenever.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
+use pose_anim::{AdvanceError, ControlTable, Jet, JumpError, Player, Pose, PoseSet};
+use proptest::prelude::*;
+
+/// SplitMix64 (Steele, Lea & Flood 2014): scripts have to be the same on every machine.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        (self.next() % end as u64) as usize
+    }
+}
+
+/// A few controls with default paces and ranges, so that scripts are many rather than wide.
+fn table() -> ControlTable {
+    let text = "
+        [[control]]\nname = 'turn'\njoint = 'HeadJoint'\naxis = '+x'\nmin = -70\nmax = 70
+        [[control]]\nname = 'lid'\njoint = 'LtUpperLidJoint'\naxis = '-z'\nmin = -10\nmax = 45
+        [[control]]\nname = 'smile'\nshape = 'S'";
+    ControlTable::from_toml(text).unwrap()
+}
+
+/// A script: presses at times, sorted.
+fn script(random: &mut Random, table: &ControlTable) -> Vec<(f64, Pose)> {
+    let count = 1 + random.below(8);
+    // Half of the scripts are hectic: all presses within a tenth of a second.
+    let span = if random.below(2) == 0 { 0.1 } else { 1.2 };
+    let mut times: Vec<f64> = (0..count).map(|_| random.unit() * span).collect();
+    times.sort_by(f64::total_cmp);
+    if random.below(4) == 0 && count > 1 {
+        times[1] = times[0];
+    }
+    let mut presses = Vec::new();
+    for at in times {
+        let mut values = Vec::new();
+        for (index, control) in table.controls().iter().enumerate() {
+            let value = match random.below(5) {
+                0 => control.min,
+                1 => control.max,
+                2 => continue,
+                _ => control.min + (control.max - control.min) * random.unit() as f32,
+            };
+            values.push((index, value));
+        }
+        let mut pose = Pose::new("p", values);
+        pose.duration_secs = (random.below(3) == 0).then(|| 0.02 + random.unit() as f32);
+        presses.push((at, pose));
+    }
+    presses
+}
+
+fn states(player: &Player) -> Vec<Jet> {
+    (0..player.values().len()).map(|control| player.state(control).unwrap()).collect()
+}
+
+/// Plays a script in the given steps until `end`; looks at the player after each step.
+fn play(
+    player: &mut Player,
+    presses: &[(f64, Pose)],
+    end: f64,
+    mut next_step: impl FnMut() -> f64,
+    mut look: impl FnMut(f64, &Player),
+) {
+    let (mut now, mut presses) = (0.0, presses.iter().peekable());
+    while now < end {
+        let until = (now + next_step()).min(end);
+        while let Some((at, pose)) = presses.next_if(|(at, _)| *at <= until) {
+            player.advance(at - now).unwrap();
+            now = *at;
+            player.press(pose);
+        }
+        player.advance(until - now).unwrap();
+        now = until;
+        look(now, player);
+    }
+}
+
+#[test]
+fn random_scripts_hold_every_promise() {
+    let table = table();
+    let mut random = Random(7);
+    for round in 0..10_000 {
+        let presses = script(&mut random, &table);
+        let mut player = Player::new(&table);
+        let mut now = 0.0;
+        for (at, pose) in &presses {
+            player.advance(at - now).unwrap();
+            now = *at;
+            let before = states(&player);
+            player.press(pose);
+            // At the press itself nothing changes, and what changes just after it goes to 0 with the time.
+            let jump = |after_secs: f64| {
+                let mut player = player.clone();
+                player.advance(after_secs).unwrap();
+                states(&player)
+            };
+            let (near, far, farther) = (jump(1e-7), jump(5e-7), jump(1e-6));
+            for (index, before) in before.iter().enumerate() {
+                let width = f64::from(table.controls()[index].max - table.controls()[index].min);
+                let parts = |jet: &Jet| [jet.value, jet.velocity, jet.acceleration];
+                for part in 0..3 {
+                    let change = |states: &[Jet]| (parts(&states[index])[part] - parts(before)[part]).abs();
+                    let allowed =
+                        0.5 * change(&far).max(change(&farther)) + [1e-13, 1e-10, 1e-5][part] * width;
+                    assert!(
+                        change(&near) <= allowed,
+                        "script {round}, control {index}, derivative {part}, {presses:?}"
+                    );
+                }
+            }
+            let values = player.values().to_vec();
+            player.advance(0.0).unwrap();
+            assert_eq!(player.values(), values);
+        }
+
+        // Any rate, the same values; always in range.
+        let end = now + 0.3;
+        let looks = [0.5 * now, now, now + 0.1, end];
+        let rates = [24.0, 60.0, 240.0];
+        let mut found: Vec<Vec<Jet>> = Vec::new();
+        for rate in 0..4 {
+            let mut player = Player::new(&table);
+            let (mut time, mut states_now) = (0.0, Vec::new());
+            for look in looks {
+                let rest: Vec<_> = presses
+                    .iter()
+                    .filter(|(at, _)| (*at > time || time == 0.0) && *at <= look)
+                    .map(|(at, pose)| (at - time, pose.clone()))
+                    .collect();
+                let step = |random: &mut Random| match rates.get(rate) {
+                    Some(rate) => 1.0 / rate,
+                    None => 0.04 * random.unit(),
+                };
+                play(
+                    &mut player,
+                    &rest,
+                    look - time,
+                    || step(&mut random),
+                    |_, player| {
+                        for (value, control) in player.values().iter().zip(table.controls()) {
+                            assert!((control.min..=control.max).contains(value), "script {round}");
+                        }
+                    },
+                );
+                time = look;
+                states_now.extend(states(&player));
+            }
+            found.push(states_now);
+        }
+        for other in &found[1..] {
+            for (a, b) in found[0].iter().zip(other) {
+                assert!((a.value - b.value).abs() < 1e-6, "script {round}: {a:?} {b:?}");
+            }
+        }
+
+        // Arrival, bit for bit and at rest.
+        let mut targets = table.defaults();
+        for (_, pose) in &presses {
+            pose.values.iter().for_each(|(control, value)| targets[*control] = *value);
+        }
+        player.advance(player.secs_to_rest() + 1e-9).unwrap();
+        assert!(player.is_at_rest(), "script {round}");
+        assert_eq!(player.values(), targets, "script {round}");
+        assert!(player.velocities().iter().chain(player.accelerations()).all(|rate| *rate == 0.0));
+    }
+}
+
+/// The velocity integrates to the value and the acceleration to the velocity, through all interruptions; the error of the
+/// trapezoid rule falls with the square of the step, as it does for continuous derivatives only.
+#[test]
+fn derivatives_are_those_of_the_values() {
+    let table = table();
+    let mut random = Random(11);
+    for round in 0..200 {
+        let presses = script(&mut random, &table);
+        let error = |step: f64| {
+            let mut player = Player::new(&table);
+            let mut before = states(&player);
+            let (mut worst, mut time) = ([0.0f64; 2], 0.0);
+            play(
+                &mut player,
+                &presses,
+                1.5,
+                || step,
+                |now, player| {
+                    let (dt, after) = (now - time, states(player));
+                    time = now;
+                    for (a, b) in before.iter().zip(&after) {
+                        let value = (b.value - a.value - 0.5 * dt * (a.velocity + b.velocity)).abs();
+                        let velocity =
+                            (b.velocity - a.velocity - 0.5 * dt * (a.acceleration + b.acceleration)).abs();
+                        worst = [worst[0].max(value), worst[1].max(velocity)];
+                    }
+                    before = after;
+                },
+            );
+            worst
+        };
+        // Locally third order where a third derivative exists, second order where only it jumps.
+        // How large that one is depends on where in a step it falls, so the coarse steps are tried several times.
+        let coarse =
+            [2e-4, 2.13e-4, 1.87e-4].map(error).into_iter().reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        let (coarse, fine) = (coarse.unwrap(), error(2.5e-5));
+        assert!(fine[0] < coarse[0] / 50.0 + 1e-9, "script {round}: {coarse:?} {fine:?}");
+        assert!(fine[1] < coarse[1] / 15.0 + 1e-7, "script {round}: {coarse:?} {fine:?}");
+    }
+}
+
+#[test]
+fn more_presses_than_can_be_nested() {
+    let table = table();
+    let mut random = Random(23);
+    for _ in 0..300 {
+        let mut player = Player::new(&table);
+        let mut last = 0.0;
+        for _ in 0..200 {
+            last = [0.0, 0.2, 0.9, 1.0][random.below(4)];
+            let pose = Pose::new("p", vec![(2, last)]).lasting([0.05, 0.4, 2.0][random.below(3)]);
+            let before = player.state(2).unwrap();
+            player.press(&pose);
+            let dt = 1e-6;
+            let mut soon = player.clone();
+            soon.advance(dt).unwrap();
+            let after = soon.state(2).unwrap();
+            assert!((after.value - before.value - dt * before.velocity).abs() < 1e-7);
+            assert!((after.velocity - before.velocity).abs() < 1e-2);
+            assert!(
+                (after.acceleration - before.acceleration).abs() < 0.05 * before.acceleration.abs().max(2e4)
+            );
+            player.advance(0.03 * random.unit()).unwrap();
+            assert!((0.0..=1.0).contains(&player.values()[2]));
+        }
+        player.advance(f64::INFINITY).unwrap();
+        assert_eq!(player.values()[2], last);
+    }
+}
+
+#[test]
+fn time_steps_that_are_none() {
+    let table = table();
+    let mut player = Player::new(&table);
+    player.press(&Pose::new("p", vec![(0, 10.0)]));
+    player.advance(0.1).unwrap();
+    let before = player.values().to_vec();
+    assert_eq!(player.advance(-0.1), Err(AdvanceError::Negative { dt_secs: -0.1 }));
+    assert_eq!(player.advance(f64::NAN), Err(AdvanceError::NotANumber));
+    assert_eq!(player.values(), before);
+    player.advance(1e300).unwrap();
+    assert!(player.is_at_rest());
+    assert_eq!(player.values(), [10.0, 0.0, 0.0]);
+    assert_eq!(player.secs_to_rest(), 0.0);
+}
+
+#[test]
+fn poses_from_elsewhere_cannot_harm() {
+    let table = table();
+    let mut player = Player::new(&table);
+    for (value, duration) in
+        [(f32::NAN, 1.0), (f32::INFINITY, 0.0), (1e38, -3.0), (-5.0, f32::NAN), (9.0, 1e38)]
+    {
+        let mut pose = Pose::new("p", vec![(99, 1.0), (0, value), (2, value)]);
+        pose.duration_secs = Some(duration);
+        player.press(&pose);
+        player.advance(0.01).unwrap();
+        assert!((-70.0..=70.0).contains(&player.values()[0]) && (0.0..=1.0).contains(&player.values()[2]));
+        assert!(player.velocities().iter().chain(player.accelerations()).all(|rate| rate.is_finite()));
+    }
+    assert!(player.state(3).is_none());
+}
+
+#[test]
+fn jumps() {
+    let table = table();
+    let mut player = Player::new(&table);
+    player.press(&Pose::new("p", vec![(0, 10.0)]));
+    player.advance(0.1).unwrap();
+    assert_eq!(player.jump_to(&[1.0]), Err(JumpError::Length { expected: 3, found: 1 }));
+    assert!(matches!(player.jump_to(&[1.0, f32::NAN, 0.0]), Err(JumpError::NotFinite { control: 1, .. })));
+    player.jump_to(&[-5.0, 100.0, 0.5]).unwrap();
+    assert_eq!(player.values(), [-5.0, 45.0, 0.5]);
+    assert!(player.is_at_rest());
+    player.advance(1.0).unwrap();
+    assert_eq!(player.values(), [-5.0, 45.0, 0.5]);
+}
+
+#[test]
+fn default_poses_take_their_time() {
+    let table = ControlTable::default_face();
+    let poses = PoseSet::default_face(&table);
+    for pose in &poses {
+        let mut player = Player::new(&table);
+        player.press(pose);
+        let secs = |name: &str| {
+            let control = table.index(name).unwrap();
+            let mut alone = Player::new(&table);
+            alone.press(&Pose::new("p", vec![(control, pose.value(control).unwrap())]));
+            alone.secs_to_rest()
+        };
+        let within = |secs: f64, range: std::ops::RangeInclusive<f64>| secs == 0.0 || range.contains(&secs);
+        assert!(within(secs("lid.left.upper"), 0.0999..=0.1501), "{}", pose.name);
+        assert!(within(secs("eye.left.lr"), 0.0599..=0.2001), "{}", pose.name);
+        assert!(within(secs("head.turn"), 0.3999..=0.9001), "{}", pose.name);
+        player.advance(0.91).unwrap();
+        assert!(player.is_at_rest());
+    }
+    // A partial pose on top of another: the smile goes on.
+    let mut player = Player::new(&table);
+    player.press(poses.get("smile").unwrap());
+    player.advance(0.05).unwrap();
+    let lid = table.index("lid.left.upper").unwrap();
+    player.press(&Pose::new("wink", vec![(lid, 45.0)]));
+    player.advance(2.0).unwrap();
+    let expected = poses.get("smile").unwrap();
+    for (index, value) in player.values().iter().enumerate() {
+        assert_eq!(*value, if index == lid { 45.0 } else { expected.value(index).unwrap() });
+    }
+}
+
+proptest! {
+    /// From rest, a move is the textbook minimum-jerk move, monotone.
+    #[test]
+    fn from_rest_it_is_minimum_jerk(from in -70.0f32..70.0, to in -70.0f32..70.0, secs in 0.01f32..5.0, s in 0.0f64..1.0) {
+        let table = table();
+        let mut player = Player::new(&table);
+        player.jump_to(&[from, 0.0, 0.0]).unwrap();
+        player.press(&Pose::new("p", vec![(0, to)]).lasting(secs));
+        player.advance(s * f64::from(secs)).unwrap();
+        let expected = f64::from(from) + f64::from(to - from) * (10.0 * s.powi(3) - 15.0 * s.powi(4) + 6.0 * s.powi(5));
+        prop_assert!((player.state(0).unwrap().value - expected).abs() < 1e-4);
+    }
+}
