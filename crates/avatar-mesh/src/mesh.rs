@@ -25,7 +25,7 @@ pub struct Skinning {
     pub bones: Vec<[u16; 4]>,
     /// Their weights, with sum 1.
     pub weights: Vec<[f32; 4]>,
-    /// A column of the raw format without a known meaning, kept for writing it back; empty elsewhere.
+    /// A column of the raw format without a known meaning, kept for writing it back; may be empty.
     pub blend_index: Vec<Vec3>,
 }
 

@@ -142,6 +142,9 @@ impl Mesh {
         if let Some(skinning) = &self.skinning {
             check("bone indices", skinning.bones.len())?;
             check("bone weights", skinning.weights.len())?;
+            if !skinning.blend_index.is_empty() {
+                check("blend indices", skinning.blend_index.len())?;
+            }
         }
         Ok(())
     }
@@ -158,7 +161,10 @@ impl Mesh {
             finite(&format!("normal offset of {}", shape.name), shape.normals.iter().map(|n| n.to_array()))?;
         }
         match &self.skinning {
-            Some(skinning) => finite("bone weight", skinning.weights.iter().copied()),
+            Some(skinning) => {
+                finite("bone weight", skinning.weights.iter().copied())?;
+                finite("blend index", skinning.blend_index.iter().map(|b| b.to_array()))
+            }
             None => Ok(()),
         }
     }

@@ -11,8 +11,9 @@ pub struct Welded {
     pub welded_from_original: Vec<u32>,
 }
 
-/// Merges vertices that are alike in every attribute, to the bit: the welded mesh deforms and draws exactly as the
-/// original does. Vertices keep the order of their first appearance.
+/// Merges vertices that are alike, to the bit, in every attribute that deformation and drawing use: the welded mesh
+/// deforms and draws exactly as the original does. Of [`Skinning::blend_index`], which nothing uses, each merged
+/// vertex keeps the first. Vertices keep the order of their first appearance.
 pub fn weld(mesh: &Mesh) -> Welded {
     let mut first_of: HashMap<Vec<u32>, u32> = HashMap::with_capacity(mesh.positions.len());
     let mut originals = Vec::new();
@@ -75,7 +76,10 @@ fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
 /// Gives points that are within `tolerance` of each other (along chains, too) one number, counted from 0 in the
 /// order of first appearance: the topology under vertices that were split for uvs or normals.
 pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
-    let cell_size = f64::from(tolerance.max(f32::MIN_POSITIVE)) * 2.0;
+    // Not much finer than the coordinates: their cell numbers would leave i64 and fall into one cell.
+    let extent = positions.iter().map(|p| p.abs().max_element()).fold(0.0f32, f32::max);
+    let finest = f64::from(extent.min(f32::MAX)) / (1u64 << 40) as f64;
+    let cell_size = (f64::from(tolerance) * 2.0).max(finest).max(f64::MIN_POSITIVE);
     let cell_of = |p: Vec3| (p.as_dvec3() / cell_size).floor().to_array().map(|x| x as i64);
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     let mut roots: Vec<u32> = (0..positions.len() as u32).collect();

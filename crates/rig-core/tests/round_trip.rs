@@ -48,8 +48,11 @@ prop_compose! {
     }
 }
 
+/// Name, parent, bits of the matrix, row by row, omit.
+type Content = (String, Option<String>, [u32; 16], bool, bool);
+
 /// All that must survive, with numbers as bits; sorted, since writing puts parents first.
-fn content(raw: &RawRig) -> Vec<(String, Option<String>, [u32; 16], bool, bool)> {
+fn content(raw: &RawRig) -> Vec<Content> {
     let mut content: Vec<_> = (raw.joints.iter())
         .map(|joint| {
             let bits = joint.parent_from_joint.to_cols_array().map(f32::to_bits);
