@@ -7,6 +7,8 @@ mod drawable;
 mod frame;
 pub mod headless;
 mod image;
+#[cfg(test)]
+mod layout_tests;
 mod material;
 mod mips;
 mod model;

@@ -88,3 +88,47 @@ fn constants() -> String {
          const NORMAL_TEXTURE: u32 = {NORMAL_TEXTURE}u;\n"
     )
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    pub(crate) const ALL: [Program; 5] = [SKIN, TEETH, EYEBALL, CORNEA, DEFORM_PASS];
+
+    pub(crate) fn parsed(program: &Program) -> naga::Module {
+        let source = program.source();
+        match naga::front::wgsl::parse_str(&source) {
+            Ok(module) => module,
+            Err(error) => panic!("{}: {}", program.label, error.emit_to_string(&source)),
+        }
+    }
+
+    #[test]
+    fn every_program_parses_and_validates_without_optional_capabilities() {
+        for program in ALL {
+            let module = parsed(&program);
+            let mut validator = naga::valid::Validator::new(
+                naga::valid::ValidationFlags::all(),
+                naga::valid::Capabilities::empty(),
+            );
+            if let Err(error) = validator.validate(&module) {
+                panic!("{}: {}", program.label, error.emit_to_string(&program.source()));
+            }
+            assert!(module.entry_points.iter().any(|entry| entry.name == program.entry), "{}", program.label);
+        }
+    }
+
+    #[test]
+    fn no_program_needs_more_bindings_than_webgpu_promises() {
+        for program in ALL {
+            let module = parsed(&program);
+            let storage = module
+                .global_variables
+                .iter()
+                .filter(|(_, variable)| matches!(variable.space, naga::AddressSpace::Storage { .. }));
+            let groups = module.global_variables.iter().filter_map(|(_, v)| v.binding).map(|b| b.group);
+            assert!(storage.count() <= 8, "{}", program.label);
+            assert!(groups.max().unwrap_or(0) < 4, "{}", program.label);
+        }
+    }
+}

@@ -12,14 +12,14 @@ struct Deformed {
 fn blended_from_bind(vertex: u32, bind: Deformed) -> Deformed {
     var blended = bind;
     for (var i = 0u; i < active_shapes.count; i++) {
-        let active = active_shapes.shapes[i];
+        let shape = active_shapes.shapes[i];
         // Indices rise: whatever follows belongs to parts with more shapes.
-        if active.index >= part.shape_count {
+        if shape.index >= part.shape_count {
             break;
         }
-        let offset = shape_offsets[active.index * part.vertex_count + vertex];
-        blended.position_world += active.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
-        blended.normal_world += active.weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
+        let offset = shape_offsets[shape.index * part.vertex_count + vertex];
+        blended.position_world += shape.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
+        blended.normal_world += shape.weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
     }
     if length(blended.normal_world) < MIN_NORMAL_LENGTH {
         blended.normal_world = bind.normal_world;

@@ -1,0 +1,142 @@
+//! Every struct that Rust writes and WGSL reads must lie in memory alike: naga's offsets against `offset_of!`.
+
+use crate::deformer::GpuDeformedVertex;
+use crate::frame::{GpuFrame, GpuLamp};
+use crate::material::GpuMaterial;
+use crate::part::{GpuPart, GpuShapeOffset, GpuVertex, GpuVertexBones};
+use crate::shaders::tests::{ALL, parsed};
+use crate::state::{GpuActiveShape, GpuActiveShapesHead, GpuBone};
+use naga::{AddressSpace, Handle, Module, Type, TypeInner};
+use std::collections::BTreeSet;
+use std::mem::offset_of;
+
+/// A struct of Rust: its name in WGSL, its size, and the offsets of its members by their names in WGSL.
+struct Layout {
+    name: &'static str,
+    size: usize,
+    members: Vec<(&'static str, usize)>,
+}
+
+macro_rules! layout {
+    ($name:literal, $rust:ty, $($member:ident),+) => {
+        Layout {
+            name: $name,
+            size: size_of::<$rust>(),
+            members: vec![$((stringify!($member), offset_of!($rust, $member))),+],
+        }
+    };
+}
+
+fn layouts() -> Vec<Layout> {
+    let (position, normal) = (offset_of!(GpuShapeOffset, position), offset_of!(GpuShapeOffset, normal));
+    let shapes = size_of::<GpuActiveShapesHead>();
+    vec![
+        layout!("Part", GpuPart, vertex_count, shape_count, rigid_bone, has_vertex_bones),
+        layout!("Vertex", GpuVertex, position, u, normal, v),
+        layout!("VertexBones", GpuVertexBones, indices, weights),
+        Layout {
+            name: "ShapeOffset",
+            size: size_of::<GpuShapeOffset>(),
+            members: vec![
+                ("position_x", position),
+                ("position_y", position + 4),
+                ("position_z", position + 8),
+                ("normal_x", normal),
+                ("normal_y", normal + 4),
+                ("normal_z", normal + 8),
+            ],
+        },
+        layout!("ActiveShape", GpuActiveShape, index, weight),
+        Layout {
+            name: "ActiveShapes",
+            // naga counts one element of the array.
+            size: shapes + size_of::<GpuActiveShape>(),
+            members: vec![("count", offset_of!(GpuActiveShapesHead, count)), ("shapes", shapes)],
+        },
+        layout!("DeformedVertex", GpuDeformedVertex, position, normal),
+        layout!("Lamp", GpuLamp, direction_world, radiance),
+        layout!("Frame", GpuFrame, clip_from_world, eye_world, exposure, lamps, sky, ground),
+        layout!(
+            "Material",
+            GpuMaterial,
+            color,
+            opacity,
+            wrap,
+            reflectance,
+            roughness_matte,
+            roughness_glossy,
+            normal_strength,
+            textures
+        ),
+    ]
+}
+
+/// All types that buffers are made of.
+fn buffer_types(module: &Module) -> Vec<Handle<Type>> {
+    let mut found: Vec<Handle<Type>> = module
+        .global_variables
+        .iter()
+        .filter(|(_, v)| matches!(v.space, AddressSpace::Uniform | AddressSpace::Storage { .. }))
+        .map(|(_, v)| v.ty)
+        .collect();
+    let mut next = 0;
+    while let Some(&handle) = found.get(next) {
+        match &module.types[handle].inner {
+            TypeInner::Struct { members, .. } => found.extend(members.iter().map(|member| member.ty)),
+            TypeInner::Array { base, .. } => found.push(*base),
+            _ => {}
+        }
+        next += 1;
+    }
+    found
+}
+
+#[test]
+fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
+    let layouts = layouts();
+    let mut seen = BTreeSet::new();
+    for program in ALL {
+        let module = parsed(&program);
+        for handle in buffer_types(&module) {
+            let ty = &module.types[handle];
+            let TypeInner::Struct { members, span } = &ty.inner else { continue };
+            let name = ty.name.as_deref().expect("structs have names");
+            let layout = layouts.iter().find(|layout| layout.name == name);
+            let layout = layout.unwrap_or_else(|| panic!("{name} is in a buffer but not in this test"));
+            let wgsl: Vec<(&str, usize)> = members
+                .iter()
+                .map(|member| (member.name.as_deref().expect("members have names"), member.offset as usize))
+                .collect();
+            assert_eq!(wgsl, layout.members, "{name} in {}", program.label);
+            assert_eq!(*span as usize, layout.size, "{name} in {}", program.label);
+            seen.insert(layout.name);
+        }
+    }
+    assert_eq!(seen.len(), layouts.len(), "only {seen:?} are in buffers");
+}
+
+#[test]
+fn arrays_step_from_element_to_element_as_in_rust() {
+    let sizes = [
+        ("posed_from_bind", size_of::<GpuBone>()),
+        ("vertices", size_of::<GpuVertex>()),
+        ("vertex_bones", size_of::<GpuVertexBones>()),
+        ("shape_offsets", size_of::<GpuShapeOffset>()),
+        ("deformed", size_of::<GpuDeformedVertex>()),
+    ];
+    let mut seen = BTreeSet::new();
+    for program in ALL {
+        let module = parsed(&program);
+        for (_, variable) in module.global_variables.iter() {
+            let TypeInner::Array { stride, .. } = module.types[variable.ty].inner else { continue };
+            let name = variable.name.as_deref().expect("variables have names");
+            let (name, size) = *sizes
+                .iter()
+                .find(|(known, _)| *known == name)
+                .unwrap_or_else(|| panic!("the array {name} is not in this test"));
+            assert_eq!(stride as usize, size, "{name} in {}", program.label);
+            seen.insert(name);
+        }
+    }
+    assert_eq!(seen.len(), sizes.len(), "only {seen:?} are arrays");
+}
