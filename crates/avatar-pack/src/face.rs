@@ -3,7 +3,7 @@ use glam::Affine3A;
 use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
 
 /// Why control values could not be turned into a face.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FaceError {
     /// Another number of values than the pack has controls.
     #[error("expected {expected} control values, found {found}")]

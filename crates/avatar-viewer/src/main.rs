@@ -6,9 +6,13 @@
 mod cli;
 mod face_args;
 mod files;
+mod label;
+mod offscreen;
 mod output;
+mod scene;
 mod usage;
 mod verbs;
+mod window;
 
 use clap::{CommandFactory, FromArgMatches};
 use std::process::ExitCode;

@@ -1,9 +1,9 @@
 //! From a pack to what the renderer takes, the same for pictures and for the window.
 
 use anyhow::Result;
-use avatar_mesh::PartKind;
-use avatar_pack::{Pack, Part, Texture, Textures};
-use avatar_render::{AvatarModel, Camera, Image, PartBones, PartDesc, PartTextures, Renderer, Scene};
+use avatar_mesh::{Bounds, PartKind};
+use avatar_pack::{Pack, Texture, Textures};
+use avatar_render::{AvatarModel, Camera, Image, Light, PartBones, PartDesc, PartTextures, Scene};
 
 /// Angle of view from top to bottom: long enough a lens not to distort a face.
 const VERTICAL_FOV_DEGREES: f32 = 24.0;
@@ -26,17 +26,17 @@ impl View {
 
 /// The picture's camera, light and background. `background` is sRGB with straight alpha.
 pub(crate) fn scene(pack: &Pack, view: View, width: u32, height: u32, background: [u8; 4]) -> Scene {
-    let bounds = pack.bounds().unwrap_or(avatar_mesh::Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
+    let bounds = pack.bounds().unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
     let aspect = width.max(1) as f32 / height.max(1) as f32;
-    let camera = Camera::frame(
-        bounds,
-        view.yaw_degrees.to_radians(),
-        view.pitch_degrees.to_radians(),
-        VERTICAL_FOV_DEGREES.to_radians(),
-        aspect,
-        view.distance,
-    );
-    Scene { camera, background: background_linear(background), ..Scene::default() }
+    let fov = VERTICAL_FOV_DEGREES.to_radians();
+    // The distance is that of the front view, so that the head does not grow and shrink as the camera goes round.
+    let across = bounds.size().x.max(bounds.size().z);
+    let half = glam::Vec3::new(across, bounds.size().y, across) / 2.0;
+    let round = Bounds { min: bounds.center() - half, max: bounds.center() + half };
+    let whole_head = Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
+    let (yaw, pitch) = (view.yaw_degrees.to_radians(), view.pitch_degrees.to_radians());
+    let camera = Camera::orbit(bounds.center(), whole_head * view.distance, yaw, pitch, fov, aspect);
+    Scene { camera, background: background_linear(background), light: Light::default() }
 }
 
 /// sRGB to linear light (IEC 61966-2-1), alpha unchanged.
@@ -52,7 +52,6 @@ pub(crate) fn upload(
     textures: &Textures,
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    renderer: &Renderer,
 ) -> Result<AvatarModel> {
     let image = |texture| {
         textures.get(texture).map(|image| Image {
@@ -74,14 +73,14 @@ pub(crate) fn upload(
         PartKind::Eyeball => PartTextures { color: eye.as_ref(), ..PartTextures::default() },
         PartKind::Cornea => PartTextures::default(),
     };
-    let describe = |part: &Part| PartDesc {
-        label: part.spec.name,
-        mesh: &part.mesh,
-        kind: part.spec.kind,
-        bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
-        textures: textures_of(part.spec.kind),
-    };
-    // The descriptions borrow from the pack, whose labels and meshes live longer than this call.
-    let parts: Vec<PartDesc<'_>> = pack.parts.iter().map(describe).collect();
-    Ok(AvatarModel::new(device, queue, renderer, &parts, pack.palette.len(), pack.shapes.len())?)
+    let parts: Vec<PartDesc<'_>> = (pack.parts.iter())
+        .map(|part| PartDesc {
+            label: part.spec.name,
+            mesh: &part.mesh,
+            kind: part.spec.kind,
+            bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
+            textures: textures_of(part.spec.kind),
+        })
+        .collect();
+    Ok(AvatarModel::new(device, queue, &parts, pack.palette.len())?)
 }

@@ -1,19 +1,28 @@
 use crate::cli::DeformArgs;
+use crate::offscreen::Offscreen;
 use crate::output;
 use crate::usage::unknown;
 use anyhow::Result;
 use avatar_mesh::{Deformed, obj};
-use avatar_pack::{FaceState, Pack, Part};
+use avatar_pack::{FaceState, Pack, Part, Textures};
 use clap::ArgMatches;
 
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     let pack = super::open(&args.pack)?.load_pack()?;
     let part = pack.part(&args.part);
     let part = part.ok_or_else(|| unknown("part", &args.part, pack.parts.iter().map(|part| part.spec.name)))?;
-    let mut state = FaceState::new(&pack);
-    args.face.resolve(&pack, matches)?.apply(&pack, &mut state)?;
+    let face = args.face.resolve(&pack, matches)?;
 
-    let deformed = if args.gpu { anyhow::bail!("not yet") } else { on_cpu(&pack, part, &state)? };
+    let deformed = if args.gpu {
+        let mut offscreen = Offscreen::open(&pack, &Textures::default(), 1)?;
+        eprintln!("adapter: {}", offscreen.adapter());
+        let index = pack.parts.iter().position(|other| other.spec.name == part.spec.name).unwrap_or(0);
+        offscreen.deform(&pack, &face, index)?
+    } else {
+        let mut state = FaceState::new(&pack);
+        face.apply(&pack, &mut state)?;
+        on_cpu(&pack, part, &state)?
+    };
     let text = obj::write(part.spec.name, &deformed, &part.mesh.triangles);
     output::write_file(&args.out, text.as_bytes())
 }

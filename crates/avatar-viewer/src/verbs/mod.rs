@@ -4,20 +4,23 @@ mod bones;
 mod deform;
 mod info;
 mod keys;
+mod render;
+mod sheet;
 mod trace;
 
 use crate::cli::{Cli, PackArg, Verb};
 use crate::files::Files;
+use crate::window;
 use anyhow::Result;
 use clap::ArgMatches;
 
 /// Runs the verb, or opens the window where there is none.
 pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
-    let Some(verb) = cli.verb else { anyhow::bail!("no window yet") };
+    let Some(verb) = cli.verb else { return window::run(&cli.window, matches) };
     let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);
     match verb {
-        Verb::Render(_args) => anyhow::bail!("not yet"),
-        Verb::Sheet(_args) => anyhow::bail!("not yet"),
+        Verb::Render(args) => render::run(&args, matches),
+        Verb::Sheet(args) => sheet::run(&args),
         Verb::Bones(args) => bones::run(&args, matches),
         Verb::Deform(args) => deform::run(&args, matches),
         Verb::Trace(args) => trace::run(&args),

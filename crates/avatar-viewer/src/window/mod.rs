@@ -39,7 +39,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let start = args.face.resolve(&pack, matches)?;
     let event_loop = EventLoop::new().context("expected a display (X11 or Wayland) to open a window on")?;
     let mut player = Player::new(&pack.controls);
-    player.jump_to(&start.values);
+    player.jump_to(&start.values)?;
     let mut app = App {
         title: format!("Mimik: {}", files.name()),
         size: PhysicalSize::new(args.size.width, args.size.height),
@@ -50,7 +50,8 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         view: View::FRONT,
         stage: None,
         last_frame: None,
-        drag: None,
+        pointer: PhysicalPosition::default(),
+        dragging: false,
         failure: None,
     };
     event_loop.run_app(&mut app).context("the window's event loop")?;
@@ -68,8 +69,9 @@ struct App {
     stage: Option<Stage>,
     /// When the last frame of a running motion was drawn; `None` while nothing moves.
     last_frame: Option<Instant>,
-    /// The pointer's last place while the camera is dragged; `Some(None)` until the pointer first moves.
-    drag: Option<Option<PhysicalPosition<f64>>>,
+    /// The pointer's last place in the window.
+    pointer: PhysicalPosition<f64>,
+    dragging: bool,
     failure: Option<anyhow::Error>,
 }
 
@@ -94,7 +96,7 @@ impl ApplicationHandler for App {
             }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => self.key(event_loop, &event),
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
-                self.drag = (state == ElementState::Pressed).then_some(None);
+                self.dragging = state == ElementState::Pressed;
             }
             WindowEvent::CursorMoved { position, .. } => self.pointer(position),
             WindowEvent::MouseWheel { delta, .. } => {
@@ -166,10 +168,10 @@ impl App {
     }
 
     fn pointer(&mut self, position: PhysicalPosition<f64>) {
-        let Some(last) = &mut self.drag else { return };
-        if let Some(last) = last.replace(position) {
-            // The face follows the pointer: dragging to the right brings the character's right side to the front.
-            let (dx, dy) = (position.x - last.x, position.y - last.y);
+        let (dx, dy) = (position.x - self.pointer.x, position.y - self.pointer.y);
+        self.pointer = position;
+        if self.dragging {
+            // The face follows the pointer: dragging to the right shows the character's right side.
             self.orbit(-dx as f32 * DEGREES_PER_PIXEL, dy as f32 * DEGREES_PER_PIXEL);
         }
     }
@@ -196,14 +198,10 @@ impl App {
     }
 
     fn frame(&mut self) -> Result<()> {
-        let Some(stage) = &mut self.stage else { return Ok(()) };
         if self.last_frame.is_some() {
             self.catch_up();
         }
-        let stage = match &mut self.stage {
-            Some(stage) => stage,
-            None => return Ok(()),
-        };
+        let Some(stage) = &mut self.stage else { return Ok(()) };
         self.state.pose(&self.pack, self.player.values())?;
         stage.draw(&self.pack, &self.state, self.view)?;
         if self.player.is_at_rest() {

@@ -1,0 +1,68 @@
+use crate::cli::Size;
+use crate::face_args::FaceChoice;
+use crate::scene::{self, View};
+use anyhow::{Context, Result};
+use avatar_mesh::Deformed;
+use avatar_pack::{FaceState, Pack, Textures};
+use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking};
+use avatar_render::{AvatarModel, AvatarState, Deformer};
+use image::RgbaImage;
+
+/// A GPU without a window, holding one avatar.
+pub(crate) struct Offscreen {
+    gpu: Gpu,
+    model: AvatarModel,
+    avatar: AvatarState,
+    state: FaceState,
+    samples: u32,
+    canvas: Option<(Size, Canvas)>,
+}
+
+impl Offscreen {
+    /// Opens the best adapter and uploads the avatar.
+    pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32) -> Result<Self> {
+        let gpu = open_blocking(GpuOptions::default())?;
+        let model = scene::upload(pack, textures, &gpu.device, &gpu.queue)?;
+        let avatar = AvatarState::new(&gpu.device, &model);
+        Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, canvas: None })
+    }
+
+    /// The adapter, for people.
+    pub(crate) fn adapter(&self) -> String {
+        let info = &self.gpu.info;
+        format!("{} ({:?}, {:?})", info.name, info.backend, info.device_type)
+    }
+
+    fn pose(&mut self, pack: &Pack, face: &FaceChoice) -> Result<()> {
+        face.apply(pack, &mut self.state)?;
+        self.avatar.set(&self.gpu.queue, self.state.bones(), self.state.weights())?;
+        Ok(())
+    }
+
+    /// A picture of the face in this state. `background` is sRGB with straight alpha.
+    pub(crate) fn picture(
+        &mut self,
+        pack: &Pack,
+        face: &FaceChoice,
+        view: View,
+        size: Size,
+        background: [u8; 4],
+    ) -> Result<RgbaImage> {
+        self.pose(pack, face)?;
+        let canvas = match self.canvas.take_if(|(old, _)| *old == size) {
+            Some((_, canvas)) => canvas,
+            None => Canvas::new(&self.gpu, size.width, size.height, self.samples)?,
+        };
+        let scene = scene::scene(pack, view, size.width, size.height, background);
+        let picture = canvas.render(&self.gpu, &scene, &[(&self.model, &self.avatar)])?;
+        self.canvas = Some((size, canvas));
+        RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")
+    }
+
+    /// One part, deformed on the GPU by the function that draws, and read back.
+    pub(crate) fn deform(&mut self, pack: &Pack, face: &FaceChoice, part: usize) -> Result<Deformed> {
+        self.pose(pack, face)?;
+        let deformer = Deformer::new(&self.gpu.device);
+        Ok(deformer.run(&self.gpu.device, &self.gpu.queue, &self.model, &self.avatar, part)?)
+    }
+}

@@ -1,0 +1,114 @@
+use crate::scene::{self, View};
+use anyhow::{Context, Result};
+use avatar_pack::{FaceState, Pack, Textures};
+use avatar_render::headless::{Gpu, GpuOptions, open_for_surface_blocking};
+use avatar_render::{AvatarModel, AvatarState, Renderer, RendererConfig, Targets};
+use std::sync::Arc;
+use wgpu::CurrentSurfaceTexture as Acquired;
+use winit::dpi::PhysicalSize;
+use winit::event_loop::OwnedDisplayHandle;
+use winit::window::Window;
+
+/// Samples per pixel, as in `render`.
+const SAMPLES: u32 = 4;
+/// The background, as in `render`.
+const BACKGROUND: [u8; 4] = [0x23, 0x27, 0x2e, 255];
+
+/// The window's surface and everything that draws on it.
+pub(super) struct Stage {
+    window: Arc<Window>,
+    gpu: Gpu,
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    renderer: Renderer,
+    /// `None` while the window has no area.
+    targets: Option<Targets>,
+    model: AvatarModel,
+    avatar: AvatarState,
+}
+
+impl Stage {
+    pub(super) fn open(
+        window: Arc<Window>,
+        display: OwnedDisplayHandle,
+        pack: &Pack,
+        textures: &Textures,
+    ) -> Result<Self> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
+        let surface = instance.create_surface(window.clone()).context("expected a surface to draw on, found none")?;
+        let gpu = open_for_surface_blocking(instance, &surface, GpuOptions::default())?;
+
+        let size = window.inner_size();
+        let mut config = surface
+            .get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1))
+            .context("expected an adapter that can draw on this surface")?;
+        let formats = surface.get_capabilities(&gpu.adapter).formats;
+        // Blending and resolving samples are right in linear light, which sRGB formats do in hardware.
+        config.format = formats.iter().copied().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
+        config.present_mode = wgpu::PresentMode::Fifo;
+
+        let device = &gpu.device;
+        let renderer = Renderer::new(device, RendererConfig { color_format: config.format, samples: SAMPLES })?;
+        let model = scene::upload(pack, textures, device, &gpu.queue)?;
+        let avatar = AvatarState::new(device, &model);
+        let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar };
+        stage.resize(size);
+        Ok(stage)
+    }
+
+    pub(super) fn window(&self) -> &Window {
+        &self.window
+    }
+
+    /// Fits surface and targets to the window; a window without area (minimised) is not drawn.
+    pub(super) fn resize(&mut self, size: PhysicalSize<u32>) {
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
+        self.targets = None;
+        if size.width == 0 || size.height == 0 {
+            return;
+        }
+        (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
+        self.surface.configure(&self.gpu.device, &self.config);
+        let targets = Targets::new(&self.gpu.device, &self.renderer, self.config.width, self.config.height);
+        self.targets = targets.ok();
+    }
+
+    /// Draws one frame. A surface that is not ready loses this frame, not the window.
+    pub(super) fn draw(&mut self, pack: &Pack, state: &FaceState, view: View) -> Result<()> {
+        if self.targets.is_none() {
+            return Ok(());
+        }
+        let frame = match self.surface.get_current_texture() {
+            Acquired::Success(frame) | Acquired::Suboptimal(frame) => frame,
+            Acquired::Timeout | Acquired::Validation => {
+                self.window.request_redraw();
+                return Ok(());
+            }
+            Acquired::Occluded => return Ok(()),
+            Acquired::Outdated => {
+                self.resize(self.window.inner_size());
+                self.window.request_redraw();
+                return Ok(());
+            }
+            Acquired::Lost => {
+                self.surface = self.gpu.instance.create_surface(self.window.clone()).context("the lost surface")?;
+                self.resize(self.window.inner_size());
+                self.window.request_redraw();
+                return Ok(());
+            }
+        };
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let (width, height) = (self.config.width, self.config.height);
+        self.avatar.set(&self.gpu.queue, state.bones(), state.weights())?;
+        let scene = scene::scene(pack, view, width, height, BACKGROUND);
+        let label = Some("frame");
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
+        let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let avatars = [(&self.model, &self.avatar)];
+        self.renderer.draw(&mut encoder, &target, targets, &self.gpu.queue, &scene, &avatars)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        self.window.pre_present_notify();
+        self.gpu.queue.present(frame);
+        Ok(())
+    }
+}

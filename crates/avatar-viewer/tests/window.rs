@@ -1,0 +1,200 @@
+//! The window, driven as a person drives it: real key and mouse events (XTEST, by xdotool) on a virtual display, and
+//! the screen read back.
+
+mod common;
+
+use common::{finish, has_adapter, viewer};
+use image::RgbImage;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{ConnectionExt, ImageFormat};
+
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A process that does not outlive its test.
+struct Process(Child);
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A virtual display with the viewer on it.
+struct Desk {
+    display: String,
+    window: u32,
+    viewer: Process,
+    _server: Process,
+}
+
+impl Desk {
+    fn open(arguments: &[&str]) -> Self {
+        let mut server = Command::new("Xvfb");
+        server.args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"]);
+        let mut server = Process(server.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb starts"));
+        let mut number = String::new();
+        let stdout = server.0.stdout.take().expect("a pipe");
+        BufReader::new(stdout).read_line(&mut number).expect("the display's number");
+        let display = format!(":{}", number.trim());
+
+        let mut command = viewer();
+        command.args(arguments).env("DISPLAY", &display);
+        command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+        let viewer = Process(command.spawn().expect("the viewer starts"));
+        let mut desk = Self { display, window: 0, viewer, _server: server };
+        let start = Instant::now();
+        while desk.window == 0 {
+            assert!(start.elapsed() < PATIENCE, "no window appeared");
+            let found = desk.xdotool(&["search", "--onlyvisible", "--name", "Mimik"]);
+            desk.window = found.lines().next().and_then(|line| line.parse().ok()).unwrap_or(0);
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        desk.do_xdotool(&["windowfocus", &desk.window.to_string()]);
+        desk
+    }
+
+    fn xdotool(&self, arguments: &[&str]) -> String {
+        let output = Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).output();
+        String::from_utf8(output.expect("xdotool starts").stdout).expect("text")
+    }
+
+    fn do_xdotool(&self, arguments: &[&str]) {
+        let status = Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).status();
+        assert!(status.expect("xdotool starts").success(), "xdotool {arguments:?}");
+    }
+
+    fn key(&self, key: &str) {
+        self.do_xdotool(&["key", key]);
+    }
+
+    /// What the window shows now.
+    fn picture(&self) -> RgbImage {
+        let (connection, _) = x11rb::connect(Some(&self.display)).expect("the display");
+        let geometry = connection.get_geometry(self.window).expect("sent").reply().expect("the window's size");
+        let (width, height) = (geometry.width, geometry.height);
+        let image = connection.get_image(ImageFormat::Z_PIXMAP, self.window, 0, 0, width, height, u32::MAX);
+        let pixels = image.expect("sent").reply().expect("the window's pixels").data;
+        connection.flush().expect("sent");
+        let rgb = pixels.as_chunks::<4>().0.iter().flat_map(|[blue, green, red, _]| [*red, *green, *blue]);
+        RgbImage::from_raw(width.into(), height.into(), rgb.collect()).expect("four bytes a pixel")
+    }
+
+    /// What the window shows once it shows `expected`, or at the end of patience.
+    fn picture_once_like(&self, expected: &RgbImage) -> RgbImage {
+        let start = Instant::now();
+        loop {
+            let picture = self.picture();
+            if difference(&picture, expected) == Some(0) || start.elapsed() > PATIENCE {
+                return picture;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    #[track_caller]
+    fn shows(&self, expected: &RgbImage, what: &str) {
+        let found = self.picture_once_like(expected);
+        if let Some(0) = difference(&found, expected) {
+            return;
+        }
+        let folder = std::env::temp_dir();
+        let files = [folder.join("window-found.png"), folder.join("window-expected.png")];
+        found.save(&files[0]).expect("saved");
+        expected.save(&files[1]).expect("saved");
+        let most = difference(&found, expected);
+        panic!("{what}: the window differs by up to {most:?} (None: in size): see {files:?}");
+    }
+}
+
+/// The largest difference of a channel; `None` for pictures of different sizes.
+fn difference(a: &RgbImage, b: &RgbImage) -> Option<u8> {
+    let same_size = a.dimensions() == b.dimensions();
+    same_size.then(|| a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0))
+}
+
+fn render(options: &[&str]) -> RgbImage {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("expected.png");
+    finish(viewer().arg("render").args(options).arg("--out").arg(&out)).ok();
+    image::open(&out).expect("a PNG").into_rgb8()
+}
+
+fn key_of(pose: &str) -> String {
+    let keys = common::run(&["keys"]).ok();
+    let line = keys.lines().find(|line| line.ends_with(&format!("pose {pose}")));
+    line.and_then(|line| line.split_whitespace().next()).expect("a key").to_owned()
+}
+
+fn can_run() -> bool {
+    let missing: Vec<_> = [("Xvfb", "-help"), ("xdotool", "version")]
+        .into_iter()
+        .filter(|(program, option)| {
+            Command::new(program).arg(option).stdout(Stdio::null()).stderr(Stdio::null()).status().is_err()
+        })
+        .map(|(program, _)| program)
+        .collect();
+    if missing.is_empty() {
+        return has_adapter();
+    }
+    let required = std::env::var_os("MIMIK_REQUIRE_GPU").is_some_and(|value| value == "1");
+    assert!(!required, "MIMIK_REQUIRE_GPU=1, but {missing:?} is not installed");
+    eprintln!("skipped: {missing:?} is not installed");
+    false
+}
+
+#[test]
+fn a_person_poses_the_face_by_keys() {
+    if !can_run() {
+        return;
+    }
+    let size = ["--size", "480x360"];
+    let mut desk = Desk::open(&size);
+    let at_rest = render(&size);
+    desk.shows(&at_rest, "at first");
+
+    // A press starts a gradual move; another one redirects it; the last pose is what stays.
+    desk.key(&key_of("yawn"));
+    let half_way = {
+        let start = Instant::now();
+        loop {
+            let picture = desk.picture();
+            if difference(&picture, &at_rest) != Some(0) || start.elapsed() > PATIENCE {
+                break picture;
+            }
+        }
+    };
+    desk.key(&key_of("smile"));
+    let yawn = render(&[&size[..], &["--pose", "yawn"]].concat());
+    let smile = render(&[&size[..], &["--pose", "smile"]].concat());
+    assert_ne!(difference(&half_way, &at_rest), Some(0), "the face moves");
+    assert_ne!(difference(&half_way, &yawn), Some(0), "and it does not jump");
+    desk.shows(&smile, "after the last press");
+
+    // The camera: by mouse and back by key.
+    desk.do_xdotool(&["mousemove", "--window", &desk.window.to_string(), "200", "150"]);
+    desk.do_xdotool(&["mousedown", "1", "mousemove_relative", "100", "0", "mouseup", "1"]);
+    desk.shows(&render(&[&size[..], &["--pose", "smile", "--yaw", "-35"]].concat()), "dragged by 100 pixels");
+    desk.key("Home");
+    desk.shows(&smile, "camera to the front");
+
+    desk.do_xdotool(&["windowsize", &desk.window.to_string(), "400", "500"]);
+    desk.shows(&render(&["--size", "400x500", "--pose", "smile"]), "resized");
+
+    desk.key("BackSpace");
+    desk.shows(&render(&["--size", "400x500"]), "back to the default face");
+
+    desk.key("Escape");
+    let start = Instant::now();
+    let status = loop {
+        if let Some(status) = desk.viewer.0.try_wait().expect("the viewer can be waited for") {
+            break status;
+        }
+        assert!(start.elapsed() < PATIENCE, "Escape did not close the window");
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert!(status.success(), "{status}");
+}

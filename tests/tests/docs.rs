@@ -1,0 +1,130 @@
+//! The documents stay true: names in diagrams exist, and programs in the README run as they stand there.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().expect("the workspace")
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// All Rust source of a crate.
+fn source_of(krate: &str) -> String {
+    let mut folders = vec![root().join("crates").join(krate).join("src")];
+    let mut source = String::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder of source") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                source += &fs::read_to_string(path).expect("source");
+            }
+        }
+    }
+    source
+}
+
+/// Whether a type, function, field or variant of this name is declared.
+fn declares(source: &str, name: &str) -> bool {
+    let starts = [format!("struct {name}"), format!("enum {name}"), format!("fn {name}")];
+    let ends_word = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    let item = starts.iter().any(|start| source.match_indices(start).any(|(at, _)| ends_word(&source[at + start.len()..])));
+    let field = source.lines().map(str::trim).any(|line| {
+        let line = line.trim_start_matches("pub(crate) ").trim_start_matches("pub ");
+        line.strip_prefix(name).is_some_and(|rest| rest.starts_with([':', ',', '(', ' ']))
+    });
+    item || field
+}
+
+#[test]
+fn every_name_in_the_class_diagrams_exists() {
+    let text = read("docs/uml.md");
+    let mut names = 0;
+    for section in text.split("\n## ").skip(1) {
+        let krate = section.lines().next().expect("a heading").trim();
+        let source = source_of(krate);
+        let diagram = section.split("```mermaid").nth(1).and_then(|rest| rest.split("```").next()).expect("a diagram");
+        let mut inside = false;
+        for line in diagram.lines().map(str::trim) {
+            let name = if let Some(class) = line.strip_prefix("class ") {
+                inside = true;
+                class.trim_end_matches('{').trim()
+            } else if line == "}" {
+                inside = false;
+                continue;
+            } else if inside && !line.starts_with("<<") {
+                let member = line.trim_start_matches(['+', '-']);
+                member.split(['(', ':', ' ']).next().expect("a member")
+            } else {
+                continue;
+            };
+            assert!(declares(&source, name), "docs/uml.md: {krate} has no {name:?}");
+            names += 1;
+        }
+    }
+    assert!(names > 60, "the diagrams were not read: {names} names");
+}
+
+#[test]
+fn names_that_do_not_exist_are_noticed() {
+    assert!(!declares("pub struct Rigging; fn update_all() {}", "Rig"));
+    assert!(declares("pub struct Rig<'a>(u8);", "Rig"));
+    assert!(declares("    pub names: Vec<String>,", "names"));
+}
+
+/// The fenced blocks of a language in a text.
+fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
+    let fence = format!("```{language}\n");
+    text.split(&fence).skip(1).filter_map(|rest| rest.split("```").next()).collect()
+}
+
+/// Each crate's section of the README becomes a project of its own outside of the workspace, with only the lines that
+/// stand there, and runs.
+#[test]
+fn the_readmes_programs_run_in_projects_of_their_own() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scratch = folder.path();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(root(), scratch.join("mimik")).expect("the repository beside the project");
+    let readme = read("README.md");
+    let mut crates = Vec::new();
+    for section in readme.split("\n### `").skip(1) {
+        let name = section.split('`').next().expect("a name");
+        let section = section.split("\n## ").next().expect("the section");
+        let (toml, rust) = (blocks(section, "toml"), blocks(section, "rust"));
+        assert_eq!((toml.len(), rust.len()), (1, 1), "{name}: expected one manifest and one program");
+        let project = scratch.join(format!("use-{name}"));
+        fs::create_dir_all(project.join("src")).expect("a folder");
+        let package = format!("[package]\nname = \"use-{name}\"\nedition = \"2024\"\n\n{}\n[workspace]\n", toml[0]);
+        fs::write(project.join("Cargo.toml"), package).expect("a manifest");
+        fs::write(project.join("src/main.rs"), rust[0]).expect("a program");
+        // The same versions as here, so that nothing has to be fetched or built twice.
+        fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock")).expect("a lock file");
+        crates.push((name.to_owned(), project));
+    }
+    let names: Vec<_> = crates.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["rig-core", "avatar-mesh", "pose-anim", "avatar-pack", "avatar-render"]);
+
+    for (name, project) in &crates {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(["run", "--quiet", "--offline"]).current_dir(project);
+        // The workspace's own profile and folder, so that dependencies are not built a second time.
+        cargo.env("CARGO_TARGET_DIR", root().join("target"));
+        cargo.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "line-tables-only");
+        let output = cargo.output().expect("cargo starts");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        let no_adapter = name == "avatar-render" && stderr.contains("expected a GPU adapter");
+        let required = std::env::var_os("MIMIK_REQUIRE_GPU").is_some_and(|value| value == "1");
+        if no_adapter && !required {
+            eprintln!("skipped the picture of {name}: {stderr}");
+            continue;
+        }
+        assert!(output.status.success(), "{name}: {stderr}");
+        assert!(!output.stdout.is_empty(), "{name} prints something");
+    }
+}
