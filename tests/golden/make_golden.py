@@ -101,27 +101,26 @@ def world_frames():
 def write_rig():
     frames = world_frames()
 
-    def joint(name, parent, layout, indent, omit="", children=()):
+    def joint(name, parent, layout, omit="", children=()):
         bind = frames[name] if parent is None else multiply(inverse(frames[parent]), frames[name])
-        numbers = bind if layout == "" else [list(column) for column in zip(*bind)]
-        lines = ["  ".join(f"{x + 0.0:.9g}" for x in (0.0 if abs(x) < 1e-15 else x for x in row)) for row in numbers]
+        numbers = [list(column) for column in zip(*bind)] if layout == columns else bind
         out = [f'<Joint name="{name}"{omit}>', f"  <Matrix{layout}>"]
-        out += ["    " + line for line in lines] + ["  </Matrix>"]
+        # Rounded before, so that the noise of the sixteenth digit prints as 0.
+        out += ["    " + "  ".join(f"{round(x, 12) + 0.0:.9g}" for x in row) for row in numbers] + ["  </Matrix>"]
         if children:
             out += ["  <Children>"] + ["    " + line for child in children for line in child] + ["  </Children>"]
         return out + ["</Joint>"]
 
-    columns, rows, said = ' transposed="true"', "", ' transposed="false"'
+    columns, rows, also_rows = ' transposed="true"', "", ' transposed="false"'
     # Neither the order of the bones nor one layout throughout: names decide, and each matrix says how it runs.
-    head = [joint("RtEyeJoint", "HeadJoint", rows, 0, ' omit="true"'),
-            joint("JawJoint", "HeadJoint", columns, 0),
-            joint("LtLowerLidJoint", "HeadJoint", columns, 0),
-            joint("RtLowerLidJoint", "HeadJoint", said, 0),
-            joint("LtEyeJoint", "HeadJoint", columns, 0, ' omit="true"'),
-            joint("RtUpperLidJoint", "HeadJoint", rows, 0),
-            joint("LtUpperLidJoint", "HeadJoint", columns, 0)]
-    # `said` means rows as well.
-    body = joint("NeckJoint", None, columns, 0, "", [joint("HeadJoint", "NeckJoint", columns, 0, "", head)])
+    head = [joint("RtEyeJoint", "HeadJoint", rows, ' omit="true"'),
+            joint("JawJoint", "HeadJoint", columns),
+            joint("LtLowerLidJoint", "HeadJoint", columns),
+            joint("RtLowerLidJoint", "HeadJoint", also_rows),
+            joint("LtEyeJoint", "HeadJoint", columns, ' omit="true"'),
+            joint("RtUpperLidJoint", "HeadJoint", rows),
+            joint("LtUpperLidJoint", "HeadJoint", columns)]
+    body = joint("NeckJoint", None, columns, "", [joint("HeadJoint", "NeckJoint", columns, "", head)])
     text = ['<?xml version="1.0" encoding="UTF-8"?>', "<!-- Made by make_golden.py. -->", "<JointSet>"]
     text += ["  " + line for line in body] + ["</JointSet>", ""]
     (PACK / "Transformations.xml").write_text("\n".join(text), encoding="utf-8", newline="\n")
@@ -177,7 +176,7 @@ def write_rigid_parts():
                 for c in range(7):
                     u, v = c / 6, r / 4
                     around, out = 2 * math.pi * u, reach * v
-                    n = [-mirror * math.sin(out) * math.cos(around), math.sin(out) * math.sin(around), math.cos(out)]
+                    n = [mirror * math.sin(out) * math.cos(around), math.sin(out) * math.sin(around), math.cos(out)]
                     p = [mirror * 3.25 + radius * n[0], 0.25 + radius * n[1], 1.5 + radius * n[2]]
                     vertices.append(p + [u, v] + n)
             write_part(f"{side}{kind}_smtt", vertices, grid(7, 5))
@@ -264,20 +263,13 @@ def main():
     write_skin(rng)
     write_rigid_parts()
     joints = read_rig()
-    golden = {"title": "the small golden pack", "joint_order": BONES,
-              "cases": [case(joints, *pose) for pose in POSES]}
-    # One line for each inner list.
-    text = json.dumps(golden, indent=1)
-    lines, open_list = [], False
-    for line in text.split("\n"):
-        if open_list:
-            lines[-1] += line.strip() if line.strip() in ("]", "],") else line.strip() + ("" if line.endswith("[") else " ")
-        else:
-            lines.append(line)
-        open_list = (open_list or line.endswith("[")) and line.strip() not in ("]", "],")
-        if line.endswith('"cases": ['):
-            open_list = False
-    (HERE / "expected.json").write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
+    about = {"title": "the small golden pack", "joint_order": BONES}
+    cases = [case(joints, *pose) for pose in POSES]
+    # A line for each entry of each case, so that a difference is easy to find.
+    entries = [",\n  ".join(f"{json.dumps(key)}: {json.dumps(value)}" for key, value in c.items()) for c in cases]
+    head = "".join(f"{json.dumps(key)}: {json.dumps(value)},\n" for key, value in about.items())
+    text = "{\n" + head + '"cases": [\n{' + "},\n{".join(entries) + "}\n]\n}\n"
+    (HERE / "expected.json").write_text(text, encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":
