@@ -74,7 +74,7 @@ fn number(text: &str) -> Result<f32, String> {
 #[derive(Clone, Debug)]
 pub(crate) struct FaceChoice {
     /// Control values of the pose, before couplings.
-    pub(crate) values: Vec<f32>,
+    values: Vec<f32>,
     settings: Vec<(usize, f32)>,
     locals: Vec<(JointId, Affine3A)>,
 }
@@ -83,6 +83,13 @@ impl FaceChoice {
     /// A pose's values on top of the defaults, and nothing else.
     pub(crate) fn of_values(values: Vec<f32>) -> Self {
         Self { values, settings: Vec::new(), locals: Vec::new() }
+    }
+
+    /// Control values with the single settings in place: where a window's motion starts.
+    pub(crate) fn start_values(&self) -> Vec<f32> {
+        let mut values = self.values.clone();
+        self.settings.iter().for_each(|&(control, value)| values[control] = value);
+        values
     }
 
     /// Brings the state into this choice.

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let start = args.face.resolve(&pack, matches)?;
     let event_loop = EventLoop::new().context("expected a display (X11 or Wayland) to open a window on")?;
     let mut player = Player::new(&pack.controls);
-    player.jump_to(&start.values)?;
+    player.jump_to(&start.start_values())?;
     let mut app = App {
         title: format!("Mimik: {}", files.name()),
         size: PhysicalSize::new(args.size.width, args.size.height),
