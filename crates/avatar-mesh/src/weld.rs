@@ -1,5 +1,5 @@
 use crate::{Mesh, Shape, Skinning};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
 /// A mesh without repeated vertices.
@@ -79,23 +79,27 @@ pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
     // Not much finer than the coordinates: their cell numbers would leave i64 and fall into one cell.
     let extent = positions.iter().map(|p| p.abs().max_element()).fold(0.0f32, f32::max);
     let finest = f64::from(extent.min(f32::MAX)) / (1u64 << 40) as f64;
-    let cell_size = (f64::from(tolerance) * 2.0).max(finest).max(f64::MIN_POSITIVE);
-    let cell_of = |p: Vec3| (p.as_dvec3() / cell_size).floor().to_array().map(|x| x as i64);
+    let cell_size = (f64::from(tolerance) * 2.5).max(finest).max(f64::MIN_POSITIVE);
+    let cell_of = |p: DVec3| (p / cell_size).floor().to_array().map(|x| x as i64);
+    // A little more than the tolerance, for the rounding of the division. Cells are wider than twice that, so that
+    // what a point can reach lies in two of them along each axis, often in one.
+    let reach = DVec3::splat(f64::from(tolerance).max(0.0) + cell_size * 1e-3);
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     let mut roots: Vec<u32> = (0..positions.len() as u32).collect();
     for (vertex, &position) in positions.iter().enumerate() {
-        let [x, y, z] = cell_of(position);
-        for neighbour in 0..27 {
-            let (dx, dy, dz) = (neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
-            let key = [x.saturating_add(dx), y.saturating_add(dy), z.saturating_add(dz)];
+        let position = position.as_dvec3();
+        let ([x0, y0, z0], [x1, y1, z1]) = (cell_of(position - reach), cell_of(position + reach));
+        let rows = (x0..=x1).flat_map(|x| (y0..=y1).map(move |y| (x, y)));
+        for key in rows.flat_map(|(x, y)| (z0..=z1).map(move |z| [x, y, z])) {
             for &other in cells.get(&key).map_or(&[][..], Vec::as_slice) {
-                if positions[other as usize].distance(position) <= tolerance {
+                // In f64, where squares of small differences do not vanish.
+                if positions[other as usize].as_dvec3().distance(position) <= f64::from(tolerance) {
                     let (a, b) = (root(&mut roots, other), root(&mut roots, vertex as u32));
                     roots[a.max(b) as usize] = a.min(b);
                 }
             }
         }
-        cells.entry([x, y, z]).or_default().push(vertex as u32);
+        cells.entry(cell_of(position)).or_default().push(vertex as u32);
     }
     let mut numbers = HashMap::new();
     (0..positions.len() as u32)

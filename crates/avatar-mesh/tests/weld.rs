@@ -78,7 +78,7 @@ proptest! {
     }
 
     #[test]
-    fn points_are_merged_as_all_pairs_say(seed in any::<u64>(), n in 0..80usize, tolerance in prop_oneof![0.0..0.6f32, Just(0.0f32), Just(1e-30f32)]) {
+    fn points_are_merged_as_all_pairs_say(seed in any::<u64>(), n in 0..80usize, tolerance in prop_oneof![0.0..0.6f32, Just(0.0f32), Just(1e-30f32), Just(100.0f32)]) {
         let mut random = Random(seed);
         let mut points: Vec<Vec3> = (0..n).map(|_| random.vec3(2.0)).collect();
         // Exact copies, and points on a grid whose distances are the tolerance to the bit.
@@ -99,7 +99,7 @@ fn all_pairs(points: &[Vec3], tolerance: f32) -> Vec<u32> {
     let mut group: Vec<usize> = (0..points.len()).collect();
     for i in 0..points.len() {
         for j in 0..i {
-            if points[i].distance(points[j]) <= tolerance {
+            if points[i].as_dvec3().distance(points[j].as_dvec3()) <= f64::from(tolerance) {
                 let (from, to) = (group[i], group[j]);
                 group.iter_mut().filter(|g| **g == from).for_each(|g| *g = to);
             }
@@ -167,6 +167,8 @@ fn chains_merge_and_the_tolerance_is_a_distance() {
     assert_eq!(weld_positions(&[], 1.0), [] as [u32; 0]);
     // No distance is within less than nothing, not even that of a point to itself.
     assert_eq!(weld_positions(&[Vec3::ONE; 2], -1.0), [0, 1]);
+    // Differences whose squares vanish in f32 are differences still.
+    assert_eq!(weld_positions(&[Vec3::X * 1e-25, Vec3::X * 2e-25], 1e-26), [0, 1]);
     let far = [Vec3::splat(1e30), Vec3::splat(1e30), Vec3::splat(-1e30), Vec3::splat(f32::MAX)];
     assert_eq!(weld_positions(&far, 1e-6), [0, 0, 1, 2]);
 }
