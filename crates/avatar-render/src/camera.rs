@@ -84,8 +84,8 @@ fn orbit_rotation(yaw_rad: f32, pitch_rad: f32) -> Quat {
 }
 
 fn half_fov_tan(vertical_fov_rad: f32) -> f32 {
-    // Not clamp: NaN must become a usable number as well.
-    (vertical_fov_rad * 0.5).max(0.005).min(1.56).tan()
+    let half = if vertical_fov_rad.is_nan() { 0.0 } else { vertical_fov_rad * 0.5 };
+    half.clamp(0.005, 1.56).tan()
 }
 
 fn valid_aspect(aspect: f32) -> f32 {

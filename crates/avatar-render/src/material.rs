@@ -1,5 +1,4 @@
 use avatar_mesh::PartKind;
-use bytemuck::Zeroable;
 
 /// The looks of a part: plain data, with defaults per kind. Colours are linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +35,7 @@ impl Material {
             // Reflectance: E. d'Eon and D. Luebke, "Advanced Techniques for Realistic Real-Time Skin Rendering", 2007.
             PartKind::Skin => Self {
                 color: [0.60, 0.36, 0.26],
-                wrap: [0.38, 0.18, 0.12],
+                wrap: [0.28, 0.14, 0.09],
                 reflectance: 0.028,
                 roughness_matte: 0.65,
                 roughness_glossy: 0.35,
@@ -62,8 +61,8 @@ impl Material {
                 color: [0.8, 0.85, 0.9],
                 opacity: 0.03,
                 reflectance: 0.02,
-                roughness_matte: 0.16,
-                roughness_glossy: 0.08,
+                roughness_matte: 0.3,
+                roughness_glossy: 0.2,
                 ..matte
             },
         }
@@ -104,7 +103,6 @@ impl GpuMaterial {
             roughness_glossy: material.roughness_glossy,
             normal_strength: material.normal_strength,
             textures,
-            ..Self::zeroed()
         }
     }
 }

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 ///
 /// With `MIMIK_REQUIRE_GPU=1` a missing GPU fails the test instead.
 #[allow(clippy::disallowed_methods, reason = "a test may ask the environment how strict it is to be")]
-pub fn gpu() -> Option<&'static Gpu> {
+pub(crate) fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
     let opened = GPU.get_or_init(|| open_blocking(GpuOptions::default()).map_err(|e| e.to_string()));
     match opened {
@@ -28,10 +28,10 @@ pub fn gpu() -> Option<&'static Gpu> {
 }
 
 /// A small generator with a fixed seed: SplitMix64.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -40,30 +40,30 @@ impl Random {
     }
 
     /// From −1 to 1.
-    pub fn signed(&mut self) -> f32 {
+    pub(crate) fn signed(&mut self) -> f32 {
         (self.bits() >> 40) as f32 / (1u64 << 23) as f32 - 1.0
     }
 
-    pub fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 
-    pub fn vec3(&mut self, size: f32) -> Vec3 {
+    pub(crate) fn vec3(&mut self, size: f32) -> Vec3 {
         Vec3::new(self.signed(), self.signed(), self.signed()) * size
     }
 
-    pub fn unit(&mut self) -> Vec3 {
+    pub(crate) fn unit(&mut self) -> Vec3 {
         self.vec3(1.0).normalize_or(Vec3::Z)
     }
 
-    pub fn rigid(&mut self, reach: f32) -> Affine3A {
+    pub(crate) fn rigid(&mut self, reach: f32) -> Affine3A {
         let rotation = Quat::from_axis_angle(self.unit(), self.signed() * 3.0);
         Affine3A::from_rotation_translation(rotation, self.vec3(reach))
     }
 }
 
 /// A cloud of vertices with shapes and, unless it is rigid, four bones each.
-pub fn random_mesh(random: &mut Random, vertices: usize, shapes: usize, bones: Option<usize>) -> Mesh {
+pub(crate) fn random_mesh(random: &mut Random, vertices: usize, shapes: usize, bones: Option<usize>) -> Mesh {
     let vec3s = |random: &mut Random, size: f32| (0..vertices).map(|_| random.vec3(size)).collect::<Vec<_>>();
     let positions = vec3s(random, 20.0);
     let normals: Vec<Vec3> = (0..vertices).map(|_| random.unit()).collect();
@@ -89,7 +89,7 @@ pub fn random_mesh(random: &mut Random, vertices: usize, shapes: usize, bones: O
 }
 
 /// A ball around `center`.
-pub fn ball(center: Vec3, radius: f32, steps: u32) -> Mesh {
+pub(crate) fn ball(center: Vec3, radius: f32, steps: u32) -> Mesh {
     let mut mesh = Mesh::default();
     for row in 0..=steps {
         for column in 0..=2 * steps {
@@ -113,7 +113,7 @@ pub fn ball(center: Vec3, radius: f32, steps: u32) -> Mesh {
 }
 
 /// A square that looks along +Z.
-pub fn square(center: Vec3, half: f32) -> Mesh {
+pub(crate) fn square(center: Vec3, half: f32) -> Mesh {
     let corner = |x: f32, y: f32| center + half * Vec3::new(x, y, 0.0);
     Mesh {
         positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
@@ -125,19 +125,19 @@ pub fn square(center: Vec3, half: f32) -> Mesh {
 }
 
 /// A rigid part without textures that follows bone 0.
-pub fn part<'a>(mesh: &'a Mesh, kind: PartKind, textures: PartTextures<'a>) -> PartDesc<'a> {
+pub(crate) fn part<'a>(mesh: &'a Mesh, kind: PartKind, textures: PartTextures<'a>) -> PartDesc<'a> {
     PartDesc { label: "part", mesh, kind, bones: PartBones::Rigid(0), textures }
 }
 
 /// A model of rigid parts and its state at bind pose.
-pub fn model(gpu: &Gpu, parts: &[PartDesc<'_>]) -> (AvatarModel, AvatarState) {
+pub(crate) fn model(gpu: &Gpu, parts: &[PartDesc<'_>]) -> (AvatarModel, AvatarState) {
     let model = AvatarModel::new(&gpu.device, &gpu.queue, parts, 1).expect("a valid model");
     let state = AvatarState::new(&gpu.device, &model);
     (model, state)
 }
 
 /// From the front, on black.
-pub fn scene(distance: f32) -> Scene {
+pub(crate) fn scene(distance: f32) -> Scene {
     Scene {
         camera: Camera::orbit(Vec3::ZERO, distance, 0.0, 0.0, 0.6, 1.0),
         background: [0.0, 0.0, 0.0, 1.0],
@@ -146,18 +146,18 @@ pub fn scene(distance: f32) -> Scene {
 }
 
 /// White light from everywhere, alike: colours come out as the textures have them (but for tone mapping).
-pub fn flat_light() -> Light {
+pub(crate) fn flat_light() -> Light {
     let off = Lamp { direction_world: Vec3::Z, radiance: [0.0; 3] };
     Light { key: off, fill: off, rim: off, sky: [0.7; 3], ground: [0.7; 3], exposure: 1.0 }
 }
 
 /// A picture of one colour.
-pub fn plain(rgba: [u8; 4]) -> Image {
+pub(crate) fn plain(rgba: [u8; 4]) -> Image {
     Image { width: 1, height: 1, rgba: rgba.to_vec() }
 }
 
 /// The largest difference of two pictures in one channel.
-pub fn largest_difference(a: &Image, b: &Image) -> u8 {
+pub(crate) fn largest_difference(a: &Image, b: &Image) -> u8 {
     assert_eq!((a.width, a.height), (b.width, b.height));
     a.rgba.iter().zip(&b.rgba).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
 }

@@ -8,8 +8,9 @@ struct Lit {
 // GGX: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, eq. 33, times pi because
 // lamps are measured by what a white surface reflects.
 fn ggx_distribution_pi(n_dot_h: f32, alpha: f32) -> f32 {
-    let f = (n_dot_h * alpha - n_dot_h) * n_dot_h + 1.0;
-    return alpha * alpha / (f * f);
+    let alpha2 = alpha * alpha;
+    let f = (n_dot_h * alpha2 - n_dot_h) * n_dot_h + 1.0;
+    return alpha2 / (f * f);
 }
 
 // Height-correlated Smith masking over 4 NoL NoV, with Hammon's approximation: E. Hammon, "PBR Diffuse Lighting for
