@@ -30,7 +30,9 @@ const LOOK: &[Turn] = &[
 ];
 
 /// Name, yaw and pitch of the camera in degrees, turns, weights of smile and frown.
-const PICTURES: [(&str, f32, f32, &[Turn], [f32; 2]); 8] = [
+type Picture = (&'static str, f32, f32, &'static [Turn], [f32; 2]);
+
+const PICTURES: [Picture; 8] = [
     ("front", 0.0, 0.0, &[], [0.0, 0.0]),
     ("three-quarter", 40.0, 10.0, &[], [0.0, 0.0]),
     ("left side", 90.0, 0.0, &[], [0.0, 0.0]),

@@ -1,5 +1,6 @@
 //! One GPU per test program, and meshes to draw.
 #![allow(dead_code, reason = "every test program uses its own share of this module")]
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use avatar_mesh::{Mesh, PartKind, Shape, Skinning};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
