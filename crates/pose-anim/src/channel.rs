@@ -1,37 +1,57 @@
-use crate::{Jet, quintic::Quintic};
+use crate::path::{Eased, Path};
+use crate::quintic::Quintic;
+use crate::settle::settle;
+use crate::{Easing, Jet, Pace};
 
-/// How many fades may run one inside the other. Eight presses within one move of the head are more than fingers do;
-/// what goes beyond is folded (see [`Channel`]).
+/// How many fades may run one inside the other. Five presses within one move that all would leave the range are more
+/// than fingers do; what goes beyond is folded (see [`Channel`]).
 const MAX_FADES: usize = 4;
+
+/// Share of its range by which a value may leave it through rounding.
+pub(crate) const ROUNDING: f64 = 1e-12;
+
+/// Durations that a move may have: a shorter one has derivatives without meaning, a longer one no end.
+const DURATIONS_SECS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
 
 /// The motion of one control.
 ///
 /// A move is a closed function of the age of its parts, so that its state at a time does not depend on the steps that
-/// led there. Its innermost part is a quintic `b(t)`. Where the quintic from the present state to the new target
-/// would leave the range, the running motion goes on and is faded out instead:
+/// led there. Its innermost part is a path of its own, mostly a quintic. Where the quintic from the present state to the new
+/// target would leave the range, the running motion goes on and is faded out instead:
 ///
 /// ```text
 /// x(t) = (1 − r(t)) · x_old(t) + r(t) · target        r: minimum-jerk step
 /// ```
 ///
 /// At the start `r = r' = r'' = 0`, so value, velocity and acceleration go on; at the end `r = 1, r' = r'' = 0`, so the
-/// target is reached at rest; and a convex combination of values in a range is in the range.
+/// target is reached at rest; and a convex combination of values in a range is in the range. The target may itself move.
 ///
 /// `x_old` may itself be such a fade. When [`MAX_FADES`] are running and another one is needed, the two innermost parts
-/// (the quintic and the first fade) are *folded*: a single quintic takes over from their present state. Where it comes to
+/// (the path and the first fade) are *folded*: a single quintic takes over from their present state. Where it comes to
 /// rest does not matter, because it is about to fade out anyway; so place and time are free, and there always is a quintic that
 /// stays in range: see [`settle`]. Whatever it changes in the further course is weighed down by the product of
 /// all fades around it. That keeps C², the range, the arrival time and a fixed size, for any number of presses.
-#[derive(Clone, Copy, Debug)]
+///
+/// What most moves do not need lies apart, in [`Rare`]: ten thousand faces are read from memory in every tick.
+#[derive(Clone, Debug)]
 pub(crate) struct Channel {
     range: Range,
-    /// Time since the last press of this control.
+    /// Time since the last start of a move.
     elapsed_secs: f64,
-    base: Quintic,
-    /// Age of `base` at the last press.
+    base: Path,
+    /// Age of `base` at the last start.
     base_age_secs: f64,
+    /// Number of fades that run.
+    fades: u8,
+    /// Whether a move waits for its delay to pass.
+    waits: bool,
+}
+
+/// What a channel needs only around interruptions.
+#[derive(Clone, Debug)]
+pub(crate) struct Rare {
     fades: [Fade; MAX_FADES],
-    running: usize,
+    waiting: Waiting,
 }
 
 /// The values that a control may have.
@@ -49,154 +69,218 @@ impl Range {
     pub(crate) fn width(self) -> f64 {
         self.max - self.min
     }
+
+    /// The end of the pipeline: what is out of range rests at its end. What is so by rounding only keeps its rates.
+    pub(crate) fn confine(self, state: Jet) -> Jet {
+        let slack = ROUNDING * self.width();
+        if state.value < self.min - slack || state.value > self.max + slack {
+            Jet::rest(self.clamp(state.value))
+        } else {
+            Jet { value: self.clamp(state.value), ..state }
+        }
+    }
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Fade {
-    /// Age at the last press.
+    /// Age at the last start.
     age_secs: f64,
     duration_secs: f64,
-    target: f64,
+    /// As old as the fade.
+    towards: Path,
 }
 
-impl Fade {
-    const NONE: Self = Self { age_secs: 0.0, duration_secs: 0.0, target: 0.0 };
+/// A move that is to start when `elapsed_secs` has come to a time.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    at_secs: f64,
+    goal: Goal,
+}
+
+/// Where to go and how.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Goal {
+    /// In range.
+    pub(crate) target: f64,
+    /// `None`: by the distance at the start.
+    pub(crate) duration_secs: Option<f64>,
+    pub(crate) pace: Pace,
+    /// Of either duration.
+    pub(crate) factor: f64,
+    /// `None`: least jerk.
+    pub(crate) easing: Option<Easing>,
+}
+
+impl Goal {
+    const NONE: Self =
+        Self { target: 0.0, duration_secs: None, pace: Pace::OTHER, factor: 1.0, easing: None };
+
+    fn duration_from(&self, state: Jet, range: Range) -> f64 {
+        let own_secs = self.pace.duration_secs(self.target - state.value, range.width());
+        let secs = self.duration_secs.unwrap_or(own_secs) * self.factor;
+        let secs = if secs.is_nan() { own_secs } else { secs };
+        secs.max(*DURATIONS_SECS.start()).min(*DURATIONS_SECS.end())
+    }
+}
+
+impl Rare {
+    pub(crate) fn new() -> Self {
+        let fade = || Fade { age_secs: 0.0, duration_secs: 0.0, towards: Path::rest(0.0) };
+        Self { fades: std::array::from_fn(|_| fade()), waiting: Waiting { at_secs: 0.0, goal: Goal::NONE } }
+    }
 }
 
 impl Channel {
-    pub(crate) fn rest(range: Range, value: f64) -> Self {
-        Self {
-            range,
-            elapsed_secs: 0.0,
-            base: Quintic::rest(value),
-            base_age_secs: 0.0,
-            fades: [Fade::NONE; MAX_FADES],
-            running: 0,
-        }
+    pub(crate) const fn rest(range: Range, value: f64) -> Self {
+        let base = Path::rest(value);
+        Self { range, elapsed_secs: 0.0, base, base_age_secs: 0.0, fades: 0, waits: false }
     }
 
-    pub(crate) fn range(&self) -> Range {
+    pub(crate) const fn range(&self) -> Range {
         self.range
     }
 
-    pub(crate) fn target(&self) -> f64 {
-        match self.running.checked_sub(1) {
-            Some(last) => self.fades[last].target,
-            None => self.base.target,
-        }
-    }
-
-    pub(crate) fn is_at_rest(&self) -> bool {
-        self.remaining_secs() == 0.0
+    pub(crate) fn is_at_rest(&self, rare: &Rare) -> bool {
+        self.remaining_secs(rare) == 0.0
     }
 
     /// Time until the target is reached.
-    pub(crate) fn remaining_secs(&self) -> f64 {
-        match self.running.checked_sub(1) {
-            Some(last) => {
-                let fade = &self.fades[last];
-                (fade.duration_secs - (fade.age_secs + self.elapsed_secs)).max(0.0)
+    pub(crate) fn remaining_secs(&self, rare: &Rare) -> f64 {
+        if self.waits {
+            let Waiting { at_secs, goal } = rare.waiting;
+            let start = self.state_after(at_secs - self.elapsed_secs, rare);
+            return at_secs - self.elapsed_secs + goal.duration_from(start, self.range);
+        }
+        match self.running(rare).last() {
+            Some(fade) => {
+                let age_secs = fade.age_secs + self.elapsed_secs;
+                (fade.duration_secs - age_secs).max(fade.towards.remaining_secs(age_secs))
             }
             None => self.base.remaining_secs(self.base_age_secs + self.elapsed_secs),
         }
+        .max(0.0)
     }
 
-    pub(crate) fn advance(&mut self, dt_secs: f64) {
-        self.elapsed_secs += dt_secs;
-        if self.is_at_rest() {
-            *self = Self::rest(self.range, self.target());
+    /// Lets time pass, through the start of a move that waits.
+    pub(crate) fn advance(&mut self, dt_secs: f64, rare: &mut Rare) {
+        let mut until_secs = self.elapsed_secs + dt_secs;
+        if self.waits && until_secs >= rare.waiting.at_secs {
+            let Waiting { at_secs, goal } = rare.waiting;
+            until_secs -= at_secs;
+            self.elapsed_secs = at_secs;
+            self.start(goal, rare);
+        }
+        self.elapsed_secs = until_secs;
+        if self.is_at_rest(rare) {
+            *self = Self::rest(self.range, self.end(rare));
         }
     }
 
-    /// State at this moment, in range.
-    pub(crate) fn state(&self) -> Jet {
-        let state = self.inner_state(self.running);
-        Jet { value: self.range.clamp(state.value), ..state }
+    /// State at this moment. Only transition functions that overshoot on purpose take it out of the range, beyond
+    /// rounding.
+    pub(crate) fn state(&self, rare: &Rare) -> Jet {
+        self.state_after(0.0, rare)
     }
 
-    /// State of the base with its `fades` innermost fades.
-    fn inner_state(&self, fades: usize) -> Jet {
-        let mut state = self.base.at(self.base_age_secs + self.elapsed_secs);
-        for fade in &self.fades[..fades] {
-            let share = Jet::step(fade.age_secs + self.elapsed_secs, fade.duration_secs);
-            state = state.mix(Jet::rest(fade.target), share);
+    /// Heads for a goal from the present state after a delay, until when everything goes on as it is. A move that still
+    /// waits is dropped.
+    pub(crate) fn press(&mut self, goal: Goal, delay_secs: f64, rare: &mut Rare) {
+        if delay_secs > 0.0 {
+            rare.waiting = Waiting { at_secs: self.elapsed_secs + delay_secs, goal };
+            self.waits = true;
+        } else {
+            self.start(goal, rare);
+        }
+    }
+
+    fn start(&mut self, goal: Goal, rare: &mut Rare) {
+        self.waits = false;
+        let state = self.state(rare);
+        if state == Jet::rest(goal.target) && self.is_at_rest(rare) {
+            *self = Self::rest(self.range, goal.target);
+            return;
+        }
+        let duration_secs = goal.duration_from(state, self.range);
+        if let Some(easing) = goal.easing {
+            let eased = Eased { from: state.value, target: goal.target, duration_secs, easing };
+            self.fade_into(Path::Eased(eased), Eased::BLEND * duration_secs, rare);
+            return;
+        }
+        let direct = Quintic::new(state, goal.target, duration_secs);
+        let inside = (self.range.clamp(state.value) - state.value).abs() <= ROUNDING * self.range.width();
+        if inside && direct.stays_within(self.range.min, self.range.max) {
+            *self = Self { base: Path::Quintic(direct), ..Self::rest(self.range, goal.target) };
+            return;
+        }
+        self.fade_into(Path::rest(goal.target), duration_secs, rare);
+    }
+
+    /// Lets the present motion go on and fades from it into another one, which begins now.
+    fn fade_into(&mut self, towards: Path, duration_secs: f64, rare: &mut Rare) {
+        self.base_age_secs += self.elapsed_secs;
+        rare.fades[..usize::from(self.fades)].iter_mut().for_each(|fade| fade.age_secs += self.elapsed_secs);
+        self.elapsed_secs = 0.0;
+        self.drop_faded_out(rare);
+        if usize::from(self.fades) == MAX_FADES {
+            self.fold(rare);
+        }
+        rare.fades[usize::from(self.fades)] = Fade { age_secs: 0.0, duration_secs, towards };
+        self.fades += 1;
+    }
+
+    fn running<'r>(&self, rare: &'r Rare) -> &'r [Fade] {
+        &rare.fades[..usize::from(self.fades)]
+    }
+
+    /// Where the motion comes to rest.
+    fn end(&self, rare: &Rare) -> f64 {
+        self.running(rare).last().map_or(&self.base, |fade| &fade.towards).end()
+    }
+
+    fn state_after(&self, secs: f64, rare: &Rare) -> Jet {
+        self.inner_state(secs, self.running(rare))
+    }
+
+    /// State of the base within these of its fades.
+    fn inner_state(&self, secs: f64, fades: &[Fade]) -> Jet {
+        let now_secs = self.elapsed_secs + secs;
+        let mut state = self.base.at(self.base_age_secs + now_secs);
+        for fade in fades {
+            let age_secs = fade.age_secs + now_secs;
+            let towards = fade.towards.at(age_secs);
+            // What is over has no weight, whatever it may be.
+            state = if age_secs >= fade.duration_secs {
+                towards
+            } else {
+                state.mix(towards, Jet::step(age_secs, fade.duration_secs))
+            };
         }
         state
     }
 
-    /// Heads for `target` (in range) from the present state, to arrive after `duration_secs` (greater than 0).
-    pub(crate) fn press(&mut self, target: f64, duration_secs: f64) {
-        let state = self.state();
-        if state == Jet::rest(target) && self.is_at_rest() {
-            *self = Self::rest(self.range, target);
-            return;
-        }
-        let direct = Quintic::new(state, target, duration_secs);
-        if direct.stays_within(self.range.min, self.range.max) {
-            *self = Self { base: direct, ..Self::rest(self.range, target) };
-            return;
-        }
-        self.base_age_secs += self.elapsed_secs;
-        self.fades[..self.running].iter_mut().for_each(|fade| fade.age_secs += self.elapsed_secs);
-        self.elapsed_secs = 0.0;
-        self.drop_faded_out();
-        if self.running == MAX_FADES {
-            self.fold();
-        }
-        self.fades[self.running] = Fade { age_secs: 0.0, duration_secs, target };
-        self.running += 1;
-    }
-
     /// Removes the parts that no longer have any weight: everything inside a fade that is over, and a fade that has
-    /// just begun (another press at the same moment replaces it).
-    fn drop_faded_out(&mut self) {
-        let over = self.fades[..self.running].iter().rposition(|fade| fade.age_secs >= fade.duration_secs);
+    /// just begun (another press at the same moment replaces it). To be called at `elapsed_secs` = 0.
+    fn drop_faded_out(&mut self, rare: &mut Rare) {
+        let over = self.running(rare).iter().rposition(|fade| fade.age_secs >= fade.duration_secs);
         if let Some(over) = over {
-            self.base = Quintic::rest(self.fades[over].target);
-            self.fades.copy_within(over + 1..self.running, 0);
-            self.running -= over + 1;
+            self.base = rare.fades[over].towards.clone();
+            self.base_age_secs = rare.fades[over].age_secs;
+            rare.fades.rotate_left(over + 1);
+            self.fades -= over as u8 + 1;
         }
-        if self.running > 0 && self.fades[self.running - 1].age_secs == 0.0 {
-            self.running -= 1;
+        if self.running(rare).last().is_some_and(|fade| fade.age_secs == 0.0) {
+            self.fades -= 1;
         }
     }
 
     /// Replaces the base and the innermost fade by one quintic.
-    fn fold(&mut self) {
-        let inner = self.fades[0];
+    fn fold(&mut self, rare: &mut Rare) {
+        let inner = &rare.fades[0];
+        let state = self.inner_state(0.0, &rare.fades[..1]);
         let remaining_secs = inner.duration_secs - inner.age_secs;
-        self.base = settle(self.inner_state(1), inner.target, remaining_secs, self.range);
+        self.base = Path::Quintic(settle(state, inner.towards.end(), remaining_secs, self.range));
         self.base_age_secs = 0.0;
-        self.fades.copy_within(1.., 0);
-        self.running -= 1;
+        rare.fades.rotate_left(1);
+        self.fades -= 1;
     }
-}
-
-/// A quintic from `state` to rest anywhere in the range, that never leaves the range, as slow as possible.
-///
-/// It always exists: as the duration goes to 0, `v₀D` and `a₀D²` vanish and the quintic becomes the monotone
-/// minimum-jerk step from `x₀` to its end, which is in range. The longest duration that works depends on how close to
-/// an end of the range, and how fast, the state is. The ends tried are the target that the motion had, the place where the
-/// least braking would stop it (the free end of a minimum-jerk move, `x₀ + v₀D/2 + a₀D²/12`), and points
-/// throughout the range, because a state that is about to turn must be free to turn far.
-///
-/// Where a state is so close to the end of its range that no duration down to 2⁻⁴⁰ of the wanted one works, it is on the end
-/// up to rounding, and then its velocity, which came from a motion in range, is as small; it is held there.
-fn settle(state: Jet, target: f64, duration_secs: f64, range: Range) -> Quintic {
-    let mut duration_secs = duration_secs;
-    for _ in 0..40 {
-        let braked =
-            state.value + duration_secs * (state.velocity / 2.0 + state.acceleration * duration_secs / 12.0);
-        let share = |share: f64| range.min + share * range.width();
-        let ends =
-            [target, range.clamp(braked), share(0.5), share(0.25), share(0.75), share(0.0), share(1.0)];
-        for end in ends {
-            let quintic = Quintic::new(state, end, duration_secs);
-            if quintic.stays_within(range.min, range.max) {
-                return quintic;
-            }
-        }
-        duration_secs *= 0.5;
-    }
-    Quintic::rest(range.clamp(state.value))
 }

@@ -72,6 +72,30 @@ pub enum ApplyError {
     },
 }
 
+/// Why poses could not be mixed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MixError {
+    /// A pose that does not exist.
+    #[error("expected the name of a pose, found {name:?}{}", hint(.nearest))]
+    UnknownPose {
+        /// The name.
+        name: String,
+        /// The pose that is probably meant.
+        nearest: Option<String>,
+    },
+    /// A weight that is no finite number.
+    #[error("pose {pose:?}: expected a finite number as weight, found {weight:?}")]
+    Weight {
+        /// Name of the pose.
+        pose: String,
+        /// The weight.
+        weight: String,
+    },
+    /// No pose at all.
+    #[error("expected poses such as \"smile\" or \"smile:0.5 wink-left\", found none")]
+    Empty,
+}
+
 /// Why time could not go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum AdvanceError {

@@ -43,6 +43,15 @@ impl Jet {
         }
     }
 
+    /// `f(self)` in time, from `f` with its two derivatives by its argument, at the value of `self`.
+    pub(crate) fn through(self, f: Self) -> Self {
+        Self {
+            value: f.value,
+            velocity: f.velocity * self.velocity,
+            acceleration: f.acceleration * self.velocity * self.velocity + f.velocity * self.acceleration,
+        }
+    }
+
     /// `(1 − share) · self + share · other`.
     pub fn mix(self, other: Self, share: Self) -> Self {
         self + share * (other - self)

@@ -1,8 +1,5 @@
-use crate::channel::{Channel, Range};
+use crate::channel::{Channel, Goal, Range, Rare};
 use crate::{AdvanceError, ControlTable, Jet, JumpError, Pace, Pose};
-
-/// Durations that a press may have: a shorter one has derivatives without meaning, a longer one no end.
-const DURATIONS_SECS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
 
 /// Moves the controls of one face from pose to pose.
 ///
@@ -16,10 +13,12 @@ const DURATIONS_SECS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
 #[derive(Clone, Debug)]
 pub struct Player {
     channels: Vec<Channel>,
+    rare: Vec<Rare>,
     paces: Vec<Pace>,
     values: Vec<f32>,
     velocities: Vec<f32>,
     accelerations: Vec<f32>,
+    confined: bool,
 }
 
 impl Player {
@@ -31,11 +30,20 @@ impl Player {
         };
         Self {
             channels: controls.controls().iter().map(channel).collect(),
+            rare: controls.controls().iter().map(|_| Rare::new()).collect(),
             paces: controls.controls().iter().map(|control| control.pace).collect(),
             values: controls.defaults(),
             velocities: vec![0.0; controls.len()],
             accelerations: vec![0.0; controls.len()],
+            confined: true,
         }
+    }
+
+    /// The same player, whose values may leave their ranges where a transition function overshoots on purpose (back,
+    /// elastic). Without this, such a value rests at the end of its range for a while, so its velocity jumps.
+    #[must_use]
+    pub fn with_overshoot(self) -> Self {
+        Self { confined: false, ..self }
     }
 
     /// Heads for a pose, from now on. The controls that the pose leaves out go on with whatever they do.
@@ -44,18 +52,23 @@ impl Player {
     /// finite is passed over. (Poses that were read from a text are right already.)
     pub fn press(&mut self, pose: &Pose) {
         for (control, value) in &pose.values {
-            let (Some(channel), Some(pace)) = (self.channels.get_mut(*control), self.paces.get(*control))
+            let (Some(channel), Some(rare)) = (self.channels.get_mut(*control), self.rare.get_mut(*control))
             else {
                 continue;
             };
+            let Some(pace) = self.paces.get(*control) else { continue };
             if !value.is_finite() {
                 continue;
             }
-            let range = channel.range();
-            let target = range.clamp(f64::from(*value));
-            let own_secs = pace.duration_secs(target - channel.state().value, range.width());
-            let wanted_secs = pose.duration_secs.map_or(own_secs, f64::from);
-            channel.press(target, sensible_duration(wanted_secs, own_secs));
+            let timing = pose.timing(*control);
+            let goal = Goal {
+                target: channel.range().clamp(f64::from(*value)),
+                duration_secs: pose.duration_secs.map(f64::from),
+                pace: *pace,
+                factor: timing.factor.into(),
+                easing: pose.transition,
+            };
+            channel.press(goal, f64::from(timing.delay_secs).min(3600.0), rare);
         }
     }
 
@@ -70,14 +83,13 @@ impl Player {
             return Ok(());
         }
         let outputs = self.values.iter_mut().zip(&mut self.velocities).zip(&mut self.accelerations);
-        for (channel, ((value, velocity), acceleration)) in self.channels.iter_mut().zip(outputs) {
-            if channel.is_at_rest() {
-                // Also after a press of the very value that the control has.
-                *value = channel.target() as f32;
-                continue;
+        let channels = self.channels.iter_mut().zip(&mut self.rare);
+        for ((channel, rare), ((value, velocity), acceleration)) in channels.zip(outputs) {
+            channel.advance(dt_secs, rare);
+            let mut state = channel.state(rare);
+            if self.confined {
+                state = channel.range().confine(state);
             }
-            channel.advance(dt_secs);
-            let state = channel.state();
             *value = state.value as f32;
             *velocity = state.velocity as f32;
             *acceleration = state.acceleration as f32;
@@ -109,7 +121,7 @@ impl Player {
         for (index, (channel, value)) in self.channels.iter_mut().zip(values).enumerate() {
             let range = channel.range();
             *channel = Channel::rest(range, range.clamp(f64::from(*value)));
-            self.values[index] = channel.target() as f32;
+            self.values[index] = range.clamp(f64::from(*value)) as f32;
         }
         self.velocities.fill(0.0);
         self.accelerations.fill(0.0);
@@ -133,22 +145,19 @@ impl Player {
 
     /// Value, velocity and acceleration of one control in full precision; `None` if there is no such control.
     pub fn state(&self, control: usize) -> Option<Jet> {
-        self.channels.get(control).map(Channel::state)
+        let channel = self.channels.get(control)?;
+        let state = channel.state(self.rare.get(control)?);
+        Some(if self.confined { channel.range().confine(state) } else { state })
     }
 
     /// Whether all controls have arrived.
     pub fn is_at_rest(&self) -> bool {
-        self.channels.iter().all(Channel::is_at_rest)
+        self.channels.iter().zip(&self.rare).all(|(channel, rare)| channel.is_at_rest(rare))
     }
 
     /// Seconds until all controls have arrived, if nothing is pressed.
     pub fn secs_to_rest(&self) -> f64 {
-        self.channels.iter().map(Channel::remaining_secs).fold(0.0, f64::max)
+        let channels = self.channels.iter().zip(&self.rare);
+        channels.map(|(channel, rare)| channel.remaining_secs(rare)).fold(0.0, f64::max)
     }
-}
-
-/// The wanted duration, kept within [`DURATIONS_SECS`]; `otherwise` if it is no number.
-fn sensible_duration(wanted_secs: f64, otherwise_secs: f64) -> f64 {
-    let secs = if wanted_secs.is_nan() { otherwise_secs } else { wanted_secs };
-    secs.max(*DURATIONS_SECS.start()).min(*DURATIONS_SECS.end())
 }

@@ -1,4 +1,4 @@
-use crate::{ControlTable, TomlError, pose_toml};
+use crate::{ControlTable, Easing, TomlError, pose_toml};
 
 /// The poses of the nine-joint face as a text, to be copied beside a face and changed.
 pub const DEFAULT_POSES_TOML: &str = include_str!("../assets/poses.toml");
@@ -17,6 +17,26 @@ pub struct Pose {
     pub values: Vec<(usize, f32)>,
     /// Seconds that a move to this pose takes. `None`: each control takes its own time ([`crate::Pace`]).
     pub duration_secs: Option<f32>,
+    /// How the move runs. `None`: with the least jerk. Any other one is led smoothly out of the motion before, and
+    /// smoothly to rest.
+    pub transition: Option<Easing>,
+    /// What differs for single controls.
+    pub timings: Vec<(usize, Timing)>,
+}
+
+/// When and how fast one control joins in a pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Timing {
+    /// Seconds after the press at which the control's move starts; until then it goes on with whatever it does.
+    pub delay_secs: f32,
+    /// Multiplies the duration.
+    pub factor: f32,
+}
+
+impl Default for Timing {
+    fn default() -> Self {
+        Self { delay_secs: 0.0, factor: 1.0 }
+    }
 }
 
 impl Pose {
@@ -34,6 +54,29 @@ impl Pose {
     #[must_use]
     pub fn lasting(self, duration_secs: f32) -> Self {
         Self { duration_secs: Some(duration_secs), ..self }
+    }
+
+    /// The same pose with another transition function.
+    #[must_use]
+    pub fn along(self, transition: Easing) -> Self {
+        Self { transition: Some(transition), ..self }
+    }
+
+    /// The same pose with a timing for one control.
+    #[must_use]
+    pub fn timed(mut self, control: usize, timing: Timing) -> Self {
+        self.timings.push((control, timing));
+        self
+    }
+
+    /// The timing of a control.
+    pub fn timing(&self, control: usize) -> Timing {
+        self.timings
+            .iter()
+            .rev()
+            .find(|(index, _)| *index == control)
+            .map(|(_, timing)| *timing)
+            .unwrap_or_default()
     }
 
     /// The value of a control, if the pose has one.
@@ -72,6 +115,11 @@ impl PoseSet {
                 Some((here, value.max(control.min).min(control.max)))
             });
             pose.values = values.collect();
+            let timings = pose.timings.iter();
+            let timings = timings.filter_map(|(index, timing)| {
+                Some((controls.index(&face.controls()[*index].name)?, *timing))
+            });
+            pose.timings = timings.collect();
         }
         set
     }

@@ -1,7 +1,7 @@
 //! The format of `poses.toml`.
 
 use crate::text::{Entry, Table, Text, quote};
-use crate::{Control, ControlTable, Pose, PoseSet, TomlError};
+use crate::{Control, ControlTable, Easing, Pose, PoseSet, Timing, TomlError};
 use toml::de::DeValue;
 
 const DURATION: &str = "a number of seconds from 0.001 to 3600";
@@ -33,9 +33,15 @@ fn pose(mut table: Table<'_, '_>, controls: &ControlTable, before: &PoseSet) -> 
         pose.duration_secs = Some(duration(&entry)?);
     }
     if let Some(entry) = table.take("controls") {
-        values(&entry, "", controls, &mut pose.values)?;
+        by_control(&entry, "", controls, &mut pose.values, &value)?;
     }
-    table.finish(&["name", "key", "duration", "controls"])?;
+    if let Some(entry) = table.take("transition") {
+        pose.transition = Some(transition(&entry)?);
+    }
+    if let Some(entry) = table.take("timing") {
+        by_control(&entry, "", controls, &mut pose.timings, &timing)?;
+    }
+    table.finish(&["name", "key", "duration", "transition", "controls", "timing"])?;
     Ok(pose)
 }
 
@@ -64,26 +70,69 @@ fn key(entry: &Entry<'_, '_>, before: &PoseSet) -> Result<String, TomlError> {
 }
 
 /// Reads `"head.turn" = 10` as well as `head.turn = 10`, which TOML takes for a table in a table.
-fn values(
+pub(crate) fn by_control<T>(
     entry: &Entry<'_, '_>,
     prefix: &str,
     controls: &ControlTable,
-    out: &mut Vec<(usize, f32)>,
+    out: &mut Vec<(usize, T)>,
+    read: &dyn Fn(&Entry<'_, '_>, &Control) -> Result<T, TomlError>,
 ) -> Result<(), TomlError> {
     for (key, entry) in entry.table()?.rest() {
         let name = if prefix.is_empty() { key } else { format!("{prefix}.{key}") };
+        let is_group = |table: &toml::de::DeTable<'_>| {
+            let group = format!("{name}.");
+            !table.is_empty() && controls.names().any(|control| control.starts_with(&group))
+        };
         if let Some(index) = controls.index(&name) {
             if out.iter().any(|(other, _)| *other == index) {
                 return Err(entry.error("each control once", format!("{} again", quote(&name))));
             }
-            out.push((index, value(&entry, &controls.controls()[index])?));
-        } else if matches!(entry.value.get_ref(), DeValue::Table(table) if !table.is_empty()) {
-            values(&entry, &name, controls, out)?;
+            out.push((index, read(&entry, &controls.controls()[index])?));
+        } else if matches!(entry.value.get_ref(), DeValue::Table(table) if is_group(table)) {
+            by_control(&entry, &name, controls, out, read)?;
         } else {
             return Err(entry.unknown_name(&name, "one of the controls", controls.names()));
         }
     }
     Ok(())
+}
+
+/// The name of a transition function, or the four numbers of a Bézier curve.
+pub(crate) fn transition(entry: &Entry<'_, '_>) -> Result<Easing, TomlError> {
+    let expected =
+        "the name of a transition, such as \"cubic-in-out\", or [x1, y1, x2, y2] with x from 0 to 1";
+    if let DeValue::String(name) = entry.value.get_ref() {
+        let names = Easing::names();
+        let unknown = || entry.unknown_value(name, "one of", names.iter().map(String::as_str));
+        return Easing::from_name(name).ok_or_else(unknown);
+    }
+    let DeValue::Array(items) = entry.value.get_ref() else { return Err(entry.error_found(expected)) };
+    let numbers: Vec<f32> =
+        entry.array()?.iter().map(|item| item.number(expected)).collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [x1, y1, x2, y2] if (0.0..=1.0).contains(&x1) && (0.0..=1.0).contains(&x2) => {
+            Ok(Easing::Bezier([x1, y1, x2, y2].map(f64::from)))
+        }
+        _ => Err(entry.error(expected, format!("an array of {} numbers", items.len()))),
+    }
+}
+
+fn timing(entry: &Entry<'_, '_>, _: &Control) -> Result<Timing, TomlError> {
+    let mut table = entry.table()?;
+    let mut timing = Timing::default();
+    if let Some(entry) = table.take("delay") {
+        timing.delay_secs = within(&entry, "a number of seconds from 0 to 3600", 0.0, 3600.0)?;
+    }
+    if let Some(entry) = table.take("factor") {
+        timing.factor = within(&entry, "a number from 0.01 to 100", 0.01, 100.0)?;
+    }
+    table.finish(&["delay", "factor"])?;
+    Ok(timing)
+}
+
+fn within(entry: &Entry<'_, '_>, expected: &str, min: f32, max: f32) -> Result<f32, TomlError> {
+    let number = entry.number(expected)?;
+    if (min..=max).contains(&number) { Ok(number) } else { Err(entry.error_found(expected)) }
 }
 
 fn value(entry: &Entry<'_, '_>, control: &Control) -> Result<f32, TomlError> {

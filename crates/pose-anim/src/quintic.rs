@@ -1,4 +1,4 @@
-use crate::Jet;
+use crate::{Jet, channel::ROUNDING};
 
 /// The only polynomial of degree five that starts in a given state and comes to rest at a target: the move of least
 /// jerk (Flash & Hogan 1985).
@@ -33,16 +33,12 @@ impl Quintic {
         Self { target, duration_secs, c: [c0, v + 3.0 * c0, 0.5 * a + 3.0 * v + 6.0 * c0] }
     }
 
-    pub(crate) fn is_over(&self, age_secs: f64) -> bool {
-        age_secs >= self.duration_secs
-    }
-
-    pub(crate) fn remaining_secs(&self, age_secs: f64) -> f64 {
-        (self.duration_secs - age_secs).max(0.0)
+    pub(crate) const fn duration_secs(&self) -> f64 {
+        self.duration_secs
     }
 
     pub(crate) fn at(&self, age_secs: f64) -> Jet {
-        if self.is_over(age_secs) {
+        if age_secs >= self.duration_secs {
             return Jet::rest(self.target);
         }
         let [c0, c1, c2] = self.c;
@@ -64,7 +60,7 @@ impl Quintic {
         // dx/ds = (1 − s)² · (q0 + q1·s + q2·s²)
         let (q0, q1, q2) = (c1 - 3.0 * c0, 2.0 * c2 - 4.0 * c1, -5.0 * c2);
         // A move that touches an end of its range must not fail by rounding. What this lets through is cut off.
-        let slack = 1e-12 * (max - min);
+        let slack = ROUNDING * (max - min);
         roots(q2, q1, q0).iter().filter(|s| (0.0..1.0).contains(*s)).all(|s| {
             let u = 1.0 - s;
             let extremum = self.target + u * u * u * (c0 + s * (c1 + s * c2));

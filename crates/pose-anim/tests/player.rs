@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
-use pose_anim::{AdvanceError, ControlTable, Jet, JumpError, Player, Pose, PoseSet};
+use pose_anim::{AdvanceError, ControlTable, Easing, Jet, JumpError, Player, Pose, PoseSet, Timing};
 use proptest::prelude::*;
 
 /// SplitMix64 (Steele, Lea & Flood 2014): scripts have to be the same on every machine.
@@ -35,8 +35,12 @@ fn table() -> ControlTable {
     ControlTable::from_toml(text).unwrap()
 }
 
+/// Transition functions without corners and overshoot.
+const SMOOTH: [&str; 8] =
+    ["minimum-jerk", "linear", "step", "quad-in", "cubic-out", "expo-out", "circ-in", "ease-in-out"];
+
 /// A script: presses at times, sorted.
-fn script(random: &mut Random, table: &ControlTable) -> Vec<(f64, Pose)> {
+fn script(random: &mut Random, table: &ControlTable, transitions: &[Easing]) -> Vec<(f64, Pose)> {
     let count = 1 + random.below(8);
     // Half of the scripts are hectic: all presses within a tenth of a second.
     let span = if random.below(2) == 0 { 0.1 } else { 1.2 };
@@ -59,6 +63,18 @@ fn script(random: &mut Random, table: &ControlTable) -> Vec<(f64, Pose)> {
         }
         let mut pose = Pose::new("p", values);
         pose.duration_secs = (random.below(3) == 0).then(|| 0.02 + random.unit() as f32);
+        if random.below(4) == 0 {
+            pose.transition = Some(transitions[random.below(transitions.len())]);
+        }
+        for control in 0..table.len() {
+            if random.below(4) == 0 {
+                let delay_secs = 0.3 * random.unit() as f32;
+                pose = pose.timed(control, Timing { delay_secs, factor: 0.5 + random.unit() as f32 });
+            }
+        }
+        if random.below(4) == 0 {
+            pose = Pose::mixed("m", &[(&pose, 1.5 * random.unit() as f32)], table);
+        }
         presses.push((at, pose));
     }
     presses
@@ -94,8 +110,9 @@ fn play(
 fn random_scripts_hold_every_promise() {
     let table = table();
     let mut random = Random(7);
+    let transitions: Vec<_> = Easing::names().iter().map(|name| Easing::from_name(name).unwrap()).collect();
     for round in 0..10_000 {
-        let presses = script(&mut random, &table);
+        let presses = script(&mut random, &table, &transitions);
         let mut player = Player::new(&table);
         let mut now = 0.0;
         for (at, pose) in &presses {
@@ -119,7 +136,7 @@ fn random_scripts_hold_every_promise() {
                         0.5 * change(&far).max(change(&farther)) + [1e-13, 1e-10, 1e-5][part] * width;
                     assert!(
                         change(&near) <= allowed,
-                        "script {round}, control {index}, derivative {part}, {presses:?}"
+                        "script {round}, at {at}, control {index}, derivative {part}: {before:?} {near:?} {far:?} {farther:?}, {presses:?}"
                     );
                 }
             }
@@ -187,7 +204,7 @@ fn derivatives_are_those_of_the_values() {
     let table = table();
     let mut random = Random(11);
     for round in 0..200 {
-        let presses = script(&mut random, &table);
+        let presses = script(&mut random, &table, &SMOOTH.map(|name| Easing::from_name(name).unwrap()));
         let error = |step: f64| {
             let mut player = Player::new(&table);
             let mut before = states(&player);
@@ -281,6 +298,84 @@ fn poses_from_elsewhere_cannot_harm() {
         assert!(player.velocities().iter().chain(player.accelerations()).all(|rate| rate.is_finite()));
     }
     assert!(player.state(3).is_none());
+}
+
+#[test]
+fn a_move_that_waits_lets_the_running_one_go_on() {
+    let table = table();
+    let first = Pose::new("p", vec![(0, 60.0)]).lasting(0.5);
+    let late = Pose::new("q", vec![(0, -20.0), (2, 1.0)])
+        .lasting(0.2)
+        .timed(0, Timing { delay_secs: 0.15, factor: 2.0 });
+    let (mut player, mut undisturbed) = (Player::new(&table), Player::new(&table));
+    for player in [&mut player, &mut undisturbed] {
+        player.press(&first);
+        player.advance(0.1).unwrap();
+    }
+    player.press(&late);
+    for _ in 0..14 {
+        player.advance(0.01).unwrap();
+        undisturbed.advance(0.01).unwrap();
+        assert_eq!(player.values()[0], undisturbed.values()[0]);
+    }
+    assert!(player.values()[2] > 0.5 && !player.is_at_rest());
+    assert!((player.secs_to_rest() - 0.41).abs() < 1e-6);
+    player.advance(0.41 + 1e-6).unwrap();
+    assert!(player.is_at_rest());
+    assert_eq!(player.values(), [-20.0, 0.0, 1.0]);
+    // A control that waits at rest is not at rest, and another press drops what waits.
+    player.press(&late.clone().timed(2, Timing { delay_secs: 0.1, factor: 1.0 }));
+    assert!(!player.is_at_rest());
+    player.press(&Pose::new("r", vec![(0, 5.0), (2, 0.5)]));
+    player.advance(f64::INFINITY).unwrap();
+    assert_eq!(player.values(), [5.0, 0.0, 0.5]);
+}
+
+#[test]
+fn transitions_run_as_named_between_their_ends() {
+    let table = table();
+    for (name, at, expected) in [("linear", 0.5, 0.5), ("quad-in", 0.5, 0.25), ("back-out", 0.6, 1.087_697_2)]
+    {
+        let mut player = Player::new(&table).with_overshoot();
+        player.press(&Pose::new("p", vec![(2, 1.0)]).lasting(1.0).along(Easing::from_name(name).unwrap()));
+        player.advance(at).unwrap();
+        let expected =
+            if name == "back-out" { Easing::from_name(name).unwrap().at(at).value as f32 } else { expected };
+        assert!((player.values()[2] - expected).abs() < 1e-6, "{name}: {}", player.values()[2]);
+        let mut confined = Player::new(&table);
+        confined.press(&Pose::new("p", vec![(2, 1.0)]).lasting(1.0).along(Easing::from_name(name).unwrap()));
+        confined.advance(at).unwrap();
+        assert_eq!(confined.values()[2], expected.min(1.0));
+        player.advance(1.0).unwrap();
+        assert_eq!((player.values()[2], player.velocities()[2]), (1.0, 0.0));
+    }
+}
+
+#[test]
+fn mixtures() {
+    let table = ControlTable::default_face();
+    let poses = PoseSet::default_face(&table);
+    let smile = poses.get("smile").unwrap();
+    assert_eq!(&poses.mix("smile", &table).unwrap(), smile);
+    let half = poses.mix("smile:0.5", &table).unwrap();
+    for (control, value) in &half.values {
+        assert_eq!(*value, 0.5 * smile.value(*control).unwrap());
+    }
+    let both = poses.mix(" smile:0.5, frown ", &table).unwrap();
+    let bow = table.index("head.bow").unwrap();
+    assert_eq!(both.value(bow), Some(-1.0 + 6.0));
+    assert_eq!(both.value(table.index("frown").unwrap()), Some(0.85));
+    let much = poses.mix("yawn:3", &table).unwrap();
+    assert_eq!(much.value(table.index("jaw.open").unwrap()), Some(20.0));
+    let errors = [
+        ("smlie", r#"expected the name of a pose, found "smlie"; did you mean "smile"?"#),
+        ("smile:much", r#"pose "smile": expected a finite number as weight, found "much""#),
+        ("smile:nan", r#"pose "smile": expected a finite number as weight, found "nan""#),
+        (" ", r#"expected poses such as "smile" or "smile:0.5 wink-left", found none"#),
+    ];
+    for (text, expected) in errors {
+        assert_eq!(poses.mix(text, &table).unwrap_err().to_string(), expected);
+    }
 }
 
 #[test]

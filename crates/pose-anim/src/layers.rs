@@ -1,0 +1,179 @@
+use crate::channel::{Channel, Goal, Range, Rare};
+use crate::reach::reach;
+use crate::{AdvanceError, ControlTable, Jet, Pace, Player};
+
+/// How a layer acts on what is below it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LayerMode {
+    /// Adds its distance from the default: breathing, small movements of the head.
+    Additive,
+    /// Takes over: a blink, speech.
+    Override,
+}
+
+/// Name of a layer of a [`Layers`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LayerId(usize);
+
+/// A base player with further players on top of it, each with a mask over the controls and a weight.
+///
+/// From below to above, with the base's value as the first `x`, the layer's own value `y`, its share `w = weight · mask` and
+/// the control's default `d`:
+///
+/// ```text
+/// Override    x ← (1 − w) · x + w · y
+/// Additive    x ← x + w · (y − d), bent smoothly where it would leave the range
+/// ```
+///
+/// The result has derivatives as the players have, by the rules for sums and products, and is as continuous as they are:
+/// weights move as smoothly as values. Where no layer has any share, the base goes through to the last bit.
+#[derive(Clone, Debug)]
+pub struct Layers {
+    base: Player,
+    layers: Vec<Layer>,
+    defaults: Vec<f64>,
+    ranges: Vec<Range>,
+    values: Vec<f32>,
+    velocities: Vec<f32>,
+    accelerations: Vec<f32>,
+}
+
+#[derive(Clone, Debug)]
+struct Layer {
+    player: Player,
+    mode: LayerMode,
+    mask: Vec<f64>,
+    weight: Channel,
+    rare: Rare,
+}
+
+const WEIGHTS: Range = Range { min: 0.0, max: 1.0 };
+
+impl Layers {
+    /// A base without layers, everything at rest at its default.
+    pub fn new(controls: &ControlTable) -> Self {
+        let base = Player::new(controls);
+        Self {
+            layers: Vec::new(),
+            defaults: controls.controls().iter().map(|control| control.default.into()).collect(),
+            ranges: controls
+                .controls()
+                .iter()
+                .map(|control| Range { min: control.min.into(), max: control.max.into() })
+                .collect(),
+            values: base.values().to_vec(),
+            velocities: base.velocities().to_vec(),
+            accelerations: base.accelerations().to_vec(),
+            base,
+        }
+    }
+
+    /// Puts a layer on top, with weight 0: a player like the base's with everything at its default. `mask` is its share per
+    /// control, 0 to 1; controls beyond its end have none. This allocates; nothing after it does.
+    pub fn add(&mut self, controls: &ControlTable, mode: LayerMode, mask: &[f32]) -> LayerId {
+        let share = |index: usize| mask.get(index).map_or(0.0, |share| WEIGHTS.clamp(f64::from(*share)));
+        self.layers.push(Layer {
+            player: Player::new(controls),
+            mode,
+            mask: (0..self.defaults.len()).map(share).collect(),
+            weight: Channel::rest(WEIGHTS, 0.0),
+            rare: Rare::new(),
+        });
+        LayerId(self.layers.len() - 1)
+    }
+
+    /// The base, to be pressed.
+    pub fn base(&mut self) -> &mut Player {
+        &mut self.base
+    }
+
+    /// The player of a layer, to be pressed; `None` if the layer is of another [`Layers`].
+    pub fn layer(&mut self, layer: LayerId) -> Option<&mut Player> {
+        self.layers.get_mut(layer.0).map(|layer| &mut layer.player)
+    }
+
+    /// Moves the weight of a layer to a value from 0 to 1, smoothly, in this many seconds (0.001 to 3600). Like a press, it may
+    /// come at any time. Weights beyond are clamped, and NaN or a layer of another [`Layers`] changes nothing.
+    pub fn fade_to(&mut self, layer: LayerId, weight: f32, duration_secs: f32) {
+        let Some(layer) = self.layers.get_mut(layer.0) else { return };
+        if weight.is_nan() {
+            return;
+        }
+        let goal = Goal {
+            target: WEIGHTS.clamp(weight.into()),
+            duration_secs: Some(duration_secs.into()),
+            pace: Pace::SHAPE,
+            factor: 1.0,
+            easing: None,
+        };
+        layer.weight.press(goal, 0.0, &mut layer.rare);
+    }
+
+    /// The present weight of a layer with its derivatives; `None` if the layer is of another [`Layers`].
+    pub fn weight(&self, layer: LayerId) -> Option<Jet> {
+        self.layers.get(layer.0).map(|layer| WEIGHTS.confine(layer.weight.state(&layer.rare)))
+    }
+
+    /// Lets time pass in all players and weights, and combines them.
+    ///
+    /// # Errors
+    /// A negative time step or NaN; then nothing changes.
+    pub fn advance(&mut self, dt_secs: f64) -> Result<(), AdvanceError> {
+        self.base.advance(dt_secs)?;
+        for layer in &mut self.layers {
+            layer.player.advance(dt_secs)?;
+            layer.weight.advance(dt_secs, &mut layer.rare);
+        }
+        if dt_secs == 0.0 {
+            return Ok(());
+        }
+        for control in 0..self.values.len() {
+            let Some(state) = self.state(control) else { continue };
+            self.values[control] = state.value as f32;
+            self.velocities[control] = state.velocity as f32;
+            self.accelerations[control] = state.acceleration as f32;
+        }
+        Ok(())
+    }
+
+    /// Value, velocity and acceleration of one control in full precision; `None` if there is no such control.
+    pub fn state(&self, control: usize) -> Option<Jet> {
+        let range = *self.ranges.get(control)?;
+        let mut state = self.base.state(control)?;
+        for layer in &self.layers {
+            let weight = WEIGHTS.confine(layer.weight.state(&layer.rare));
+            let share = Jet::rest(*layer.mask.get(control)?) * weight;
+            if share == Jet::rest(0.0) {
+                continue;
+            }
+            let own = layer.player.state(control)?;
+            state = match layer.mode {
+                LayerMode::Override if share == Jet::rest(1.0) => own,
+                LayerMode::Override => state.mix(own, share),
+                LayerMode::Additive => reach(state, share * (own - Jet::rest(self.defaults[control])), range),
+            };
+        }
+        Some(range.confine(state))
+    }
+
+    /// Combined values, one per control, each in its range.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// First derivatives of the values, per second.
+    pub fn velocities(&self) -> &[f32] {
+        &self.velocities
+    }
+
+    /// Second derivatives of the values, per second squared.
+    pub fn accelerations(&self) -> &[f32] {
+        &self.accelerations
+    }
+
+    /// Whether all players and weights have arrived.
+    pub fn is_at_rest(&self) -> bool {
+        let rests = |layer: &Layer| layer.player.is_at_rest() && layer.weight.is_at_rest(&layer.rare);
+        self.base.is_at_rest() && self.layers.iter().all(rests)
+    }
+}

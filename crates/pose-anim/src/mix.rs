@@ -1,0 +1,67 @@
+use crate::{ControlTable, MixError, Pose, PoseSet};
+
+impl Pose {
+    /// A weighted mixture of poses. Each control that any of them names gets
+    ///
+    /// ```text
+    /// default + Σ weight · (value − default)
+    /// ```
+    ///
+    /// over the poses that name it, clamped to its range: poses add up, and half a pose is half way from the undeformed
+    /// face. Duration and transition are those of the first pose that has one, timings those of the first that has one for the
+    /// control. Weights that are not finite count as 0.
+    pub fn mixed(name: impl Into<String>, parts: &[(&Self, f32)], controls: &ControlTable) -> Self {
+        let mut mixed = Self::new(name, Vec::new());
+        mixed.duration_secs = parts.iter().find_map(|(pose, _)| pose.duration_secs);
+        mixed.transition = parts.iter().find_map(|(pose, _)| pose.transition);
+        for (index, control) in controls.controls().iter().enumerate() {
+            let named = parts.iter().filter_map(|(pose, weight)| Some((pose.value(index)?, *weight)));
+            let default = f64::from(control.default);
+            let (mut sum, mut whole, mut count) = (default, None, 0);
+            for (value, weight) in named {
+                let weight = if weight.is_finite() { f64::from(weight) } else { 0.0 };
+                sum += weight * (f64::from(value) - default);
+                count += 1;
+                whole = (weight == 1.0).then_some(value);
+            }
+            let value = match (count, whole) {
+                (0, _) => continue,
+                // One whole pose keeps its bits.
+                (1, Some(value)) => value,
+                _ => sum.max(control.min.into()).min(control.max.into()) as f32,
+            };
+            mixed.values.push((index, value));
+            let timing = parts.iter().flat_map(|(pose, _)| &pose.timings).find(|(other, _)| *other == index);
+            mixed.timings.extend(timing);
+        }
+        mixed
+    }
+}
+
+impl PoseSet {
+    /// Reads a mixture such as `smile`, `smile:0.5` or `smile:0.5 wink-left`: names of poses, each with a weight (1 if absent),
+    /// separated by blanks, commas or plus signs. See [`Pose::mixed`].
+    ///
+    /// # Errors
+    /// An unknown pose, a weight that is no finite number, no pose at all.
+    pub fn mix(&self, text: &str, controls: &ControlTable) -> Result<Pose, MixError> {
+        let words = text.split(|c: char| c.is_whitespace() || c == ',' || c == '+');
+        let mut parts = Vec::new();
+        for word in words.filter(|word| !word.is_empty()) {
+            let (name, weight) = word.split_once(':').unwrap_or((word, "1"));
+            let pose = self.get(name).ok_or_else(|| MixError::UnknownPose {
+                name: name.to_owned(),
+                nearest: self.nearest(name).map(str::to_owned),
+            })?;
+            let number = weight.parse().ok().filter(|weight: &f32| weight.is_finite());
+            let weight = number
+                .ok_or_else(|| MixError::Weight { pose: name.to_owned(), weight: weight.to_owned() })?;
+            parts.push((pose, weight));
+        }
+        match parts[..] {
+            [] => Err(MixError::Empty),
+            [(pose, 1.0)] => Ok(pose.clone()),
+            _ => Ok(Pose::mixed(text.trim(), &parts, controls)),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Where a control goes by itself, before any interruption.
+
+use crate::quintic::Quintic;
+use crate::{Easing, Jet};
+
+/// A motion that is a closed function of its own age.
+#[derive(Clone, Debug)]
+pub(crate) enum Path {
+    /// To rest by the move of least jerk. Also: at rest.
+    Quintic(Quintic),
+    /// Along a transition function.
+    Eased(Eased),
+}
+
+impl Path {
+    pub(crate) const fn rest(value: f64) -> Self {
+        Self::Quintic(Quintic::rest(value))
+    }
+
+    pub(crate) fn at(&self, age_secs: f64) -> Jet {
+        match self {
+            Self::Quintic(quintic) => quintic.at(age_secs),
+            Self::Eased(eased) => eased.at(age_secs),
+        }
+    }
+
+    /// Seconds until the motion rests.
+    pub(crate) fn remaining_secs(&self, age_secs: f64) -> f64 {
+        let duration_secs = match self {
+            Self::Quintic(quintic) => quintic.duration_secs(),
+            Self::Eased(eased) => eased.duration_secs,
+        };
+        (duration_secs - age_secs).max(0.0)
+    }
+
+    /// Where the motion comes to rest, if it does.
+    pub(crate) fn end(&self) -> f64 {
+        match self {
+            Self::Quintic(quintic) => quintic.target,
+            Self::Eased(eased) => eased.target,
+        }
+    }
+}
+
+/// `from + (target − from) · f(s)`, which in its last part is led to rest: transition functions may arrive at speed (linear) or
+/// jump at their end (step), but a face arrives at rest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Eased {
+    pub(crate) from: f64,
+    pub(crate) target: f64,
+    pub(crate) duration_secs: f64,
+    pub(crate) easing: Easing,
+}
+
+impl Eased {
+    /// Share of the duration in which the motion before fades out, and share in which this one comes to rest.
+    pub(crate) const BLEND: f64 = 0.3;
+
+    fn at(&self, age_secs: f64) -> Jet {
+        if age_secs >= self.duration_secs {
+            return Jet::rest(self.target);
+        }
+        let rate = 1.0 / self.duration_secs;
+        // An infinite slope at the very start would meet a weight of 0 there and give NaN.
+        let curve = self.easing.at((age_secs * rate).max(1e-12));
+        let rise = self.target - self.from;
+        let along = Jet {
+            value: self.from + rise * curve.value,
+            velocity: rise * curve.velocity * rate,
+            acceleration: rise * curve.acceleration * rate * rate,
+        };
+        let landing_secs = Self::BLEND * self.duration_secs;
+        let share = Jet::step(age_secs - (self.duration_secs - landing_secs), landing_secs);
+        along.mix(Jet::rest(self.target), share)
+    }
+}

@@ -1,0 +1,120 @@
+use crate::Jet;
+use crate::channel::Range;
+
+/// Share of the range that counts as close to one of its ends.
+const KNEE: f64 = 0.05;
+
+/// `base + offset`, kept in the range smoothly: twice continuously differentiable in both, for a base in range. Without
+/// an offset it is the base to the last bit.
+///
+/// A plain clamp would make velocities jump whenever a sum comes to an end of the range. Here, the room `up` to the upper and
+/// `down` to the lower end shape the offset `δ`, where `r` is the minimum-jerk step, `k` the knee (5 % of the range), and, for
+/// `δ > 0`,
+///
+/// ```text
+/// result = base + up · f( r(up/k) · δ' / up )        δ' = δ · (1 − (1 − r(down/k)) · (1 − r(δ/k)))
+/// f(u) = u                       for u ≤ ½           f' = 1
+///        ½ + w − w³ + w⁴/2       for w = u − ½ ≤ 1   f' = 1 − 3w² + 2w³
+///        1                       beyond
+/// ```
+///
+/// and for `δ < 0` the mirror image. So the sum is plain where both ends are far: within half of the room, no closer to an end than the
+/// knee. It reaches an end for offsets of 1½ times the room. With the base at an end, say the lower one, an offset that points outward has
+/// no effect, so one that points inward must set in gently (`δ'`), or the change between the two would be a corner.
+///
+/// Both sides have the slope `r(up/k) · r(down/k)` at `δ = 0` and no curvature there, as `δ · r(δ/k)` is of fourth order; `f` is C² by
+/// its construction; and as `up → 0`, the argument of `f` tends to 0 like `up²`, so that the result tends to `r(up/k) · δ'`.
+pub(crate) fn reach(base: Jet, offset: Jet, range: Range) -> Jet {
+    if offset == Jet::rest(0.0) || range.width() <= 0.0 {
+        return base;
+    }
+    let (up, down) = (Jet::rest(range.max) - base, base - Jet::rest(range.min));
+    let knee = KNEE * range.width();
+    let (room, back, delta, sign) =
+        if offset.value >= 0.0 { (up, down, offset, 1.0) } else { (down, up, Jet::rest(0.0) - offset, -1.0) };
+    if room.value <= 1e-9 * range.width() {
+        // The offset has no effect beyond rounding, and dividing by nothing would make NaN of it.
+        return base;
+    }
+    let one = Jet::rest(1.0);
+    let gentle = one - (one - smooth(back, knee)) * (one - smooth(delta, knee));
+    let wanted = smooth(room, knee) * delta * gentle;
+    let kept = room * saturate(wanted * inverse(room));
+    let sum = base + Jet::rest(sign) * kept;
+    Jet { value: range.clamp(sum.value), ..sum }
+}
+
+/// `r(x / width)`.
+fn smooth(x: Jet, width: f64) -> Jet {
+    // The step as a function of x, by the chain rule with the derivatives of x in time.
+    let step = Jet::step(x.value, width);
+    x.through(step)
+}
+
+fn saturate(u: Jet) -> Jet {
+    let w = u.value - 0.5;
+    let f = match w {
+        w if w <= 0.0 => return u,
+        w if w >= 1.0 => Jet::rest(1.0),
+        w => Jet {
+            value: 0.5 + w * (1.0 - w * w * (1.0 - 0.5 * w)),
+            velocity: 1.0 - w * w * (3.0 - 2.0 * w),
+            acceleration: -6.0 * w * (1.0 - w),
+        },
+    };
+    u.through(f)
+}
+
+/// `1 / x` for positive x.
+fn inverse(x: Jet) -> Jet {
+    let r = 1.0 / x.value;
+    x.through(Jet { value: r, velocity: -r * r, acceleration: 2.0 * r * r * r })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const RANGE: Range = Range { min: -2.0, max: 3.0 };
+
+    fn plain(base: f64, offset: f64) -> f64 {
+        reach(Jet::rest(base), Jet::rest(offset), RANGE).value
+    }
+
+    #[test]
+    fn plain_sums_and_ends() {
+        assert_eq!(plain(0.5, 1.0), 1.5);
+        assert_eq!(plain(0.5, -1.0), -0.5);
+        assert_eq!(plain(3.0, 7.0), 3.0);
+        assert_eq!(plain(-2.0, -7.0), -2.0);
+        assert_eq!(plain(-2.0, 1.0), -1.0);
+        assert_eq!(plain(0.5, 5.0), 3.0);
+    }
+
+    proptest! {
+        #[test]
+        fn stays_in_range_and_has_its_derivatives(
+            base in prop_oneof![-2.0f64..=3.0, Just(-2.0), Just(3.0), -2.0f64..-1.95, 2.95f64..3.0],
+            offset in prop_oneof![-8.0f64..8.0, -0.3f64..0.3, -1e-3f64..1e-3],
+            rates in prop::array::uniform4(-1.0f64..1.0),
+        ) {
+            prop_assert!((RANGE.min..=RANGE.max).contains(&plain(base, offset)));
+            // Along parabolas that stay in range near this moment.
+            let inward = if base > 0.5 { -1.0 } else { 1.0 };
+            let at = |t: f64| {
+                let margin = 1e-4;
+                let x = base + inward * (margin + rates[0].abs() * t * t + 0.01 * t * rates[0]);
+                let x = Jet { value: x, velocity: inward * (2.0 * rates[0].abs() * t + 0.01 * rates[0]), acceleration: inward * 2.0 * rates[0].abs() };
+                let d = Jet { value: offset + rates[1] * t + rates[2] * t * t, velocity: rates[1] + 2.0 * rates[2] * t, acceleration: 2.0 * rates[2] };
+                reach(x, d, RANGE)
+            };
+            let h = 1e-6;
+            let (before, here, after) = (at(-h), at(0.0), at(h));
+            let slope = (after.value - before.value) / (2.0 * h);
+            let curve = (after.velocity - before.velocity) / (2.0 * h);
+            prop_assert!((slope - here.velocity).abs() < 1e-4 * (1.0 + slope.abs()), "{slope} {here:?}");
+            prop_assert!((curve - here.acceleration).abs() < 1e-2 * (1.0 + curve.abs()), "{curve} {here:?}");
+        }
+    }
+}
