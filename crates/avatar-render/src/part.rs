@@ -15,6 +15,8 @@ pub(crate) struct GpuPart {
     pub(crate) shape_count: u32,
     pub(crate) rigid_bone: u32,
     pub(crate) has_vertex_bones: u32,
+    pub(crate) front_z: f32,
+    pub(crate) per_depth: f32,
 }
 
 /// WGSL `Vertex`.
@@ -89,11 +91,15 @@ impl Geometry {
             PartBones::Rigid(bone) => bone,
             PartBones::PerVertex => 0,
         };
+        let bounds = mesh.bounds();
+        let depth = bounds.map_or(0.0, |bounds| bounds.size().z);
         let head = GpuPart {
             vertex_count: mesh.positions.len() as u32,
             shape_count: mesh.shapes.len() as u32,
             rigid_bone: rigid_bone as u32,
             has_vertex_bones: skinning.is_some().into(),
+            front_z: bounds.map_or(0.0, |bounds| bounds.max.z),
+            per_depth: if depth > 0.0 { depth.recip() } else { 0.0 },
         };
         let part = buffer(device, &[head], label, "part", wgpu::BufferUsages::UNIFORM);
         let vertices = storage(device, &vertices(mesh), label, "vertices");
@@ -121,7 +127,7 @@ impl Geometry {
                     wgpu::BindGroupEntry { binding: 3, resource: shapes.as_entire_binding() },
                 ],
             }),
-            center: mesh.bounds().map_or(Vec3::ZERO, |bounds| bounds.center()),
+            center: bounds.map_or(Vec3::ZERO, |bounds| bounds.center()),
             center_bone,
         })
     }

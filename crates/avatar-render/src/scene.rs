@@ -45,7 +45,7 @@ impl Default for Light {
         Self {
             key: Lamp { direction_world: Vec3::new(0.5, 0.42, 0.85), radiance: [1.0, 0.95, 0.88] },
             fill: Lamp { direction_world: Vec3::new(-0.9, 0.1, 0.6), radiance: [0.16, 0.18, 0.21] },
-            rim: Lamp { direction_world: Vec3::new(-0.6, 0.5, -0.9), radiance: [0.30, 0.34, 0.40] },
+            rim: Lamp { direction_world: Vec3::new(-0.6, 0.5, -0.9), radiance: [0.2, 0.23, 0.27] },
             sky: [0.27, 0.29, 0.33],
             ground: [0.11, 0.09, 0.085],
             exposure: 1.0,

@@ -4,7 +4,7 @@
 mod common;
 
 use avatar_mesh::{Mesh, PartKind};
-use avatar_render::headless::Canvas;
+use avatar_render::headless::{Canvas, GpuOptions, NoAdapter, open_blocking};
 use avatar_render::{
     AvatarModel, AvatarState, DrawError, Image, ModelError, PartBones, PartDesc, PartProblem, PartTextures,
     Renderer, RendererConfig, RendererError, Targets,
@@ -208,4 +208,31 @@ fn numbers_that_are_not_finite_draw_something_or_nothing_but_never_fail() {
         scene.background = [bad; 4];
         assert!(canvas.render(gpu, &scene, &[(&model, &state)]).is_ok(), "{bad}");
     }
+}
+
+#[test]
+fn without_a_backend_there_is_no_adapter_and_the_error_says_what_was_looked_for() {
+    let nothing = GpuOptions { backends: wgpu::Backends::empty(), software: true };
+    let error = open_blocking(nothing).expect_err("no backends, no adapter");
+    assert!(matches!(error, NoAdapter::NotFound { .. }));
+    assert!(error.to_string().contains("software"), "{error}");
+}
+
+#[test]
+fn errors_of_the_device_are_kept_instead_of_panicking() {
+    if gpu().is_none() {
+        return;
+    }
+    // A device of its own: the errors of the shared one belong to other tests.
+    let gpu = open_blocking(GpuOptions::default()).expect("opened before");
+    // Storage without COPY_DST cannot be written to.
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: 16,
+        usage: wgpu::BufferUsages::STORAGE,
+        mapped_at_creation: false,
+    });
+    gpu.queue.write_buffer(&buffer, 0, &[0; 4]);
+    assert!(gpu.errors.take().is_some());
+    assert!(gpu.errors.take().is_none());
 }

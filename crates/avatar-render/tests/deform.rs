@@ -1,4 +1,5 @@
 //! The GPU deforms as the CPU does.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! What pictures show: winding, blending, background, sizes, samples, several avatars, order.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 mod common;
 

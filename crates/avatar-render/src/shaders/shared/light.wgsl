@@ -54,6 +54,11 @@ fn lamp_specular(surface: Surface, direction: vec3f, n_dot_l: f32, n_dot_v: f32)
         * smith_visibility(n_dot_v, n_dot_l, surface.alpha) * n_dot_l;
 }
 
+// Where little ambient light arrives, lamps are hidden as well: D. Chan, "Material Advances in Call of Duty: WWII", 2018.
+fn micro_shadow(occlusion: f32, n_dot_l: f32) -> f32 {
+    return saturate(max(n_dot_l, 0.0) + 2.0 * occlusion * occlusion - 1.0);
+}
+
 fn lit_surface(surface: Surface) -> Lit {
     let n_dot_v = clamp(dot(surface.normal, surface.view), 1e-3, 1.0);
     var lit: Lit;
@@ -64,9 +69,10 @@ fn lit_surface(surface: Surface) -> Lit {
     for (var i = 0u; i < LAMP_COUNT; i++) {
         let lamp = frame.lamps[i];
         let n_dot_l = dot(surface.normal, lamp.direction_world);
-        lit.diffuse += lamp.radiance * wrapped_diffuse(n_dot_l, material.wrap);
+        let light = lamp.radiance * micro_shadow(surface.occlusion, n_dot_l);
+        lit.diffuse += light * wrapped_diffuse(n_dot_l, material.wrap);
         if n_dot_l > 0.0 {
-            lit.specular += lamp.radiance * lamp_specular(surface, lamp.direction_world, n_dot_l, n_dot_v);
+            lit.specular += light * lamp_specular(surface, lamp.direction_world, n_dot_l, n_dot_v);
         }
     }
     return lit;

@@ -6,6 +6,9 @@ struct Part {
     // The bone of a part that is rigid; not read where vertices have bones of their own.
     rigid_bone: u32,
     has_vertex_bones: u32,
+    // Largest z at bind pose (the face looks along +Z), and 1 / (largest - smallest).
+    front_z: f32,
+    per_depth: f32,
 }
 
 struct Vertex {

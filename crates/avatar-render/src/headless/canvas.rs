@@ -1,0 +1,158 @@
+use super::Gpu;
+use crate::color::{linear_table, srgb8_from_linear};
+use crate::readback::{ReadbackError, mapped};
+use crate::{
+    AvatarModel, AvatarState, DrawError, Image, Renderer, RendererConfig, RendererError, Scene, SizeError,
+    Targets,
+};
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RenderImageError {
+    /// A size that cannot be drawn.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+    /// A number of samples that cannot be drawn.
+    #[error(transparent)]
+    Renderer(#[from] RendererError),
+    /// Avatars that do not fit together.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// The picture did not come back.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
+    /// The device reported an error, for example that memory ran out.
+    #[error("expected a picture, found an error of the device: {reason}")]
+    Device {
+        /// What wgpu says.
+        reason: String,
+    },
+}
+
+/// Format of pictures: 8 bits, encoded by the hardware.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
+/// Everything that pictures of one size share; build it once for many pictures.
+#[derive(Debug)]
+pub struct Canvas {
+    renderer: Renderer,
+    targets: Targets,
+    color: wgpu::Texture,
+    view: wgpu::TextureView,
+    readable: wgpu::Buffer,
+    row_bytes: u32,
+}
+
+impl Canvas {
+    /// Room for pictures of this size.
+    ///
+    /// # Errors
+    /// A size or number of samples that the device cannot draw.
+    pub fn new(gpu: &Gpu, width: u32, height: u32, samples: u32) -> Result<Self, RenderImageError> {
+        let device = &gpu.device;
+        let renderer = Renderer::new(device, RendererConfig { color_format: FORMAT, samples })?;
+        let targets = Targets::new(device, &renderer, width, height)?;
+        let color = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("picture"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let view = color.create_view(&Default::default());
+        let row_bytes = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let readable = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("picture: readable"),
+            size: u64::from(row_bytes) * u64::from(height),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Ok(Self { renderer, targets, color, view, readable, row_bytes })
+    }
+
+    /// Draws a picture and waits for it.
+    ///
+    /// # Errors
+    /// Avatars that do not fit together, or a lost device.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn render(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<Image, RenderImageError> {
+        crate::readback::block_on(self.render_async(gpu, scene, avatars))
+    }
+
+    /// The same, for callers that cannot block.
+    ///
+    /// # Errors
+    /// As above.
+    pub async fn render_async(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<Image, RenderImageError> {
+        let (width, height) = self.targets.size();
+        let mut encoder =
+            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
+        self.renderer.draw(&mut encoder, &self.view, &self.targets, &gpu.queue, scene, avatars)?;
+        encoder.copy_texture_to_buffer(
+            self.color.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &self.readable,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(self.row_bytes),
+                    rows_per_image: Some(height),
+                },
+            },
+            self.color.size(),
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let view = mapped(&gpu.device, &self.readable).await?;
+        let rows = view.chunks_exact(self.row_bytes as usize);
+        let pixels = rows.flat_map(|row| row.chunks_exact(4).take(width as usize));
+        let rgba = pixels.flat_map(|p| straight_from_premultiplied([p[0], p[1], p[2], p[3]])).collect();
+        drop(view);
+        self.readable.unmap();
+        match gpu.errors.take() {
+            Some(reason) => Err(RenderImageError::Device { reason }),
+            None => Ok(Image { width, height, rgba }),
+        }
+    }
+}
+
+/// Draws one picture: straight alpha, sRGB. Two calls with equal arguments give equal bytes on one machine.
+///
+/// # Errors
+/// A size, samples or avatars that cannot be drawn, or a lost device.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn render_image(
+    gpu: &Gpu,
+    width: u32,
+    height: u32,
+    samples: u32,
+    scene: &Scene,
+    avatars: &[(&AvatarModel, &AvatarState)],
+) -> Result<Image, RenderImageError> {
+    Canvas::new(gpu, width, height, samples)?.render(gpu, scene, avatars)
+}
+
+/// The target holds colours times alpha, encoded after the product.
+fn straight_from_premultiplied(pixel: [u8; 4]) -> [u8; 4] {
+    let [r, g, b, a] = pixel;
+    match a {
+        0 => [0; 4],
+        255 => pixel,
+        a => {
+            let alpha = f32::from(a) / 255.0;
+            let straight = |byte: u8| srgb8_from_linear(linear_table()[usize::from(byte)] / alpha);
+            [straight(r), straight(g), straight(b), a]
+        }
+    }
+}
