@@ -178,3 +178,21 @@ fn children_may_stand_before_the_matrix() {
         read(joint(format!("{matrix}{child}")).as_bytes())
     );
 }
+
+#[test]
+fn columns_count_characters() {
+    let matrix = format!("<Matrix>{IDENTITY}</Matrix>");
+    let text = format!(
+        "<JointSet><!-- 関節 🦴 --><Joint name='Ä'>{matrix}</Joint><Joint name='B'>{matrix}</Joint></JointSet>"
+    );
+    let raw = RawRig::from_xml(text.as_bytes()).unwrap();
+    for joint in &raw.joints {
+        let start = format!("<Joint name='{}'", joint.name);
+        let (_, place) = common::marked(&text.replace(&start, &format!("{}{start}", common::MARK)));
+        assert_eq!(joint.place, Some(place), "{}", joint.name);
+    }
+    common::fails(
+        "<JointSet><!-- 関節 🦴 -->¦<Bone/></JointSet>",
+        &XmlProblem::UnexpectedElement { found: "Bone".to_owned(), expected: "<Joint>" },
+    );
+}

@@ -65,9 +65,9 @@ fn start(out: &mut String, joint: &RawJoint, depth: usize) {
 }
 
 /// An attribute's value: a reader turns raw line breaks and tabs into spaces, so they are written as references.
+/// (`escape` itself sees to the carriage return.)
 fn escaped(name: &str) -> String {
-    let escaped = quick_xml::escape::escape(name);
-    escaped.replace('\n', "&#10;").replace('\t', "&#9;").replace('\r', "&#13;")
+    quick_xml::escape::escape(name).replace('\n', "&#10;").replace('\t', "&#9;")
 }
 
 /// The characters of XML 1.0, section 2.2; surrogates are no `char` anyway.
