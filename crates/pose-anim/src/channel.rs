@@ -1,7 +1,9 @@
+use crate::clip_play::ClipPath;
 use crate::path::{Eased, Path};
 use crate::quintic::Quintic;
 use crate::settle::settle;
-use crate::{Easing, Jet, Pace};
+use crate::{Clip, Easing, Jet, Pace};
+use std::sync::Arc;
 
 /// How many fades may run one inside the other. Five presses within one move that all would leave the range are more
 /// than fingers do; what goes beyond is folded (see [`Channel`]).
@@ -118,9 +120,14 @@ impl Goal {
     fn duration_from(&self, state: Jet, range: Range) -> f64 {
         let own_secs = self.pace.duration_secs(self.target - state.value, range.width());
         let secs = self.duration_secs.unwrap_or(own_secs) * self.factor;
-        let secs = if secs.is_nan() { own_secs } else { secs };
-        secs.max(*DURATIONS_SECS.start()).min(*DURATIONS_SECS.end())
+        sensible(secs, own_secs)
     }
+}
+
+/// A duration within [`DURATIONS_SECS`]; `otherwise` if it is no number.
+fn sensible(secs: f64, otherwise_secs: f64) -> f64 {
+    let secs = if secs.is_nan() { otherwise_secs } else { secs };
+    secs.max(*DURATIONS_SECS.start()).min(*DURATIONS_SECS.end())
 }
 
 impl Rare {
@@ -191,6 +198,34 @@ impl Channel {
         } else {
             self.start(goal, rare);
         }
+    }
+
+    /// Fades from the present motion into a track of a clip, which begins now.
+    pub(crate) fn play(
+        &mut self,
+        clip: &Arc<Clip>,
+        track: usize,
+        pace: Pace,
+        fade_secs: Option<f64>,
+        rare: &mut Rare,
+    ) {
+        self.waits = false;
+        let Some(path) = ClipPath::new(clip, track, pace, self.range) else { return };
+        let distance = path.at(0.0).value - self.state(rare).value;
+        let secs = fade_secs.unwrap_or_else(|| pace.duration_secs(distance, self.range.width()));
+        self.fade_into(Path::Clip(path), sensible(secs, pace.longest_secs.into()), rare);
+    }
+
+    /// Comes to rest about where the least braking leads, if anything moves.
+    pub(crate) fn stop(&mut self, pace: Pace, rare: &mut Rare) {
+        if self.is_at_rest(rare) {
+            return;
+        }
+        let state = self.state(rare);
+        let secs = sensible(pace.longest_secs.into(), 0.5);
+        let braked = state.value + secs * (state.velocity / 2.0 + state.acceleration * secs / 12.0);
+        let target = self.range.clamp(braked);
+        self.start(Goal { target, duration_secs: Some(secs), pace, factor: 1.0, easing: None }, rare);
     }
 
     fn start(&mut self, goal: Goal, rare: &mut Rare) {

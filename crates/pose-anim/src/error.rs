@@ -96,6 +96,75 @@ pub enum MixError {
     Empty,
 }
 
+/// Why a clip could not be made or edited so.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ClipError {
+    /// A track without keys, or one that would lose its last.
+    #[error("control {control}: expected a track with at least one key, found none")]
+    NoKeys {
+        /// Index of the control.
+        control: usize,
+    },
+    /// Two tracks of one control.
+    #[error("control {control}: expected one track, found two")]
+    TwoTracks {
+        /// Index of the control.
+        control: usize,
+    },
+    /// A key that does not exist.
+    #[error("control {control}: expected a key below {keys}, found {key}")]
+    NoSuchKey {
+        /// Index of the control.
+        control: usize,
+        /// Index of the key.
+        key: usize,
+        /// Number of keys.
+        keys: usize,
+    },
+    /// A time that is out of order.
+    #[error(
+        "control {control}, key {key}: expected a time from {earliest_secs} s to {latest_secs} s, found {time_secs} s"
+    )]
+    Time {
+        /// Index of the control.
+        control: usize,
+        /// Index of the key.
+        key: usize,
+        /// The time.
+        time_secs: f64,
+        /// The earliest that is possible.
+        earliest_secs: f64,
+        /// The latest that is possible.
+        latest_secs: f64,
+    },
+    /// NaN, infinity, or a number beyond 10¹².
+    #[error("control {control}, key {key}: expected finite numbers up to 1e12, found others")]
+    NotFinite {
+        /// Index of the control.
+        control: usize,
+        /// Index of the key.
+        key: usize,
+    },
+    /// A factor of time that is none.
+    #[error("expected a factor greater than 0 that keeps the clip within 1000000 s, found {factor}")]
+    Factor {
+        /// The factor.
+        factor: f64,
+    },
+    /// A clip that would be too long.
+    #[error("expected a clip of at most 1000000 s, found {duration_secs} s")]
+    TooLong {
+        /// The length.
+        duration_secs: f64,
+    },
+    /// An error bound that is none.
+    #[error("expected an error bound of 0 or more, found {bound}")]
+    Bound {
+        /// The bound.
+        bound: f64,
+    },
+}
+
 /// Why time could not go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum AdvanceError {

@@ -20,14 +20,50 @@ pub struct JointTarget {
 /// The rotation is written relative to its target as a rotation vector, `q(t) = exp(ρ(t)/2) · q_target`. At a press, ρ and its first two
 /// derivatives follow from those of the running motion, taking the short way round, and each of its components goes to 0 by the
 /// move of least jerk. From rest this is the great arc, run through by minimum jerk.
+///
+/// A move that is much slower than the one that it interrupts would fly far past the target first, and, interrupted again, ever
+/// further; a control has a range that forbids it, a joint has none. Then the old speed is first braked in the time of the old
+/// move, `b(t)`, and faded into the target meanwhile: `x(t) = (1 − r(t)) · b(t) + r(t) · target`, as controls do.
 #[derive(Clone, Debug)]
 pub struct JointPlayer {
     elapsed_secs: f64,
     duration_secs: f64,
     target: DQuat,
     /// The way that is left, as a rotation vector.
-    offset: [Quintic; 3],
-    translation: [Quintic; 3],
+    offset: [Way; 3],
+    translation: [Way; 3],
+    /// How long the old speed is braked.
+    brake_secs: f64,
+}
+
+/// The motion of one coordinate.
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    /// To its end by the move of least jerk.
+    Direct(Quintic),
+    /// To rest by such a move, which is faded into the end meanwhile.
+    Braked { brake: Quintic, end: f64 },
+}
+
+impl Way {
+    fn new(state: Jet, end: f64, duration_secs: f64, brake_secs: f64) -> Self {
+        if brake_secs >= duration_secs {
+            return Self::Direct(Quintic::new(state, end, duration_secs));
+        }
+        // The free end of a move of least jerk.
+        let stop = state.value + brake_secs * (state.velocity / 2.0 + state.acceleration * brake_secs / 12.0);
+        Self::Braked { brake: Quintic::new(state, stop, brake_secs), end }
+    }
+
+    fn at(&self, age_secs: f64, duration_secs: f64) -> Jet {
+        match self {
+            Self::Direct(quintic) => quintic.at(age_secs),
+            Self::Braked { end, .. } if age_secs >= duration_secs => Jet::rest(*end),
+            Self::Braked { brake, end } => {
+                brake.at(age_secs).mix(Jet::rest(*end), Jet::step(age_secs, duration_secs))
+            }
+        }
+    }
 }
 
 impl JointPlayer {
@@ -38,8 +74,9 @@ impl JointPlayer {
             elapsed_secs: 0.0,
             duration_secs: 0.0,
             target: unit(at.rotation),
-            offset: [Quintic::rest(0.0); 3],
-            translation: translation.to_array().map(Quintic::rest),
+            offset: [Way::Direct(Quintic::rest(0.0)); 3],
+            translation: translation.to_array().map(|at| Way::Direct(Quintic::rest(at))),
+            brake_secs: 0.0,
         }
     }
 
@@ -49,12 +86,21 @@ impl JointPlayer {
         let duration_secs = if secs.is_nan() { 0.001 } else { secs.clamp(0.001, 3600.0) };
         let rotation = self.rotation_jets();
         let translation = self.translation_jets();
+        // The time scale of the running motion; a rest has none.
+        let old_secs = match self.elapsed_secs {
+            _ if self.is_at_rest() => f64::INFINITY,
+            elapsed_secs if elapsed_secs < self.brake_secs => self.brake_secs,
+            _ => self.duration_secs,
+        };
+        // Moves of about the same speed may well be direct.
+        let brake_secs = if duration_secs > 1.5 * old_secs { old_secs } else { duration_secs };
         let end = unit(target.rotation);
-        self.offset = offset_from(&rotation, end).map(|jet| Quintic::new(jet, 0.0, duration_secs));
+        self.offset = offset_from(&rotation, end).map(|jet| Way::new(jet, 0.0, duration_secs, brake_secs));
         let ends = finite(target.translation).to_array();
-        for ((quintic, jet), end) in self.translation.iter_mut().zip(translation).zip(ends) {
-            *quintic = Quintic::new(jet, end, duration_secs);
+        for ((way, jet), end) in self.translation.iter_mut().zip(translation).zip(ends) {
+            *way = Way::new(jet, end, duration_secs, brake_secs);
         }
+        self.brake_secs = brake_secs;
         self.target = end;
         self.elapsed_secs = 0.0;
         self.duration_secs = duration_secs;
@@ -123,12 +169,12 @@ impl JointPlayer {
     }
 
     fn translation_jets(&self) -> [Jet; 3] {
-        self.translation.map(|quintic| quintic.at(self.elapsed_secs))
+        self.translation.map(|way| way.at(self.elapsed_secs, self.duration_secs))
     }
 
     /// x, y, z and w of the rotation.
     fn rotation_jets(&self) -> [Jet; 4] {
-        let [x, y, z] = self.offset.map(|quintic| quintic.at(self.elapsed_secs));
+        let [x, y, z] = self.offset.map(|way| way.at(self.elapsed_secs, self.duration_secs));
         let square = x * x + y * y + z * z;
         let (cosine, sine) = half_angle(square);
         multiply([sine * x, sine * y, sine * z, cosine], self.target)

@@ -69,6 +69,11 @@
 
 mod bind;
 mod channel;
+mod clip;
+mod clip_edit;
+mod clip_play;
+mod clip_set;
+mod clip_toml;
 mod control;
 mod control_toml;
 mod easing;
@@ -84,15 +89,19 @@ mod pose;
 mod pose_toml;
 mod quintic;
 mod reach;
+mod reduce;
 mod settle;
 mod text;
 
 pub use bind::Binding;
+pub use clip::{Clip, Key, Track, Transition, Wrap};
+pub use clip_set::ClipSet;
 pub use control::{Control, ControlTable, Coupling, DEFAULT_CONTROLS_TOML, Drive, JointMotion, Pace};
 pub use easing::{Direction, Easing, Family};
-pub use error::{AdvanceError, ApplyError, BindError, JumpError, MixError, TomlError};
+pub use error::{AdvanceError, ApplyError, BindError, ClipError, JumpError, MixError, TomlError};
 pub use jet::Jet;
 pub use joints::{JointPlayer, JointTarget};
 pub use layers::{LayerId, LayerMode, Layers};
 pub use player::Player;
 pub use pose::{DEFAULT_POSES_TOML, Pose, PoseSet, Timing};
+pub use reduce::Reduction;

@@ -1,5 +1,6 @@
 //! Where a control goes by itself, before any interruption.
 
+use crate::clip_play::ClipPath;
 use crate::quintic::Quintic;
 use crate::{Easing, Jet};
 
@@ -10,6 +11,8 @@ pub(crate) enum Path {
     Quintic(Quintic),
     /// Along a transition function.
     Eased(Eased),
+    /// Along a track of a clip.
+    Clip(ClipPath),
 }
 
 impl Path {
@@ -21,23 +24,26 @@ impl Path {
         match self {
             Self::Quintic(quintic) => quintic.at(age_secs),
             Self::Eased(eased) => eased.at(age_secs),
+            Self::Clip(clip) => clip.at(age_secs),
         }
     }
 
-    /// Seconds until the motion rests.
+    /// Seconds until the motion rests; infinite if it does not.
     pub(crate) fn remaining_secs(&self, age_secs: f64) -> f64 {
         let duration_secs = match self {
             Self::Quintic(quintic) => quintic.duration_secs(),
             Self::Eased(eased) => eased.duration_secs,
+            Self::Clip(clip) => clip.duration_secs(),
         };
         (duration_secs - age_secs).max(0.0)
     }
 
-    /// Where the motion comes to rest, if it does.
+    /// Where the motion comes to rest, or, if it does not, a value on its way.
     pub(crate) fn end(&self) -> f64 {
         match self {
             Self::Quintic(quintic) => quintic.target,
             Self::Eased(eased) => eased.target,
+            Self::Clip(clip) => clip.end(),
         }
     }
 }

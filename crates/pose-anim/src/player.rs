@@ -1,5 +1,6 @@
 use crate::channel::{Channel, Goal, Range, Rare};
-use crate::{AdvanceError, ControlTable, Jet, JumpError, Pace, Pose};
+use crate::{AdvanceError, Clip, ControlTable, Jet, JumpError, Pace, Pose};
+use std::sync::Arc;
 
 /// Moves the controls of one face from pose to pose.
 ///
@@ -69,6 +70,30 @@ impl Player {
                 easing: pose.transition,
             };
             channel.press(goal, f64::from(timing.delay_secs).min(3600.0), rare);
+        }
+    }
+
+    /// Plays a clip from its start, from now on: every control that it has a track for fades into it from whatever it does, in
+    /// `fade_secs` or, with `None`, in the time that a move to the clip's start takes; the others go on. A press interrupts it as any
+    /// motion, and a clip that ends at speed comes to rest smoothly.
+    ///
+    /// The motion is as smooth as the clip is: a track with corners keeps them.
+    pub fn play(&mut self, clip: &Arc<Clip>, fade_secs: Option<f32>) {
+        for (index, track) in clip.tracks().iter().enumerate() {
+            let control = track.control();
+            let (Some(channel), Some(rare)) = (self.channels.get_mut(control), self.rare.get_mut(control))
+            else {
+                continue;
+            };
+            let Some(pace) = self.paces.get(control) else { continue };
+            channel.play(clip, index, *pace, fade_secs.map(f64::from), rare);
+        }
+    }
+
+    /// Brings everything that moves to rest where it is, as soon as is smooth; drops what waits.
+    pub fn stop(&mut self) {
+        for ((channel, rare), pace) in self.channels.iter_mut().zip(&mut self.rare).zip(&self.paces) {
+            channel.stop(*pace, rare);
         }
     }
 
@@ -155,7 +180,7 @@ impl Player {
         self.channels.iter().zip(&self.rare).all(|(channel, rare)| channel.is_at_rest(rare))
     }
 
-    /// Seconds until all controls have arrived, if nothing is pressed.
+    /// Seconds until all controls have arrived, if nothing is pressed; infinite while a clip repeats.
     pub fn secs_to_rest(&self) -> f64 {
         let channels = self.channels.iter().zip(&self.rare);
         channels.map(|(channel, rare)| channel.remaining_secs(rare)).fold(0.0, f64::max)

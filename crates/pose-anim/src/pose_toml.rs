@@ -27,7 +27,8 @@ fn pose(mut table: Table<'_, '_>, controls: &ControlTable, before: &PoseSet) -> 
     }
     let mut pose = Pose::new(name, Vec::new());
     if let Some(entry) = table.take("key") {
-        pose.key = Some(key(&entry, before)?);
+        let taken = before.iter().filter_map(|pose| Some((pose.key.as_deref()?, pose.name.as_str())));
+        pose.key = Some(key(&entry, "pose", taken)?);
     }
     if let Some(entry) = table.take("duration") {
         pose.duration_secs = Some(duration(&entry)?);
@@ -54,16 +55,21 @@ pub(crate) fn duration(entry: &Entry<'_, '_>) -> Result<f32, TomlError> {
     }
 }
 
-fn key(entry: &Entry<'_, '_>, before: &PoseSet) -> Result<String, TomlError> {
+/// A key that none of `taken`, pairs of key and owner, has.
+pub(crate) fn key<'n>(
+    entry: &Entry<'_, '_>,
+    what: &str,
+    mut taken: impl Iterator<Item = (&'n str, &'n str)>,
+) -> Result<String, TomlError> {
     let key = entry.string(KEY)?;
     let one_character = key.chars().count() == 1;
     if !one_character && !key.chars().all(|c| c.is_ascii_alphanumeric()) {
         return Err(entry.error_found(KEY));
     }
-    match before.by_key(key) {
+    match taken.find(|(other, _)| *other == key) {
         None => Ok(key.to_owned()),
-        Some(other) => {
-            let found = format!("{}, which calls pose {}", quote(key), quote(&other.name));
+        Some((_, owner)) => {
+            let found = format!("{}, which calls {what} {}", quote(key), quote(owner));
             Err(entry.error("a key of its own", found))
         }
     }
@@ -135,7 +141,7 @@ fn within(entry: &Entry<'_, '_>, expected: &str, min: f32, max: f32) -> Result<f
     if (min..=max).contains(&number) { Ok(number) } else { Err(entry.error_found(expected)) }
 }
 
-fn value(entry: &Entry<'_, '_>, control: &Control) -> Result<f32, TomlError> {
+pub(crate) fn value(entry: &Entry<'_, '_>, control: &Control) -> Result<f32, TomlError> {
     let expected = format!("a number from {} to {}", control.min, control.max);
     let value = entry.number(&expected)?;
     if (control.min..=control.max).contains(&value) { Ok(value) } else { Err(entry.error_found(expected)) }

@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Numbers beyond this are no angle, weight or length that a face can have.
-pub(crate) const LARGEST: f32 = 1e9;
+pub(crate) const LARGEST: f64 = 1e9;
 
 /// A text with its name for keys in errors.
 #[derive(Clone, Copy, Debug)]
@@ -193,6 +193,11 @@ impl<'t, 'a> Entry<'t, 'a> {
 
     /// A finite number of at most [`LARGEST`].
     pub(crate) fn number(&self, expected: &str) -> Result<f32, TomlError> {
+        self.precise(expected).map(|number| number as f32)
+    }
+
+    /// As [`Self::number`], in full precision.
+    pub(crate) fn precise(&self, expected: &str) -> Result<f64, TomlError> {
         let number = match self.value.get_ref() {
             DeValue::Integer(number) => {
                 i64::from_str_radix(number.as_str(), number.radix()).ok().map(|n| n as f64)
@@ -200,8 +205,8 @@ impl<'t, 'a> Entry<'t, 'a> {
             DeValue::Float(number) => number.as_str().parse().ok(),
             _ => None,
         };
-        match number.map(|number| number as f32) {
-            Some(number) if number.abs() <= LARGEST => Ok(number),
+        match number {
+            Some(number) if f64::abs(number) <= LARGEST => Ok(number),
             _ => Err(self.error_found(expected)),
         }
     }

@@ -1,0 +1,83 @@
+//! The format of `clips.toml`.
+
+use crate::clip::LATEST_SECS;
+use crate::pose_toml::{by_control, key, transition, value};
+use crate::text::{Entry, Table, Text, quote};
+use crate::{Clip, ClipSet, Control, ControlTable, Key, TomlError, Track, Transition, Wrap};
+
+const TIME: &str = "a number of seconds from 0 to 1000000, not before the previous key's";
+const SLOPES: &str = "[leaving, arriving]: the slopes of a cubic, per second, here and at the next key";
+
+pub(crate) fn read(source: &str, controls: &ControlTable) -> Result<ClipSet, TomlError> {
+    let (text, document) = Text::parse(source)?;
+    let mut root = Table::new(text, "", 0..0, document.get_ref());
+    let mut set = ClipSet::default();
+    for table in root.take_tables("clip")? {
+        let clip = clip(table, controls, &set)?;
+        set.clips.push(clip);
+    }
+    root.finish(&["clip"])?;
+    Ok(set)
+}
+
+fn clip(mut table: Table<'_, '_>, controls: &ControlTable, before: &ClipSet) -> Result<Clip, TomlError> {
+    let entry = table.require("name", "the name of a clip")?;
+    let name = entry.string("the name of a clip")?;
+    if before.get(name).is_some() {
+        return Err(entry.error("unique names", format!("{} again", quote(name))));
+    }
+    let mut clip = Clip { name: name.to_owned(), ..Clip::default() };
+    if let Some(entry) = table.take("key") {
+        let taken = before.clips.iter().filter_map(|clip| Some((clip.key.as_deref()?, clip.name.as_str())));
+        clip.key = Some(key(&entry, "clip", taken)?);
+    }
+    if let Some(entry) = table.take("wrap") {
+        clip.wrap = match entry.string("\"once\", \"loop\" or \"ping-pong\"")? {
+            "once" => Wrap::Once,
+            "loop" => Wrap::Loop,
+            "ping-pong" => Wrap::PingPong,
+            other => {
+                return Err(entry.unknown_value(other, "one of", ["once", "loop", "ping-pong"].into_iter()));
+            }
+        };
+    }
+    let mut tracks = Vec::new();
+    let entry = table.require("tracks", "a table of tracks")?;
+    by_control(&entry, "", controls, &mut tracks, &keys)?;
+    for (control, keys) in tracks {
+        let track = Track::new(control, keys);
+        clip.tracks.push(track.map_err(|error| entry.error("tracks of keys", error.to_string()))?);
+    }
+    table.finish(&["name", "key", "wrap", "tracks"])?;
+    Ok(clip)
+}
+
+fn keys(entry: &Entry<'_, '_>, control: &Control) -> Result<Vec<Key>, TomlError> {
+    let mut keys: Vec<Key> = Vec::new();
+    for entry in entry.array()? {
+        let mut table = entry.table()?;
+        let time = table.require("t", TIME)?;
+        let time_secs = time.precise(TIME)?;
+        let earliest_secs = keys.last().map_or(0.0, |key| key.time_secs);
+        if !(earliest_secs..=LATEST_SECS).contains(&time_secs) {
+            return Err(time.error_found(TIME));
+        }
+        let value = f64::from(value(&table.require("v", "a value")?, control)?);
+        let mut key = Key { time_secs, value, transition: Transition::LINEAR };
+        if let Some(entry) = table.take("transition") {
+            key.transition = Transition::Ease(transition(&entry)?);
+        }
+        if let Some(entry) = table.take("slopes") {
+            let slopes: Vec<f32> =
+                entry.array()?.iter().map(|item| item.number(SLOPES)).collect::<Result<_, _>>()?;
+            let [leaving, arriving] = slopes[..] else { return Err(entry.error_found(SLOPES)) };
+            if key.transition != Transition::LINEAR {
+                return Err(entry.error("either a transition or slopes", "both"));
+            }
+            key.transition = Transition::Hermite { leaving: leaving.into(), arriving: arriving.into() };
+        }
+        table.finish(&["t", "v", "transition", "slopes"])?;
+        keys.push(key);
+    }
+    if keys.is_empty() { Err(entry.error("at least one key", "none")) } else { Ok(keys) }
+}

@@ -1,0 +1,222 @@
+use crate::{Clip, ClipError, Easing, Key, Track, Transition};
+
+/// What [`Clip::reduced`] saved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reduction {
+    /// Keys before.
+    pub keys_before: usize,
+    /// Keys after.
+    pub keys_after: usize,
+    /// Bytes before; see [`Clip::byte_len`].
+    pub bytes_before: usize,
+    /// Bytes after.
+    pub bytes_after: usize,
+    /// By how much any control strays, at most.
+    pub worst: f64,
+}
+
+/// Places in a curved span where a fit is compared with it.
+const CHECKS: usize = 16;
+
+impl Clip {
+    /// The size of the clip in a compact form: for each key its time and value as 32-bit numbers, a byte for the kind of transition,
+    /// and the transition's own numbers at 32 bits each.
+    pub fn byte_len(&self) -> usize {
+        let numbers = |key: &Key| match key.transition {
+            Transition::Ease(Easing::Bezier(_)) => 4,
+            Transition::Ease(_) => 0,
+            Transition::Hermite { .. } => 2,
+            Transition::Part { .. } => 3,
+        };
+        self.tracks.iter().flat_map(Track::keys).map(|key| 9 + 4 * numbers(key)).sum()
+    }
+
+    /// The same clip with as few keys as a greedy search finds, so that no control strays further than `bound(control)` at any time.
+    ///
+    /// From each key that is kept, the farthest later one is sought such that one span between them fits: a straight line, or else the
+    /// cubic through both whose slopes fit best in the least-squares sense (as in Schneider 1990, *An Algorithm for Automatically
+    /// Fitting Digitized Curves*, but over time, where the fit is linear). Jumps stay what they are. Straight and
+    /// constant spans are checked at the extrema of the difference, curved ones at sixteen places.
+    ///
+    /// # Errors
+    /// A bound that is negative or NaN.
+    pub fn reduced(&self, mut bound: impl FnMut(usize) -> f64) -> Result<(Self, Reduction), ClipError> {
+        let mut reduced = Self { tracks: Vec::new(), ..self.clone() };
+        let mut worst = 0.0f64;
+        for track in &self.tracks {
+            let bound = bound(track.control());
+            if bound.is_nan() || bound < 0.0 {
+                return Err(ClipError::Bound { bound });
+            }
+            let (keys, strays) = reduce(track, bound);
+            worst = worst.max(strays);
+            reduced.tracks.push(Track::new(track.control(), keys)?);
+        }
+        let keys = |clip: &Self| clip.tracks.iter().map(|track| track.keys().len()).sum();
+        let report = Reduction {
+            keys_before: keys(self),
+            keys_after: keys(&reduced),
+            bytes_before: self.byte_len(),
+            bytes_after: reduced.byte_len(),
+            worst,
+        };
+        Ok((reduced, report))
+    }
+}
+
+/// The keys that are left, and by how much they stray.
+fn reduce(track: &Track, bound: f64) -> (Vec<Key>, f64) {
+    let keys = track.keys();
+    let (mut kept, mut worst, mut from) = (Vec::new(), 0.0f64, 0);
+    while from + 1 < keys.len() {
+        // A single span fits itself.
+        let mut best = (from + 1, keys[from].transition, 0.0);
+        let mut fits = |to: usize| match fit(track, from, to, bound) {
+            Some((transition, strays)) => {
+                best = (to, transition, strays);
+                true
+            }
+            None => false,
+        };
+        // Gallop until it fails, then halve between the last success and the failure.
+        let (mut good, mut step) = (from + 1, 1);
+        let mut bad = loop {
+            let to = (good + step).min(keys.len() - 1);
+            if to == good {
+                break good + 1;
+            }
+            if !fits(to) {
+                break to;
+            }
+            good = to;
+            step *= 2;
+        };
+        while bad - good > 1 {
+            let middle = good + (bad - good) / 2;
+            if fits(middle) {
+                good = middle;
+            } else {
+                bad = middle;
+            }
+        }
+        let (to, transition, strays) = best;
+        kept.push(Key { transition, ..keys[from] });
+        worst = worst.max(strays);
+        from = to;
+    }
+    kept.extend(keys.last().map(|last| Key { transition: Transition::LINEAR, ..*last }));
+    (kept, worst)
+}
+
+/// One span from key `from` to key `to` that stays within the bound, with how far it strays.
+fn fit(track: &Track, from: usize, to: usize, bound: f64) -> Option<(Transition, f64)> {
+    let keys = &track.keys()[from..=to];
+    let jumps = |pair: &[Key]| {
+        let step = matches!(pair[0].transition, Transition::Ease(Easing::StepEnd | Easing::StepStart));
+        pair[0].value != pair[1].value && (step || pair[0].time_secs == pair[1].time_secs)
+    };
+    if keys.windows(2).any(jumps) {
+        return None;
+    }
+    let line = Transition::LINEAR;
+    if let Some(strays) = strays(keys, line, bound) {
+        return Some((line, strays));
+    }
+    let cubic = best_slopes(keys)?;
+    strays(keys, cubic, bound).map(|strays| (cubic, strays))
+}
+
+/// A track of the single span from the first to the last key.
+fn span(keys: &[Key], transition: Transition) -> [Key; 2] {
+    let (first, last) = (keys[0], keys[keys.len() - 1]);
+    [Key { transition, ..first }, last]
+}
+
+/// The cubic through the end keys with the slopes that fit best at the keys and between them.
+fn best_slopes(keys: &[Key]) -> Option<Transition> {
+    let (first, last) = (keys.first()?, keys.last()?);
+    let length = last.time_secs - first.time_secs;
+    if length <= 0.0 {
+        return None;
+    }
+    // Beyond the line, the cubic is l·u(1−u)² − r·u²(1−u): linear in l and r.
+    let (mut ll, mut lr, mut rr, mut lx, mut rx) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for pair in keys.windows(2) {
+        for step in 0..4 {
+            let share = f64::from(step) / 4.0;
+            let time_secs = pair[0].time_secs + share * (pair[1].time_secs - pair[0].time_secs);
+            let u = (time_secs - first.time_secs) / length;
+            let beyond = state(pair, share) - (first.value + (last.value - first.value) * u);
+            let (l, r) = (u * (1.0 - u) * (1.0 - u), -u * u * (1.0 - u));
+            (ll, lr, rr) = (ll + l * l, lr + l * r, rr + r * r);
+            (lx, rx) = (lx + l * beyond, rx + r * beyond);
+        }
+    }
+    let determinant = ll * rr - lr * lr;
+    if determinant.abs() < 1e-300 {
+        return None;
+    }
+    let (l, r) = ((lx * rr - rx * lr) / determinant, (rx * ll - lx * lr) / determinant);
+    let slope = (last.value - first.value) / length;
+    Some(Transition::Hermite { leaving: slope + l / length, arriving: slope + r / length })
+}
+
+/// Value of one span at a share of its time.
+fn state(pair: &[Key], share: f64) -> f64 {
+    let length = pair[1].time_secs - pair[0].time_secs;
+    if length <= 0.0 {
+        return pair[0].value;
+    }
+    Transition::at(pair[0].transition, share * length, length, pair[0].value, pair[1].value).value
+}
+
+/// How far the span strays from the keys' curve, if not further than the bound.
+fn strays(keys: &[Key], transition: Transition, bound: f64) -> Option<f64> {
+    let whole = span(keys, transition);
+    let length = whole[1].time_secs - whole[0].time_secs;
+    let value = |time_secs: f64| {
+        if length <= 0.0 {
+            return whole[1].value;
+        }
+        Transition::at(transition, time_secs - whole[0].time_secs, length, whole[0].value, whole[1].value)
+            .value
+    };
+    let mut worst = 0.0f64;
+    for pair in keys.windows(2) {
+        let (start, end) = (pair[0].time_secs, pair[1].time_secs);
+        let mut check = |share: f64| {
+            worst = worst.max((value(start + share * (end - start)) - state(pair, share)).abs());
+        };
+        check(0.0);
+        check(1.0);
+        let straight = pair[0].transition == Transition::LINEAR || pair[0].value == pair[1].value;
+        match (transition, straight) {
+            (Transition::Hermite { leaving, arriving }, true) => {
+                let slope = (pair[1].value - pair[0].value) / (end - start).max(f64::MIN_POSITIVE);
+                for extremum in cubic_slopes_at(whole, leaving, arriving, slope) {
+                    let share = (extremum - start) / (end - start);
+                    if (0.0..1.0).contains(&share) {
+                        check(share);
+                    }
+                }
+            }
+            // Two straight lines differ most at an end.
+            (_, true) => {}
+            (_, false) => (1..CHECKS).for_each(|step| check(step as f64 / CHECKS as f64)),
+        }
+        if worst > bound {
+            return None;
+        }
+    }
+    Some(worst)
+}
+
+/// The times at which the cubic span has this slope; NaN where there are none.
+fn cubic_slopes_at([first, last]: [Key; 2], leaving: f64, arriving: f64, slope: f64) -> [f64; 2] {
+    let length = last.time_secs - first.time_secs;
+    let mean = (last.value - first.value) / length;
+    let (l, r) = (leaving - mean, arriving - mean);
+    // x'(u) = mean + l − (4l + 2r)·u + 3(l + r)·u², in units of value per second.
+    let (a, b, c) = (3.0 * (l + r), -(4.0 * l + 2.0 * r), l + mean - slope);
+    crate::quintic::roots(a, b, c).map(|u| first.time_secs + u * length)
+}
