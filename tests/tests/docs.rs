@@ -1,4 +1,5 @@
 //! The documents stay true: names in diagrams exist, and programs in the README run as they stand there.
+#![allow(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,7 +34,9 @@ fn source_of(krate: &str) -> String {
 fn declares(source: &str, name: &str) -> bool {
     let starts = [format!("struct {name}"), format!("enum {name}"), format!("fn {name}")];
     let ends_word = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
-    let item = starts.iter().any(|start| source.match_indices(start).any(|(at, _)| ends_word(&source[at + start.len()..])));
+    let item = starts
+        .iter()
+        .any(|start| source.match_indices(start).any(|(at, _)| ends_word(&source[at + start.len()..])));
     let field = source.lines().map(str::trim).any(|line| {
         let line = line.trim_start_matches("pub(crate) ").trim_start_matches("pub ");
         line.strip_prefix(name).is_some_and(|rest| rest.starts_with([':', ',', '(', ' ']))
@@ -48,7 +51,8 @@ fn every_name_in_the_class_diagrams_exists() {
     for section in text.split("\n## ").skip(1) {
         let krate = section.lines().next().expect("a heading").trim();
         let source = source_of(krate);
-        let diagram = section.split("```mermaid").nth(1).and_then(|rest| rest.split("```").next()).expect("a diagram");
+        let diagram =
+            section.split("```mermaid").nth(1).and_then(|rest| rest.split("```").next()).expect("a diagram");
         let mut inside = false;
         for line in diagram.lines().map(str::trim) {
             let name = if let Some(class) = line.strip_prefix("class ") {
@@ -100,7 +104,8 @@ fn the_readmes_programs_run_in_projects_of_their_own() {
         assert_eq!((toml.len(), rust.len()), (1, 1), "{name}: expected one manifest and one program");
         let project = scratch.join(format!("use-{name}"));
         fs::create_dir_all(project.join("src")).expect("a folder");
-        let package = format!("[package]\nname = \"use-{name}\"\nedition = \"2024\"\n\n{}\n[workspace]\n", toml[0]);
+        let package =
+            format!("[package]\nname = \"use-{name}\"\nedition = \"2024\"\n\n{}\n[workspace]\n", toml[0]);
         fs::write(project.join("Cargo.toml"), package).expect("a manifest");
         fs::write(project.join("src/main.rs"), rust[0]).expect("a program");
         // The same versions as here, so that nothing has to be fetched or built twice.

@@ -123,6 +123,9 @@ pub(crate) struct TraceArgs {
     /// Poses and the times in seconds at which they are pressed: "0 smile; 0.3 frown"
     #[arg(long)]
     pub(crate) script: String,
+    /// After all values, also each control's velocity (CONTROL') and acceleration (CONTROL''), per second
+    #[arg(long)]
+    pub(crate) derivatives: bool,
     /// Rows per second
     #[arg(long, default_value = "240", value_parser = positive)]
     pub(crate) hz: f64,
@@ -161,9 +164,10 @@ impl std::str::FromStr for Size {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
-        let sides = text.split_once(['x', 'X']).and_then(|(width, height)| Some((side(width)?, side(height)?)));
-        let (width, height) =
-            sides.ok_or_else(|| format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}, as in 1280x720"))?;
+        let sides =
+            text.split_once(['x', 'X']).and_then(|(width, height)| Some((side(width)?, side(height)?)));
+        let (width, height) = sides
+            .ok_or_else(|| format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}, as in 1280x720"))?;
         Ok(Self { width, height })
     }
 }

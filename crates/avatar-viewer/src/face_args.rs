@@ -110,7 +110,8 @@ impl FaceArgs {
         let mut values = pack.controls.defaults();
         if let Some(name) = &self.pose {
             let pose = pack.poses.get(name);
-            let pose = pose.ok_or_else(|| unknown("pose", name, pack.poses.iter().map(|p| p.name.as_str())))?;
+            let pose =
+                pose.ok_or_else(|| unknown("pose", name, pack.poses.iter().map(|p| p.name.as_str())))?;
             pose.values.iter().for_each(|&(control, value)| values[control] = value);
         }
         let positions = |option: &str| matches.indices_of(option).into_iter().flatten();
@@ -140,13 +141,19 @@ impl FaceArgs {
             let hint = nearest.map(|name| format!(" (did you mean {name:?}?)")).unwrap_or_default();
             let names: Vec<_> = controls.iter().map(|control| control.name.as_str()).collect();
             let names = names.join(", ");
-            usage(format!("expected the name of a control, found {:?}{hint}; there are: {names}", setting.control))
+            usage(format!(
+                "expected the name of a control, found {:?}{hint}; there are: {names}",
+                setting.control
+            ))
         })?;
         let control = &controls[index];
         let value = setting.value.clamp(control.min, control.max);
         if value != setting.value {
             let (min, max, found) = (control.min, control.max, setting.value);
-            eprintln!("warning: --set {}: expected {min} to {max}, found {found}: clamped to {value}", control.name);
+            eprintln!(
+                "warning: --set {}: expected {min} to {max}, found {found}: clamped to {value}",
+                control.name
+            );
         }
         Ok((index, value))
     }

@@ -15,7 +15,8 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
         _ => {}
     }
     // A link keeps pointing to the file that it names.
-    let path = if metadata.is_ok() { std::fs::canonicalize(path).with_context(what)? } else { path.to_owned() };
+    let path =
+        if metadata.is_ok() { std::fs::canonicalize(path).with_context(what)? } else { path.to_owned() };
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),

@@ -8,6 +8,9 @@ use avatar_render::{AvatarModel, Camera, Image, Light, PartBones, PartDesc, Part
 /// Angle of view from top to bottom: long enough a lens not to distort a face.
 const VERTICAL_FOV_DEGREES: f32 = 24.0;
 
+/// How much of the box's depth is taken into account where the distance is chosen.
+const ROUNDNESS: f32 = 0.4;
+
 /// Where the camera stands around the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct View {
@@ -31,7 +34,8 @@ pub(crate) fn scene(pack: &Pack, view: View, width: u32, height: u32, background
     let fov = VERTICAL_FOV_DEGREES.to_radians();
     // The distance is that of the front view, so that the head does not grow and shrink as the camera goes round.
     let across = bounds.size().x.max(bounds.size().z);
-    let half = glam::Vec3::new(across, bounds.size().y, across) / 2.0;
+    // A head is round: the corners of its box that are nearest to the camera are empty.
+    let half = glam::Vec3::new(across, bounds.size().y, across * ROUNDNESS) / 2.0;
     let round = Bounds { min: bounds.center() - half, max: bounds.center() + half };
     let whole_head = Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
     let (yaw, pitch) = (view.yaw_degrees.to_radians(), view.pitch_degrees.to_radians());

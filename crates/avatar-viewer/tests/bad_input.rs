@@ -84,7 +84,8 @@ fn missing_files() {
 #[test]
 fn both_names_of_the_rig_are_read() {
     let pack = copy_of_golden_pack();
-    let rename = fs::rename(pack.path().join("Transformations.xml"), pack.path().join("Transformationen.xml"));
+    let rename =
+        fs::rename(pack.path().join("Transformations.xml"), pack.path().join("Transformationen.xml"));
     rename.expect("renamed");
     run(&["info".as_ref(), pack.path().as_os_str()]).ok();
 }
@@ -109,7 +110,10 @@ fn a_folder_or_file_where_the_other_is_meant() {
 #[test]
 fn partial_elements_and_empty_buffers() {
     for (name, element) in [(SKIN_VB, "124-byte vertices"), (TEETH_VB, "32-byte vertices")] {
-        refuses(|pack| edit(pack, name, |bytes| bytes.truncate(bytes.len() - 1)), &[name, element, "whole number"]);
+        refuses(
+            |pack| edit(pack, name, |bytes| bytes.truncate(bytes.len() - 1)),
+            &[name, element, "whole number"],
+        );
         refuses(|pack| edit(pack, name, Vec::clear), &[name, "at least one vertex"]);
     }
     for name in [SKIN_IB, "UpperJaw_IB.raw"] {
@@ -170,9 +174,18 @@ fn numbers_that_are_not_finite() {
 fn damaged_rigs() {
     const RIG: &str = "Transformations.xml";
     let xml = "Transformations.xml: line";
-    refuses(|p| edit_rig(p, |x| x.replacen("<Joint ", "<Bone ", 1)), &[xml, "expected <Joint>, found <Bone>"]);
-    refuses(|p| edit_rig(p, |x| x.replacen("</Matrix>", " 1 </Matrix>", 1)), &[xml, "16 numbers", "found 17"]);
-    refuses(|p| edit_rig(p, |x| x.replacen("</Matrix>", " one </Matrix>", 1)), &[xml, "finite number", "one"]);
+    refuses(
+        |p| edit_rig(p, |x| x.replacen("<Joint ", "<Bone ", 1)),
+        &[xml, "expected <Joint>, found <Bone>"],
+    );
+    refuses(
+        |p| edit_rig(p, |x| x.replacen("</Matrix>", " 1 </Matrix>", 1)),
+        &[xml, "16 numbers", "found 17"],
+    );
+    refuses(
+        |p| edit_rig(p, |x| x.replacen("</Matrix>", " one </Matrix>", 1)),
+        &[xml, "finite number", "one"],
+    );
     let twice = |x: String| x.replace("\"JawJoint\"", "\"HeadJoint\"");
     refuses(|p| edit_rig(p, twice), &[xml, "unique", "HeadJoint"]);
     refuses(|p| edit_rig(p, |x| x.replacen(" name=\"JawJoint\"", "", 1)), &[xml, "a joint with a name"]);
@@ -195,7 +208,9 @@ fn two_hundred_thousand_levels() {
     let nested = |n: usize| {
         let mut xml = String::from("<JointSet>");
         for joint in 0..n {
-            xml.push_str(&format!("<Joint name=\"{joint}\"><Matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</Matrix><Children>"));
+            xml.push_str(&format!(
+                "<Joint name=\"{joint}\"><Matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</Matrix><Children>"
+            ));
         }
         xml.push_str(&"</Children></Joint>".repeat(n));
         xml + "</JointSet>"
@@ -206,14 +221,19 @@ fn two_hundred_thousand_levels() {
 
 #[test]
 fn poses_and_controls() {
-    let poses = |text: &'static str| move |pack: &Path| fs::write(pack.join("poses.toml"), text).expect("written");
+    let poses =
+        |text: &'static str| move |pack: &Path| fs::write(pack.join("poses.toml"), text).expect("written");
     let unknown = "[[pose]]\nname = \"x\"\n[pose.controls]\n\"jaw.opne\" = 3\n";
     refuses(poses(unknown), &["poses.toml", "line 4", "jaw.opne", "jaw.open"]);
     refuses(poses("[[pose]\n"), &["poses.toml", "line 1"]);
-    let controls = |text: &'static str| move |pack: &Path| fs::write(pack.join("controls.toml"), text).expect("written");
+    let controls =
+        |text: &'static str| move |pack: &Path| fs::write(pack.join("controls.toml"), text).expect("written");
     let joint = "[[control]]\nname = \"a\"\njoint = \"Elbow\"\naxis = \"+x\"\nmin = 0\nmax = 1\n";
     refuses(controls(joint), &["controls.toml", "Elbow"]);
-    refuses(|pack| fs::write(pack.join("poses.toml"), b"name = \"\xFF\"").expect("written"), &["poses.toml", "UTF-8"]);
+    refuses(
+        |pack| fs::write(pack.join("poses.toml"), b"name = \"\xFF\"").expect("written"),
+        &["poses.toml", "UTF-8"],
+    );
 }
 
 #[test]
@@ -222,10 +242,14 @@ fn textures_that_do_not_decode() {
     fs::write(pack.path().join("SkinTex_Decal.png"), b"no picture").expect("written");
     let report = run(&["info".as_ref(), pack.path().as_os_str(), "--json".as_ref()]).ok();
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
-    let warnings: Vec<_> = report["warnings"].as_array().expect("a list").iter().filter_map(|w| w.as_str()).collect();
+    let warnings: Vec<_> =
+        report["warnings"].as_array().expect("a list").iter().filter_map(|w| w.as_str()).collect();
     let about = |name: &str| warnings.iter().filter(|w| w.contains(name)).count();
     assert_eq!(about("SkinTex_Decal"), 1, "{warnings:?}");
-    assert!(warnings.iter().any(|w| w.contains("SkinTex_Decal.png") && w.contains("default")), "{warnings:?}");
+    assert!(
+        warnings.iter().any(|w| w.contains("SkinTex_Decal.png") && w.contains("default")),
+        "{warnings:?}"
+    );
 }
 
 #[test]
@@ -248,7 +272,8 @@ fn no_display() {
 fn outputs_that_cannot_be_written() {
     let out = tempfile::tempdir().expect("a temporary folder");
     finish(viewer().args(["deform", "--out"]).arg(out.path())).fails(1, &["found a folder"]);
-    finish(viewer().args(["deform", "--out"]).arg(out.path().join("no/where.obj"))).fails(1, &["no", "folder"]);
+    finish(viewer().args(["deform", "--out"]).arg(out.path().join("no/where.obj")))
+        .fails(1, &["no", "folder"]);
     assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 0, "a file was left behind");
 }
 

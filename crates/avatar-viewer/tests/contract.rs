@@ -62,8 +62,9 @@ fn every_control_moves_the_face_the_way_its_name_says() {
             options.extend(["--set", &setting]);
             let moved = turned(&skin_matrix(&options, joint), direction);
             let sine = 5f64.to_radians().sin();
-            // Joint frames are nearly, not exactly, parallel to the world's axes.
-            assert!(moved[axis] * sign > 0.9 * sine, "{control} in {pack:?}: {moved:?}");
+            // Joint frames are not parallel to the world's axes: the real face's jaw leans by 51 degrees. The sign and
+            // that nothing else moves are what matters.
+            assert!(moved[axis] * sign > 0.5 * sine, "{control} in {pack:?}: {moved:?}");
             let others = (0..3).filter(|&other| other != axis && direction[other] == 0.0);
             for other in others {
                 assert!(moved[other].abs() < 0.2 * sine, "{control} in {pack:?}: {moved:?}");
@@ -77,9 +78,18 @@ fn set_moves_one_control_and_nothing_else() {
     let still = json(&run(&["bones"]).ok());
     for (control, joint) in [("eye.left.ud", "LtEyeJoint"), ("lid.right.upper", "RtUpperLidJoint")] {
         let moved = json(&run(&["bones", "--set", &format!("{control}=12")]).ok());
-        let pairs = still["joints"].as_array().expect("joints").iter().zip(moved["joints"].as_array().expect("joints"));
+        let pairs = still["joints"]
+            .as_array()
+            .expect("joints")
+            .iter()
+            .zip(moved["joints"].as_array().expect("joints"));
         for (before, after) in pairs {
-            assert_eq!(before["skin"] == after["skin"], before["name"] != joint, "{control}: {}", before["name"]);
+            assert_eq!(
+                before["skin"] == after["skin"],
+                before["name"] != joint,
+                "{control}: {}",
+                before["name"]
+            );
         }
     }
 }
@@ -90,7 +100,11 @@ fn later_options_win_over_the_pose_and_values_are_clamped() {
     assert_eq!(asleep["weights"]["smile"], 0.25);
     assert_eq!(asleep["weights"]["frown"], 0.0);
     let clamped = run(&["bones", "--set", "head.turn=500"]);
-    assert!(clamped.stderr.contains("head.turn") && clamped.stderr.contains("clamped to 70"), "{}", clamped.stderr);
+    assert!(
+        clamped.stderr.contains("head.turn") && clamped.stderr.contains("clamped to 70"),
+        "{}",
+        clamped.stderr
+    );
     assert_eq!(clamped.ok(), run(&["bones", "--set", "head.turn=70"]).ok());
     let order = ["bones", "--rotate", "HeadJoint=x:20", "--set", "head.turn=7"];
     assert_eq!(run(&order).ok(), run(&["bones", "--set", "head.turn=7"]).ok());
@@ -134,8 +148,17 @@ fn agrees_with_expected_data(pack: &Path, expected: &Path, gpu: bool) {
     let expected = json(&fs::read_to_string(expected).expect("the expected data"));
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("skin.obj");
+    let mut compared = 0;
     for case in expected["cases"].as_array().expect("cases") {
         let name = case["pose"].as_str().expect("a name");
+        // The library extrapolates (tests/tests/golden.rs); the command line keeps to the controls' ranges.
+        if ["SSmile", "Frown"]
+            .iter()
+            .any(|shape| !(0.0..=1.0).contains(&case[shape].as_f64().expect("a weight")))
+        {
+            continue;
+        }
+        compared += 1;
         let options = options_of(case);
         let bones = json(&finish(viewer().arg("bones").arg(pack).args(&options)).ok());
         for joint in bones["joints"].as_array().expect("joints") {
@@ -143,7 +166,11 @@ fn agrees_with_expected_data(pack: &Path, expected: &Path, gpu: bool) {
             let what = format!("{name}, {joint_name}");
             close(&numbers(&joint["skin"]), &numbers(&case["skin_matrices_rowmajor"][joint_name]), &what);
             let world = numbers(&joint["world"]);
-            close(&[world[3], world[7], world[11]], &numbers(&case["joint_world_translation"][joint_name]), &what);
+            close(
+                &[world[3], world[7], world[11]],
+                &numbers(&case["joint_world_translation"][joint_name]),
+                &what,
+            );
         }
         let mut deform = viewer();
         deform.arg("deform").arg(pack).args(&options).args(["--part", "skin", "--out"]).arg(&out);
@@ -160,7 +187,8 @@ fn agrees_with_expected_data(pack: &Path, expected: &Path, gpu: bool) {
         let mean: Vec<f64> = (0..3)
             .map(|axis| positions.iter().map(|p| p[axis]).sum::<f64>() / positions.len() as f64)
             .collect();
-        let expected_mean: Vec<_> = numbers(&case["skin_sum"]).iter().map(|x| x / positions.len() as f64).collect();
+        let expected_mean: Vec<_> =
+            numbers(&case["skin_sum"]).iter().map(|x| x / positions.len() as f64).collect();
         close(&mean, &expected_mean, name);
         for (vertex, expected) in case["vertices"].as_object().expect("vertices") {
             let vertex: usize = vertex.parse().expect("a number");
@@ -168,6 +196,7 @@ fn agrees_with_expected_data(pack: &Path, expected: &Path, gpu: bool) {
             close(&normals[vertex], &numbers(&expected["n"]), name);
         }
     }
+    assert!(compared >= 6, "only {compared} cases were compared");
 }
 
 fn golden_expected() -> PathBuf {
@@ -246,7 +275,8 @@ fn info_tells_everything() {
 #[test]
 fn all_default_poses_are_there() {
     let info = json(&run(&["info", "--json"]).ok());
-    let names: Vec<_> = info["poses"].as_array().expect("poses").iter().filter_map(|p| p["name"].as_str()).collect();
+    let names: Vec<_> =
+        info["poses"].as_array().expect("poses").iter().filter_map(|p| p["name"].as_str()).collect();
     let wanted = "neutral smile frown laugh surprise anger sadness disgust wink-left wink-right sleep cross-eyed \
                   look-left look-up yawn skeptical";
     for pose in wanted.split_whitespace() {
@@ -347,7 +377,13 @@ fn two_runs_give_identical_bytes() {
         });
         assert!(bytes[0] == bytes[1], "{verb:?}");
     }
-    for verb in [&["info", "--json"][..], &["info"], &["bones", "--pose", "anger"], &["keys"], &["trace", "--script", "0 yawn"]] {
+    for verb in [
+        &["info", "--json"][..],
+        &["info"],
+        &["bones", "--pose", "anger"],
+        &["keys"],
+        &["trace", "--script", "0 yawn"],
+    ] {
         assert_eq!(run(verb).ok(), run(verb).ok(), "{verb:?}");
     }
 }

@@ -35,7 +35,8 @@ impl Desk {
     fn open(arguments: &[&str]) -> Self {
         let mut server = Command::new("Xvfb");
         server.args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"]);
-        let mut server = Process(server.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb starts"));
+        let mut server =
+            Process(server.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb starts"));
         let mut number = String::new();
         let stdout = server.0.stdout.take().expect("a pipe");
         BufReader::new(stdout).read_line(&mut number).expect("the display's number");
@@ -74,7 +75,8 @@ impl Desk {
     /// What the window shows now.
     fn picture(&self) -> RgbImage {
         let (connection, _) = x11rb::connect(Some(&self.display)).expect("the display");
-        let geometry = connection.get_geometry(self.window).expect("sent").reply().expect("the window's size");
+        let geometry =
+            connection.get_geometry(self.window).expect("sent").reply().expect("the window's size");
         let (width, height) = (geometry.width, geometry.height);
         let image = connection.get_image(ImageFormat::Z_PIXMAP, self.window, 0, 0, width, height, u32::MAX);
         let pixels = image.expect("sent").reply().expect("the window's pixels").data;

@@ -10,7 +10,8 @@ use clap::ArgMatches;
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     let pack = super::open(&args.pack)?.load_pack()?;
     let part = pack.part(&args.part);
-    let part = part.ok_or_else(|| unknown("part", &args.part, pack.parts.iter().map(|part| part.spec.name)))?;
+    let part =
+        part.ok_or_else(|| unknown("part", &args.part, pack.parts.iter().map(|part| part.spec.name)))?;
     let face = args.face.resolve(&pack, matches)?;
 
     let deformed = if args.gpu {

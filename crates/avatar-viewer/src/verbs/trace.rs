@@ -17,16 +17,19 @@ pub(super) fn run(args: &TraceArgs) -> Result<()> {
     if last_row > MAX_ROWS {
         return Err(usage(format!("expected at most {MAX_ROWS} rows, found --hz × --duration = {last_row}")));
     }
-    output::print(&trace(&pack, &presses, args.hz, last_row as u64)?)
+    let rows = Rows { hz: args.hz, last: last_row as u64, derivatives: args.derivatives };
+    output::print(&trace(&pack, &presses, &rows)?)
 }
 
 /// `TIME POSE; TIME POSE; …` in the order of the times.
 fn parse_script<'a>(script: &str, pack: &'a Pack) -> Result<Vec<(f64, &'a Pose)>> {
     let mut presses = Vec::new();
     for entry in script.split(';').map(str::trim).filter(|entry| !entry.is_empty()) {
-        let wrong = || usage(format!("--script: expected \"SECONDS POSE; SECONDS POSE; …\", found {entry:?}"));
+        let wrong =
+            || usage(format!("--script: expected \"SECONDS POSE; SECONDS POSE; …\", found {entry:?}"));
         let (time, name) = entry.split_once(char::is_whitespace).ok_or_else(wrong)?;
-        let time: f64 = time.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0).ok_or_else(wrong)?;
+        let time: f64 =
+            time.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0).ok_or_else(wrong)?;
         let pose = pack.poses.get(name.trim());
         let names = || pack.poses.iter().map(|pose| pose.name.as_str());
         presses.push((time, pose.ok_or_else(|| unknown("pose", name.trim(), names()))?));
@@ -35,17 +38,27 @@ fn parse_script<'a>(script: &str, pack: &'a Pack) -> Result<Vec<(f64, &'a Pose)>
     Ok(presses)
 }
 
-fn trace(pack: &Pack, presses: &[(f64, &Pose)], hz: f64, last_row: u64) -> Result<String> {
+/// Which rows and columns to print.
+struct Rows {
+    hz: f64,
+    last: u64,
+    derivatives: bool,
+}
+
+fn trace(pack: &Pack, presses: &[(f64, &Pose)], rows: &Rows) -> Result<String> {
     let mut player = Player::new(&pack.controls);
     let mut presses = presses.iter().peekable();
     let mut now = 0.0;
     let mut out = String::from("t");
-    for control in pack.controls.controls() {
-        let _ = write!(out, ",{}", control.name);
+    let suffixes: &[&str] = if rows.derivatives { &["", "'", "''"] } else { &[""] };
+    for suffix in suffixes {
+        for control in pack.controls.controls() {
+            let _ = write!(out, ",{}{suffix}", control.name);
+        }
     }
     out.push('\n');
-    for row in 0..=last_row {
-        let t = row as f64 / hz;
+    for row in 0..=rows.last {
+        let t = row as f64 / rows.hz;
         while let Some((time, pose)) = presses.next_if(|(time, _)| *time <= t) {
             player.advance(time - now)?;
             player.press(pose);
@@ -54,8 +67,9 @@ fn trace(pack: &Pack, presses: &[(f64, &Pose)], hz: f64, last_row: u64) -> Resul
         player.advance(t - now)?;
         now = t;
         let _ = write!(out, "{t}");
-        for value in player.values() {
-            let _ = write!(out, ",{value}");
+        let columns = [player.values(), player.velocities(), player.accelerations()];
+        for number in columns.iter().take(suffixes.len()).copied().flatten() {
+            let _ = write!(out, ",{number}");
         }
         out.push('\n');
     }

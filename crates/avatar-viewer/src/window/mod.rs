@@ -120,7 +120,8 @@ impl App {
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         let attributes = Window::default_attributes().with_title(&self.title).with_inner_size(self.size);
         let window = event_loop.create_window(attributes).context("expected a window, found none")?;
-        let stage = Stage::open(Arc::new(window), event_loop.owned_display_handle(), &self.pack, &self.textures)?;
+        let stage =
+            Stage::open(Arc::new(window), event_loop.owned_display_handle(), &self.pack, &self.textures)?;
         self.stage = Some(stage);
         self.redraw();
         Ok(())
@@ -177,8 +178,11 @@ impl App {
     }
 
     fn orbit(&mut self, yaw: f32, pitch: f32) {
-        self.view.yaw_degrees = (self.view.yaw_degrees + yaw).rem_euclid(360.0);
-        self.view.pitch_degrees = (self.view.pitch_degrees + pitch).clamp(-MAX_PITCH_DEGREES, MAX_PITCH_DEGREES);
+        let around = self.view.yaw_degrees + yaw;
+        // Only a full turn is taken away, so that small angles stay the numbers that they are.
+        self.view.yaw_degrees = if around.abs() > 180.0 { around - 360.0 * around.signum() } else { around };
+        self.view.pitch_degrees =
+            (self.view.pitch_degrees + pitch).clamp(-MAX_PITCH_DEGREES, MAX_PITCH_DEGREES);
         self.redraw();
     }
 

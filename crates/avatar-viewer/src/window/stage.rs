@@ -34,8 +34,10 @@ impl Stage {
         pack: &Pack,
         textures: &Textures,
     ) -> Result<Self> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
-        let surface = instance.create_surface(window.clone()).context("expected a surface to draw on, found none")?;
+        let instance =
+            wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
+        let surface =
+            instance.create_surface(window.clone()).context("expected a surface to draw on, found none")?;
         let gpu = open_for_surface_blocking(instance, &surface, GpuOptions::default())?;
 
         let size = window.inner_size();
@@ -48,7 +50,8 @@ impl Stage {
         config.present_mode = wgpu::PresentMode::Fifo;
 
         let device = &gpu.device;
-        let renderer = Renderer::new(device, RendererConfig { color_format: config.format, samples: SAMPLES })?;
+        let renderer =
+            Renderer::new(device, RendererConfig { color_format: config.format, samples: SAMPLES })?;
         let model = scene::upload(pack, textures, device, &gpu.queue)?;
         let avatar = AvatarState::new(device, &model);
         let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar };
@@ -91,7 +94,8 @@ impl Stage {
                 return Ok(());
             }
             Acquired::Lost => {
-                self.surface = self.gpu.instance.create_surface(self.window.clone()).context("the lost surface")?;
+                self.surface =
+                    self.gpu.instance.create_surface(self.window.clone()).context("the lost surface")?;
                 self.resize(self.window.inner_size());
                 self.window.request_redraw();
                 return Ok(());

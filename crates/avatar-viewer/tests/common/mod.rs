@@ -67,7 +67,8 @@ pub fn golden_pack() -> PathBuf {
 
 /// The real face, where it is at hand; else the reason is printed.
 pub fn real_face() -> Option<PathBuf> {
-    let face = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/avatar-course-format-makehuman");
+    let face =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/avatar-course-format-makehuman");
     if !face.is_dir() {
         eprintln!("skipped: {} is not there", face.display());
         return None;
