@@ -26,9 +26,10 @@ pub(crate) struct Drawable {
     writes_depth: bool,
 }
 
-/// The order in which a frame is drawn, all avatars kind by kind. The skin first: it hides most of the rest. What is
-/// transparent comes last, from far to near.
-pub(crate) const DRAW_ORDER: [Drawable; 4] = [skin::SKIN, teeth::TEETH, eyeball::EYEBALL, cornea::CORNEA];
+/// The order in which a frame is drawn, all avatars step by step. The skin comes first because it hides most of the rest,
+/// its back sides after everything that hides them, and what is transparent last, from far to near.
+pub(crate) const DRAW_ORDER: [Drawable; 5] =
+    [skin::SKIN, teeth::TEETH, eyeball::EYEBALL, skin::SKIN_BACK, cornea::CORNEA];
 
 impl Drawable {
     pub(crate) fn is_transparent(&self) -> bool {

@@ -21,11 +21,12 @@
 //! # One frame
 //!
 //! ```text
-//!  pass "avatars"   clear, then kind by kind:
-//!    skin           from both sides, lit on the side that shows
-//!    teeth          from both sides
-//!    eyeball        front sides
-//!    cornea         front sides, blended, far to near, depth tested but not written
+//!  pass "avatars"       clear, then for all avatars:
+//!    skin               front sides
+//!    teeth              both sides
+//!    eyeball            front sides
+//!    skin back          what shows at the rim of the neck, lids and lips: a hollow in ambient light
+//!    cornea             front sides, blended, far to near, depth tested but not written
 //! ```
 //!
 //! Bind groups change rarely in front and often behind: 0 frame (camera, light, sampler), 1 avatar (bones, active

@@ -49,6 +49,7 @@ pub(crate) const VERTEX_ENTRY: &str = "vertex_main";
 pub(crate) const ENCODE_SRGB: &str = "ENCODE_SRGB";
 
 pub(crate) const SKIN: Program = surface_program!("skin", "skin.wgsl", "skin_main");
+pub(crate) const SKIN_BACK: Program = surface_program!("skin back", "skin_back.wgsl", "skin_back_main");
 pub(crate) const TEETH: Program = surface_program!("teeth", "teeth.wgsl", "teeth_main");
 pub(crate) const EYEBALL: Program = surface_program!("eyeball", "eyeball.wgsl", "eyeball_main");
 pub(crate) const CORNEA: Program = surface_program!("cornea", "cornea.wgsl", "cornea_main");
@@ -93,7 +94,7 @@ fn constants() -> String {
 pub(crate) mod tests {
     use super::*;
 
-    pub(crate) const ALL: [Program; 5] = [SKIN, TEETH, EYEBALL, CORNEA, DEFORM_PASS];
+    pub(crate) const ALL: [Program; 6] = [SKIN, SKIN_BACK, TEETH, EYEBALL, CORNEA, DEFORM_PASS];
 
     pub(crate) fn parsed(program: &Program) -> naga::Module {
         let source = program.source();
