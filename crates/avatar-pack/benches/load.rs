@@ -1,4 +1,10 @@
 //! Loading a pack, beside copying the same bytes in memory.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "a bench: it may panic and read files"
+)]
 
 use avatar_pack::{MemorySource, Pack};
 use divan::Bencher;

@@ -10,8 +10,8 @@ use std::fmt;
 pub struct PackError {
     /// The file, as [`crate::Source::locate`] names it.
     pub file: String,
-    /// What is wrong with it.
-    pub problem: PackProblem,
+    /// What is wrong with it; boxed, for results that are passed around stay small.
+    pub problem: Box<PackProblem>,
 }
 
 /// What is wrong with a file of a pack.
@@ -88,7 +88,9 @@ impl fmt::Display for Warning {
                 "{part}: expected triangles that agree with their normals, found {contradicting} of {triangles} \
                  against them: turned around for drawing"
             ),
-            Self::Texture { file, problem } => write!(f, "{file}: {problem}: a plain default takes its place"),
+            Self::Texture { file, problem } => {
+                write!(f, "{file}: {problem}: a plain default takes its place")
+            }
         }
     }
 }

@@ -1,5 +1,7 @@
 use crate::{PackError, PackProblem, Source, Warning};
-use avatar_mesh::{Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartSpec, Winding, raw};
+use avatar_mesh::{
+    Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartSpec, Winding, raw,
+};
 use pose_anim::{Binding, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
 use std::borrow::Cow;
@@ -77,7 +79,7 @@ impl Pack {
 }
 
 fn at(source: &impl Source, name: &str, problem: PackProblem) -> PackError {
-    PackError { file: source.locate(name), problem }
+    PackError { file: source.locate(name), problem: problem.into() }
 }
 
 fn read<'a>(source: &'a impl Source, name: &str) -> Result<Option<Cow<'a, [u8]>>, PackError> {
@@ -110,24 +112,23 @@ fn load_rig(source: &impl Source) -> Result<(&'static str, Rig), PackError> {
 fn load_palette(source: &impl Source, rig_file: &str, rig: &Rig) -> Result<Vec<JointId>, PackError> {
     let joint = |name: &&str| {
         rig.joint(name).ok_or_else(|| {
-            let problem = PackProblem::MissingJoint { joint: (*name).to_owned(), found: rig.names().to_vec() };
+            let problem =
+                PackProblem::MissingJoint { joint: (*name).to_owned(), found: rig.names().to_vec() };
             at(source, rig_file, problem)
         })
     };
     FACE_BONES.iter().map(joint).collect()
 }
 
-fn load_part(
-    source: &impl Source,
-    spec: PartSpec,
-    warnings: &mut Vec<Warning>,
-) -> Result<Part, PackError> {
+fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) -> Result<Part, PackError> {
     let (vertex_file, index_file) = (format!("{}_VB.raw", spec.stem), format!("{}_IB.raw", spec.stem));
     let vertices = read_needed(source, &vertex_file)?;
     let indices = read_needed(source, &index_file)?;
     let blame = |error: MeshError| {
         let file = match error {
-            MeshError::PartialElement { element: "triangles", .. } | MeshError::IndexOutOfRange { .. } => &index_file,
+            MeshError::PartialElement { element: "triangles", .. } | MeshError::IndexOutOfRange { .. } => {
+                &index_file
+            }
             _ => &vertex_file,
         };
         at(source, file, PackProblem::Mesh(error))

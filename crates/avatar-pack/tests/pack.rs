@@ -1,6 +1,14 @@
 //! Packs from memory: what is loaded, what is refused, what is mended.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "a test: it may panic and read files"
+)]
 
-use avatar_pack::{FaceState, MemorySource, Pack, PackProblem, Source, SourceError, Texture, Textures, Warning};
+use avatar_pack::{
+    FaceState, MemorySource, Pack, PackProblem, Source, SourceError, Texture, Textures, Warning,
+};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -47,7 +55,10 @@ fn every_needed_file_is_missed_by_name() {
         let mut source = whole.clone();
         source.files.remove(&name);
         let error = Pack::load(&source).expect_err("a file is missing");
-        assert_eq!((error.file.as_str(), error.problem), (name.as_str(), PackProblem::Missing(name.clone())));
+        assert_eq!(
+            (error.file.as_str(), *error.problem),
+            (name.as_str(), PackProblem::Missing(name.clone()))
+        );
     }
 }
 

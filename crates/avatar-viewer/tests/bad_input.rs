@@ -1,4 +1,5 @@
 //! Every bad input gets one clear error that names the file, the place, what was expected and what was found.
+#![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 mod common;
 

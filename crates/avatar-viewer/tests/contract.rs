@@ -1,4 +1,5 @@
 //! The command line as a contract: what every verb prints and writes.
+#![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 mod common;
 

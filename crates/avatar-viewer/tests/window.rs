@@ -1,5 +1,6 @@
 //! The window, driven as a person drives it: real key and mouse events (XTEST, by xdotool) on a virtual display, and
 //! the screen read back.
+#![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 mod common;
 
