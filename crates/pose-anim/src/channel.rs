@@ -47,6 +47,7 @@ pub(crate) struct Channel {
     fades: u8,
     /// Whether a move waits for its delay to pass.
     waits: bool,
+    sleeps: bool,
 }
 
 /// What a channel needs only around interruptions.
@@ -140,7 +141,7 @@ impl Rare {
 impl Channel {
     pub(crate) const fn rest(range: Range, value: f64) -> Self {
         let base = Path::rest(value);
-        Self { range, elapsed_secs: 0.0, base, base_age_secs: 0.0, fades: 0, waits: false }
+        Self { range, elapsed_secs: 0.0, base, base_age_secs: 0.0, fades: 0, waits: false, sleeps: false }
     }
 
     pub(crate) const fn range(&self) -> Range {
@@ -168,8 +169,25 @@ impl Channel {
         .max(0.0)
     }
 
-    /// Lets time pass, through the start of a move that waits.
-    pub(crate) fn advance(&mut self, dt_secs: f64, rare: &mut Rare) {
+    /// Whether nothing has happened since the control came to rest, so that there is nothing to do.
+    pub(crate) const fn sleeps(&self) -> bool {
+        self.sleeps
+    }
+
+    /// Lets time pass, through the start of a move that waits, and gives the state after it.
+    pub(crate) fn advance(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
+        // Nearly always: a quintic, and no more.
+        if let (Path::Quintic(quintic), 0, false) = (&self.base, self.fades, self.waits) {
+            self.elapsed_secs += dt_secs;
+            let age_secs = self.base_age_secs + self.elapsed_secs;
+            self.sleeps = age_secs >= quintic.duration_secs();
+            return quintic.at(age_secs);
+        }
+        self.advance_any(dt_secs, rare)
+    }
+
+    #[cold]
+    fn advance_any(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
         let mut until_secs = self.elapsed_secs + dt_secs;
         if self.waits && until_secs >= rare.waiting.at_secs {
             let Waiting { at_secs, goal } = rare.waiting;
@@ -179,8 +197,9 @@ impl Channel {
         }
         self.elapsed_secs = until_secs;
         if self.is_at_rest(rare) {
-            *self = Self::rest(self.range, self.end(rare));
+            *self = Self { sleeps: true, ..Self::rest(self.range, self.end(rare)) };
         }
+        self.state(rare)
     }
 
     /// State at this moment. Only transition functions that overshoot on purpose take it out of the range, beyond
@@ -192,6 +211,7 @@ impl Channel {
     /// Heads for a goal from the present state after a delay, until when everything goes on as it is. A move that still
     /// waits is dropped.
     pub(crate) fn press(&mut self, goal: Goal, delay_secs: f64, rare: &mut Rare) {
+        self.sleeps = false;
         if delay_secs > 0.0 {
             rare.waiting = Waiting { at_secs: self.elapsed_secs + delay_secs, goal };
             self.waits = true;
@@ -210,6 +230,7 @@ impl Channel {
         rare: &mut Rare,
     ) {
         self.waits = false;
+        self.sleeps = false;
         let Some(path) = ClipPath::new(clip, track, pace, self.range) else { return };
         let distance = path.at(0.0).value - self.state(rare).value;
         let secs = fade_secs.unwrap_or_else(|| pace.duration_secs(distance, self.range.width()));

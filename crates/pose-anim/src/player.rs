@@ -110,8 +110,10 @@ impl Player {
         let outputs = self.values.iter_mut().zip(&mut self.velocities).zip(&mut self.accelerations);
         let channels = self.channels.iter_mut().zip(&mut self.rare);
         for ((channel, rare), ((value, velocity), acceleration)) in channels.zip(outputs) {
-            channel.advance(dt_secs, rare);
-            let mut state = channel.state(rare);
+            if channel.sleeps() {
+                continue;
+            }
+            let mut state = channel.advance(dt_secs, rare);
             if self.confined {
                 state = channel.range().confine(state);
             }

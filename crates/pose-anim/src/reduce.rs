@@ -1,4 +1,5 @@
-use crate::{Clip, ClipError, Easing, Key, Track, Transition};
+use crate::quintic::roots;
+use crate::{Clip, ClipError, Easing, Jet, Key, Track, Transition};
 
 /// What [`Clip::reduced`] saved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,9 +15,6 @@ pub struct Reduction {
     /// By how much any control strays, at most.
     pub worst: f64,
 }
-
-/// Places in a curved span where a fit is compared with it.
-const CHECKS: usize = 16;
 
 impl Clip {
     /// The size of the clip in a compact form: for each key its time and value as 32-bit numbers, a byte for the kind of transition,
@@ -35,8 +33,9 @@ impl Clip {
     ///
     /// From each key that is kept, the farthest later one is sought such that one span between them fits: a straight line, or else the
     /// cubic through both whose slopes fit best in the least-squares sense (as in Schneider 1990, *An Algorithm for Automatically
-    /// Fitting Digitized Curves*, but over time, where the fit is linear). Jumps stay what they are. Straight and
-    /// constant spans are checked at the extrema of the difference, curved ones at sixteen places.
+    /// Fitting Digitized Curves*, but over time, where the fit is linear). Spans with transition
+    /// functions stay what they are (they say much with little), and so do jumps. The bound holds between the keys as well: it is checked
+    /// at the extrema of the difference.
     ///
     /// # Errors
     /// A bound that is negative or NaN.
@@ -111,11 +110,14 @@ fn reduce(track: &Track, bound: f64) -> (Vec<Key>, f64) {
 /// One span from key `from` to key `to` that stays within the bound, with how far it strays.
 fn fit(track: &Track, from: usize, to: usize, bound: f64) -> Option<(Transition, f64)> {
     let keys = &track.keys()[from..=to];
-    let jumps = |pair: &[Key]| {
-        let step = matches!(pair[0].transition, Transition::Ease(Easing::StepEnd | Easing::StepStart));
-        pair[0].value != pair[1].value && (step || pair[0].time_secs == pair[1].time_secs)
+    let cubic = |pair: &[Key]| match pair[0].transition {
+        Transition::Ease(Easing::Linear) | Transition::Hermite { .. } => {
+            pair[0].time_secs < pair[1].time_secs
+        }
+        Transition::Ease(_) => pair[0].value == pair[1].value && pair[0].time_secs < pair[1].time_secs,
+        Transition::Part { .. } => false,
     };
-    if keys.windows(2).any(jumps) {
+    if !keys.windows(2).all(cubic) {
         return None;
     }
     let line = Transition::LINEAR;
@@ -124,12 +126,6 @@ fn fit(track: &Track, from: usize, to: usize, bound: f64) -> Option<(Transition,
     }
     let cubic = best_slopes(keys)?;
     strays(keys, cubic, bound).map(|strays| (cubic, strays))
-}
-
-/// A track of the single span from the first to the last key.
-fn span(keys: &[Key], transition: Transition) -> [Key; 2] {
-    let (first, last) = (keys[0], keys[keys.len() - 1]);
-    [Key { transition, ..first }, last]
 }
 
 /// The cubic through the end keys with the slopes that fit best at the keys and between them.
@@ -146,7 +142,7 @@ fn best_slopes(keys: &[Key]) -> Option<Transition> {
             let share = f64::from(step) / 4.0;
             let time_secs = pair[0].time_secs + share * (pair[1].time_secs - pair[0].time_secs);
             let u = (time_secs - first.time_secs) / length;
-            let beyond = state(pair, share) - (first.value + (last.value - first.value) * u);
+            let beyond = state(pair, pair, time_secs).value - (first.value + (last.value - first.value) * u);
             let (l, r) = (u * (1.0 - u) * (1.0 - u), -u * u * (1.0 - u));
             (ll, lr, rr) = (ll + l * l, lr + l * r, rr + r * r);
             (lx, rx) = (lx + l * beyond, rx + r * beyond);
@@ -161,62 +157,33 @@ fn best_slopes(keys: &[Key]) -> Option<Transition> {
     Some(Transition::Hermite { leaving: slope + l / length, arriving: slope + r / length })
 }
 
-/// Value of one span at a share of its time.
-fn state(pair: &[Key], share: f64) -> f64 {
-    let length = pair[1].time_secs - pair[0].time_secs;
-    if length <= 0.0 {
-        return pair[0].value;
-    }
-    Transition::at(pair[0].transition, share * length, length, pair[0].value, pair[1].value).value
+/// The state at a time of the first key's transition, spanned between the outer of these keys.
+fn state(of: &[Key], ends: &[Key], time_secs: f64) -> Jet {
+    let (first, last) = (ends[0], ends[ends.len() - 1]);
+    let length = last.time_secs - first.time_secs;
+    of[0].transition.at(time_secs - first.time_secs, length, first.value, last.value)
 }
 
-/// How far the span strays from the keys' curve, if not further than the bound.
+/// How far one span with this transition strays from the keys' curve, if not further than the bound.
 fn strays(keys: &[Key], transition: Transition, bound: f64) -> Option<f64> {
-    let whole = span(keys, transition);
-    let length = whole[1].time_secs - whole[0].time_secs;
-    let value = |time_secs: f64| {
-        if length <= 0.0 {
-            return whole[1].value;
-        }
-        Transition::at(transition, time_secs - whole[0].time_secs, length, whole[0].value, whole[1].value)
-            .value
-    };
+    let whole = [Key { transition, ..keys[0] }];
     let mut worst = 0.0f64;
     for pair in keys.windows(2) {
-        let (start, end) = (pair[0].time_secs, pair[1].time_secs);
-        let mut check = |share: f64| {
-            worst = worst.max((value(start + share * (end - start)) - state(pair, share)).abs());
+        let (start, length) = (pair[0].time_secs, pair[1].time_secs - pair[0].time_secs);
+        let off = |share: f64| {
+            let time_secs = start + share * length;
+            state(&whole, keys, time_secs) - state(pair, pair, time_secs)
         };
-        check(0.0);
-        check(1.0);
-        let straight = pair[0].transition == Transition::LINEAR || pair[0].value == pair[1].value;
-        match (transition, straight) {
-            (Transition::Hermite { leaving, arriving }, true) => {
-                let slope = (pair[1].value - pair[0].value) / (end - start).max(f64::MIN_POSITIVE);
-                for extremum in cubic_slopes_at(whole, leaving, arriving, slope) {
-                    let share = (extremum - start) / (end - start);
-                    if (0.0..1.0).contains(&share) {
-                        check(share);
-                    }
-                }
-            }
-            // Two straight lines differ most at an end.
-            (_, true) => {}
-            (_, false) => (1..CHECKS).for_each(|step| check(step as f64 / CHECKS as f64)),
-        }
+        let [first, middle, last] = [0.0, 0.5, 1.0].map(off);
+        // Two cubics differ by a cubic; its slope is the quadratic through three of its values.
+        let a = 2.0 * (first.velocity + last.velocity - 2.0 * middle.velocity);
+        let b = last.velocity - first.velocity - a;
+        let extrema = roots(a, b, first.velocity).into_iter().filter(|share| (0.0..1.0).contains(share));
+        let values = extrema.map(|share| off(share).value).chain([first.value, last.value]);
+        worst = values.fold(worst, |worst, value| worst.max(value.abs()));
         if worst > bound {
             return None;
         }
     }
     Some(worst)
-}
-
-/// The times at which the cubic span has this slope; NaN where there are none.
-fn cubic_slopes_at([first, last]: [Key; 2], leaving: f64, arriving: f64, slope: f64) -> [f64; 2] {
-    let length = last.time_secs - first.time_secs;
-    let mean = (last.value - first.value) / length;
-    let (l, r) = (leaving - mean, arriving - mean);
-    // x'(u) = mean + l − (4l + 2r)·u + 3(l + r)·u², in units of value per second.
-    let (a, b, c) = (3.0 * (l + r), -(4.0 * l + 2.0 * r), l + mean - slope);
-    crate::quintic::roots(a, b, c).map(|u| first.time_secs + u * length)
 }

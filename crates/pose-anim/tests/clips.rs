@@ -156,8 +156,7 @@ proptest! {
             prop_assert_eq!(report.bytes_after, reduced.byte_len());
             for time_secs in times(&track) {
                 let strays = (track.at(time_secs).value - reduced.at(track.control(), time_secs).unwrap().value).abs();
-                // Curved spans are checked at some places only.
-                prop_assert!(strays <= bound * 1.05, "{time_secs}: {strays}");
+                prop_assert!(strays <= bound + 1e-12, "{time_secs}: {strays}");
             }
         }
     }
