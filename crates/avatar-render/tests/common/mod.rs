@@ -8,6 +8,7 @@ use avatar_render::{
     AvatarModel, AvatarState, Camera, Image, Lamp, Light, PartBones, PartDesc, PartTextures, Scene,
 };
 use glam::{Affine3A, Quat, Vec2, Vec3};
+use std::io::Write as _;
 use std::sync::OnceLock;
 
 /// The GPU, or `None` after printing why the test is skipped.
@@ -22,7 +23,8 @@ pub(crate) fn gpu() -> Option<&'static Gpu> {
         Err(reason) => {
             let required = std::env::var("MIMIK_REQUIRE_GPU").is_ok_and(|value| value == "1");
             assert!(!required, "MIMIK_REQUIRE_GPU=1, but {reason}");
-            eprintln!("SKIPPED: {reason}");
+            // Not eprintln: the harness swallows that of tests that pass.
+            let _ = writeln!(std::io::stderr(), "SKIPPED: {reason}");
             None
         }
     }
