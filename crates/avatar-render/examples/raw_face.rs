@@ -56,8 +56,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let meshes: Vec<Mesh> =
         FACE_PARTS.iter().map(|part| load_mesh(folder, part.stem, part.kind)).collect::<Result<_, _>>()?;
     let bounds = meshes.iter().filter_map(Mesh::bounds).reduce(Bounds::union).ok_or("no vertices")?;
-    let eye_color = load_image(&folder.join("EyeTex_Decal00.png"));
-    let skin_color = load_image(&folder.join("SkinTex_Decal.png"));
+    let load = |name| load_image(&folder.join(name));
+    let (eye_color, teeth_color) = (load("EyeTex_Decal00.png"), load("TeethTex_Decal.png"));
+    let (skin_color, skin_occlusion, skin_gloss) =
+        (load("SkinTex_Decal.png"), load("SkinTex_AO.png"), load("SkinTex_Gloss.png"));
     let parts: Vec<PartDesc<'_>> = FACE_PARTS
         .iter()
         .zip(&meshes)
@@ -71,13 +73,16 @@ fn main() -> Result<(), Box<dyn Error>> {
                     PartBones::Rigid(FACE_BONES.iter().position(|bone| *bone == joint).unwrap_or(0))
                 }
             },
-            textures: PartTextures {
-                color: match part.kind {
-                    PartKind::Skin => skin_color.as_ref(),
-                    PartKind::Eyeball | PartKind::Cornea => eye_color.as_ref(),
-                    PartKind::Teeth => None,
+            textures: match part.kind {
+                PartKind::Skin => PartTextures {
+                    color: skin_color.as_ref(),
+                    occlusion: skin_occlusion.as_ref(),
+                    gloss: skin_gloss.as_ref(),
+                    normal: None,
                 },
-                ..PartTextures::default()
+                PartKind::Teeth => PartTextures { color: teeth_color.as_ref(), ..PartTextures::default() },
+                PartKind::Eyeball => PartTextures { color: eye_color.as_ref(), ..PartTextures::default() },
+                PartKind::Cornea => PartTextures::default(),
             },
         })
         .collect();

@@ -55,8 +55,9 @@ fn lamp_specular(surface: Surface, direction: vec3f, n_dot_l: f32, n_dot_v: f32)
 }
 
 // Where little ambient light arrives, lamps are hidden as well: D. Chan, "Material Advances in Call of Duty: WWII", 2018.
+// Twice his aperture: baked occlusion tells of folds and hollows, not only of his pores, and would stain lit skin.
 fn micro_shadow(occlusion: f32, n_dot_l: f32) -> f32 {
-    return saturate(max(n_dot_l, 0.0) + 2.0 * occlusion * occlusion - 1.0);
+    return saturate(max(n_dot_l, 0.0) + 4.0 * occlusion * occlusion - 1.0);
 }
 
 fn lit_surface(surface: Surface) -> Lit {
