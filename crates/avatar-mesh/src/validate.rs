@@ -170,6 +170,10 @@ impl Mesh {
     }
 
     fn check_indices(&self, vertices: usize) -> Result<(), MeshError> {
+        let largest = self.triangles.iter().fold(0, |most, [a, b, c]| most.max(*a).max(*b).max(*c));
+        if (largest as usize) < vertices {
+            return Ok(());
+        }
         for (triangle, corners) in self.triangles.iter().enumerate() {
             for (corner, &found) in corners.iter().enumerate() {
                 if found as usize >= vertices {
@@ -206,13 +210,16 @@ impl Mesh {
     }
 }
 
-/// Sums of `x · 0` are NaN exactly where some x is not finite: one branch per array instead of one per number.
+/// A float is finite exactly where its exponent is not all ones. The largest exponent of an array is one vectorised
+/// pass without branches; only an array that fails is searched for the place.
 fn finite<const N: usize>(
     field: &str,
     values: impl Iterator<Item = [f32; N]> + Clone,
 ) -> Result<(), MeshError> {
-    let probe: f32 = values.clone().flatten().map(|x| x * 0.0).sum();
-    if probe == 0.0 {
+    const EXPONENT: u32 = 0x7f80_0000;
+    let largest =
+        |most: u32, value: [f32; N]| value.iter().fold(most, |most, x| most.max(x.to_bits() & EXPONENT));
+    if values.clone().fold(0, largest) < EXPONENT {
         return Ok(());
     }
     for (vertex, value) in values.enumerate() {
