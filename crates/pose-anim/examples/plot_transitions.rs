@@ -161,7 +161,8 @@ fn figure(curves: &[Curve], presses: &[f64], scales: [f64; 3]) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {total}\" font-family=\"sans-serif\" \
          font-size=\"12\">\n<rect width=\"{WIDTH}\" height=\"{total}\" fill=\"#ffffff\"/>"
     );
-    let parts: [(&str, fn(&Jet) -> f64); 3] = [
+    type Part = (&'static str, fn(&Jet) -> f64);
+    let parts: [Part; 3] = [
         ("value", |jet| jet.value),
         ("velocity, 1/s", |jet| jet.velocity),
         ("acceleration, 1/s²", |jet| jet.acceleration),
