@@ -1,0 +1,63 @@
+//! Texture coordinates: the chart of the outer skin, and rectangles for the swept parts below it.
+
+use glam::DVec2;
+
+use crate::{
+    math::curve,
+    surface::{
+        chart::Place,
+        half::{Half, Patch},
+    },
+};
+
+/// Turn → distance from the image's middle, in halves of its width: the face gets most of the pixels.
+const ACROSS: [(f64, f64); 5] =
+    [(0.0, 0.0), (0.9, 0.48), (1.35, 0.69), (2.1, 0.86), (3.141_592_653_589_793_6, 0.998)];
+/// Elevation → height in the image.
+const DOWN: [(f64, f64); 7] =
+    [(-2.9, 0.89), (-1.4, 0.80), (-0.95, 0.735), (0.0, 0.40), (0.6, 0.19), (1.0, 0.09), (1.6, 0.002)];
+
+/// Rectangles (left, top, width, height) of the swept parts, for the left half.
+/// Below this height the picture holds only swept parts.
+pub const STRIP_TOP: f64 = 0.9;
+const MOUTH: (f64, f64, f64, f64) = (0.505, 0.905, 0.12, 0.085);
+const SOCKET: (f64, f64, f64, f64) = (0.64, 0.905, 0.14, 0.085);
+const EAR: (f64, f64, f64, f64) = (0.79, 0.905, 0.20, 0.085);
+
+/// Texture coordinates of the three corners of a triangle of the left half.
+#[must_use]
+pub fn corners(half: &Half, triangle: &[usize; 3]) -> [DVec2; 3] {
+    let nodes = triangle.map(|i| half.nodes[i]);
+    match nodes.iter().find(|n| n.patch != Patch::Sheet) {
+        None => sheet(nodes.map(|n| n.place)),
+        Some(swept) => {
+            let (rect, closed) = match swept.patch {
+                Patch::Mouth => (MOUTH, false),
+                Patch::Ear => (EAR, true),
+                _ => (SOCKET, true),
+            };
+            let mut own = nodes.map(|n| n.own);
+            let wide = own.iter().any(|o| o.x < 1.0 && o.y > 0.5);
+            for o in &mut own {
+                if closed && wide && o.y == 0.0 && o.x < 1.0 {
+                    o.y = 1.0;
+                }
+            }
+            // The last row ends in a point that belongs to all places along it.
+            if let Some(k) = own.iter().position(|o| o.x == 1.0) {
+                own[k].y = 0.5 * (own[(k + 1) % 3].y + own[(k + 2) % 3].y);
+            }
+            // Closed rows run the other way round than the mouth's: turned, no part of the picture is mirrored.
+            let across = |y: f64| if closed { 1.0 - y } else { y };
+            own.map(|o| DVec2::new(rect.0 + rect.2 * across(o.y), rect.1 + rect.3 * o.x))
+        }
+    }
+}
+
+fn sheet(mut places: [Place; 3]) -> [DVec2; 3] {
+    let pole = |t: f64| t > 1.565;
+    if let Some(k) = places.iter().position(|p| pole(p.t)) {
+        places[k].phi = 0.5 * (places[(k + 1) % 3].phi + places[(k + 2) % 3].phi);
+    }
+    places.map(|p| DVec2::new(0.5 + 0.5 * curve(&ACROSS, p.phi), curve(&DOWN, p.t)))
+}

@@ -1,0 +1,40 @@
+//! Writes the default avatar pack, or checks that the one on disk is what this program makes.
+//!
+//! `avatar-sculpt [--out DIR] [--check]`
+
+use std::{fs, path::PathBuf, process::ExitCode};
+
+use anyhow::{Context as _, Result, bail};
+
+fn main() -> Result<ExitCode> {
+    let mut out = PathBuf::from("assets/marsienne");
+    let mut check = false;
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--out" => out = arguments.next().context("--out needs a folder")?.into(),
+            "--check" => check = true,
+            other => bail!("unknown argument {other:?}; usage: avatar-sculpt [--out DIR] [--check]"),
+        }
+    }
+    let pack = avatar_sculpt::build()?;
+    if check {
+        let mut differing = 0;
+        for (name, bytes) in &pack.files {
+            if fs::read(out.join(name)).ok().as_deref() != Some(bytes) {
+                eprintln!("{}: differs from what would be written", out.join(name).display());
+                differing += 1;
+            }
+        }
+        return Ok(if differing == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE });
+    }
+    fs::create_dir_all(&out).with_context(|| format!("cannot create {}", out.display()))?;
+    for (name, bytes) in &pack.files {
+        // Beside first, then in one step: a reader never sees half a file.
+        let (path, beside) = (out.join(name), out.join(format!("{name}.new")));
+        fs::write(&beside, bytes).with_context(|| format!("cannot write {}", beside.display()))?;
+        fs::rename(&beside, &path).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    println!("{} files in {}", pack.files.len(), out.display());
+    Ok(ExitCode::SUCCESS)
+}

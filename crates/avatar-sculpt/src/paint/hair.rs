@@ -1,0 +1,73 @@
+//! Where hair grows: the scalp with its hairline, and the brows.
+
+use glam::{DVec2, DVec3};
+
+use super::canvas::Site;
+use crate::{
+    anatomy::brow,
+    math::{atan2, curve, fbm, hash01, lerp, smooth},
+    surface::half::Patch,
+};
+
+/// Turn from straight ahead → height of the hairline.
+const HAIRLINE: [(f64, f64); 13] = [
+    (0.0, 6.75),
+    (0.35, 6.95),
+    (0.65, 6.3),
+    (0.9, 5.1),
+    (1.08, 3.9),
+    (1.22, 2.2),
+    (1.36, 0.9),
+    (1.5, 1.0),
+    (1.75, 1.25),
+    (1.95, -1.6),
+    (2.2, -5.2),
+    (2.6, -7.0),
+    (3.15, -7.5),
+];
+
+/// Density of the hair on the scalp, 0…1.
+#[must_use]
+pub fn scalp(site: &Site) -> f64 {
+    if site.node.patch != Patch::Sheet {
+        return 0.0;
+    }
+    let p = site.p;
+    let turn = atan2(p.x.abs(), p.z + 4.5);
+    let wander = 0.28 * fbm(p * 1.7, 3);
+    let over = p.y + wander - curve(&HAIRLINE, turn);
+    smooth(-0.45, 1.0, over)
+}
+
+/// Density of a brow, 0…1, drawn as single strokes when `strokes` is set.
+#[must_use]
+pub fn brows(p: DVec3, strokes: bool) -> f64 {
+    let x = p.x.abs();
+    if !(1.0..6.2).contains(&x) || p.z < -0.5 || (p.y - 2.4).abs() > 1.2 {
+        return 0.0;
+    }
+    let s = (x - 1.25) / 4.5;
+    let (middle, half) = brow(s.clamp(0.0, 1.0));
+    let off = (p.y - middle.y) / half;
+    let ends = smooth(-0.05, 0.10, s) * smooth(1.02, 0.85, s);
+    let body = ends * smooth(1.15, 0.35, off.abs());
+    if !strokes || body <= 0.0 {
+        return body;
+    }
+    // Hairs lean outward: steep at the inner end, nearly along the brow at the tail.
+    let lean = lerp(0.75, 2.6, smooth(0.0, 0.6, s));
+    let across = DVec2::new(x - lean * (p.y - middle.y), p.y);
+    let column = (across.x * 11.0).floor();
+    let within = (across.x * 11.0).fract() - 0.5;
+    let chance = hash01((column + 400.0) as u64 * 2 + u64::from(p.x > 0.0));
+    let hair = smooth(0.62, 0.0, within.abs()) * (0.6 + 0.4 * chance);
+    let reach = smooth(1.2, 0.6, (off - 0.5 * (chance - 0.5)).abs());
+    body * (0.5 + 0.5 * hair) * reach
+}
+
+/// The density picture's colour.
+#[must_use]
+pub fn density_colour(site: &Site) -> DVec3 {
+    let brow = if site.node.patch == Patch::Sheet { 0.4 * brows(site.p, false) } else { 0.0 };
+    DVec3::splat(scalp(site).max(brow))
+}

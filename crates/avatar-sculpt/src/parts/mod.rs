@@ -1,0 +1,4 @@
+//! The rigid parts: eyeballs, corneas, teeth with gums, tongue.
+
+pub mod eyes;
+pub mod teeth;

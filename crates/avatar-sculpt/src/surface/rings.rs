@@ -1,0 +1,177 @@
+//! Rows of vertices that follow the features: around the eye, around the mouth, around the ear's root, along the
+//! neck's edge and over the crown.
+
+use glam::{DVec2, DVec3};
+
+use super::{
+    chart::{self, Place},
+    half::{Half, Node},
+};
+use crate::{
+    anatomy::{
+        EYE, LID_RADIUS, MOUTH_HALF_WIDTH, MOUTH_Y, NECK_EDGE_Y, lid_margin, lower_lip, mouth_depth,
+        mouth_line, upper_lip,
+    },
+    math::{cos, lerp, sin, smooth},
+};
+
+const PI: f64 = std::f64::consts::PI;
+
+/// Vertices around an eye; every ring is a closed row.
+pub const EYE_AROUND: usize = 76;
+/// Vertices from the middle of the upper lip over the corner to the middle of the lower lip.
+pub const MOUTH_AROUND: usize = 61;
+/// Vertices around an ear's root.
+pub const EAR_AROUND: usize = 44;
+
+/// Where the outer skin stops, as rows of vertex numbers.
+#[derive(Clone, Debug, Default)]
+pub struct Loops {
+    /// Outer edge of the lids, counter-clockwise seen from the front, from the inner corner along the lower lid.
+    pub eye: Vec<usize>,
+    /// Line between the lips: from the midline of the upper lip over the corner to that of the lower lip.
+    pub mouth: Vec<usize>,
+    /// The ear's root, counter-clockwise seen from the character's left.
+    pub ear: Vec<usize>,
+    /// The neck's lower edge, from the front to the back.
+    pub neck: Vec<usize>,
+    /// All rings around the eye, from the lids' edge outward; each runs like `eye`.
+    pub eye_rings: Vec<Vec<usize>>,
+    /// All rows around the mouth, from the lips' line outward; each runs like `mouth`.
+    pub mouth_rings: Vec<Vec<usize>>,
+    /// Last ring around the eye, in the flat chart.
+    pub eye_outline: Vec<DVec2>,
+    /// Last ring around the mouth, in the flat chart, closed over the midline.
+    pub mouth_outline: Vec<DVec2>,
+}
+
+/// Spreads ring fractions so that rings are dense at the feature.
+fn graded(k: usize, count: usize) -> f64 {
+    let s = k as f64 / count as f64;
+    0.55 * s + 0.45 * s * s
+}
+
+/// Adds the rings around the eye.
+pub fn eye(half: &mut Half, loops: &mut Loops) {
+    const RINGS: usize = 11;
+    let centre = chart::place_of(chart::leave(EYE + DVec3::Z * 1.2, DVec3::Z));
+    let mut inner = Vec::new();
+    for i in 0..EYE_AROUND {
+        let tau = 2.0 * PI * i as f64 / EYE_AROUND as f64;
+        let lower = i < EYE_AROUND / 2;
+        let flat = lid_margin(0.5 * (1.0 - cos(tau)), !lower);
+        let direction =
+            DVec3::new(flat.x, flat.y, (LID_RADIUS * LID_RADIUS - flat.length_squared()).sqrt()) / LID_RADIUS;
+        let p = chart::leave(EYE + direction * 1.5, direction);
+        inner.push(chart::place_of(p));
+        loops.eye.push(half.add(Node { lower, lid: 0.0, ..Node::sheet(p) }));
+    }
+    loops.eye_rings.push(loops.eye.clone());
+    for k in 1..=RINGS {
+        let f = graded(k, RINGS);
+        let mut ring = Vec::with_capacity(EYE_AROUND);
+        for (i, &from) in inner.iter().enumerate() {
+            let tau = 2.0 * PI * i as f64 / EYE_AROUND as f64;
+            // The last ring is an oval around the eye; the bridge of the nose leaves less room on its side.
+            let (dx, dy) = (-cos(tau), -sin(tau));
+            let reach_x = if dx < 0.0 { 0.225 } else { 0.275 };
+            let reach_y = if dy > 0.0 { 0.235 } else { 0.215 };
+            let to = Place { phi: centre.phi + 0.012 + reach_x * dx, t: centre.t + reach_y * dy };
+            let place = Place { phi: lerp(from.phi, to.phi, f), t: lerp(from.t, to.t, f) };
+            let p = chart::point(place);
+            ring.push(half.add(Node { lower: i < EYE_AROUND / 2, lid: f, ..Node::sheet(p) }));
+            if k == RINGS {
+                loops.eye_outline.push(chart::flat(place));
+            }
+        }
+        loops.eye_rings.push(ring);
+    }
+}
+
+/// Adds the rings around the mouth: through the red of the lips, then out to an oval.
+pub fn mouth(half: &mut Half, loops: &mut Loops) {
+    const LIP_RINGS: usize = 7;
+    const OUTER_RINGS: usize = 8;
+    let middle = MOUTH_AROUND / 2;
+    for k in 0..=(LIP_RINGS + OUTER_RINGS) {
+        let mut ring = Vec::with_capacity(MOUTH_AROUND);
+        for i in 0..MOUTH_AROUND {
+            let tau = PI * (0.5 - i as f64 / (MOUTH_AROUND - 1) as f64);
+            let on_midline = i == 0 || i == MOUTH_AROUND - 1;
+            let u = if on_midline { 0.0 } else { cos(tau) };
+            let lower = i > middle;
+            let line = mouth_line(u);
+            // The lips press into each other by a trace: a hair's gap would show as a broken line.
+            let gap = if i == middle { 0.0 } else { -0.004 * smooth(0.0, 0.2, 1.0 - u) };
+            let slit = DVec2::new(line.x, line.y + if lower { -gap } else { gap });
+            let height = if lower { -lower_lip(u) } else { upper_lip(u) };
+            let corner = smooth(0.8, 1.0, u);
+            let border = DVec2::new(line.x + 0.10 * corner, line.y + if i == middle { 0.0 } else { height });
+            let oval = DVec2::new(
+                u * (MOUTH_HALF_WIDTH + 1.05),
+                MOUTH_Y + sin(tau) * if lower { 1.85 } else { 1.30 },
+            );
+            let (at, lip) = if k <= LIP_RINGS {
+                let f = k as f64 / LIP_RINGS as f64;
+                (slit.lerp(border, f), f)
+            } else {
+                let f = graded(k - LIP_RINGS, OUTER_RINGS);
+                (border.lerp(oval, f), 1.0 + f)
+            };
+            let p = chart::cast(DVec3::new(at.x, at.y, 9.0), DVec3::NEG_Z);
+            let even = lerp(mouth_depth(u), p.z, smooth(1.1, 2.0, lip));
+            // In the chart the slit stands open: both sides get room, and no triangle can cross it.
+            let open = if lower { -0.05 } else { 0.05 } * (1.0 - u * u) * (1.0 - lip).max(0.0);
+            let place = chart::place_of(DVec3::new(at.x, at.y + open, even));
+            ring.push(half.add(Node { lower, lip, place, ..Node::sheet(p) }));
+            if k == LIP_RINGS + OUTER_RINGS {
+                loops.mouth_outline.push(chart::flat(place));
+            }
+        }
+        loops.mouth_rings.push(ring);
+    }
+    loops.mouth = loops.mouth_rings[0].clone();
+}
+
+/// Joins the rings with triangles.
+pub fn stitch(half: &mut Half, loops: &Loops) {
+    for pair in loops.eye_rings.windows(2) {
+        half.stitch(&pair[1], &pair[0], true);
+    }
+    // Rows around the mouth run clockwise; turned around, the lips lie on their left.
+    let turned = |row: &[usize]| row.iter().rev().copied().collect::<Vec<_>>();
+    for pair in loops.mouth_rings.windows(2) {
+        half.stitch(&turned(&pair[1]), &turned(&pair[0]), false);
+    }
+}
+
+/// Adds the ring where the ear grows out of the head.
+pub fn ear(half: &mut Half, loops: &mut Loops) {
+    for i in 0..EAR_AROUND {
+        let beta = 2.0 * PI * i as f64 / EAR_AROUND as f64;
+        let at = super::ear::root(beta);
+        let p = chart::cast(DVec3::new(14.0, at.y, at.x), DVec3::NEG_X);
+        loops.ear.push(half.add(Node::sheet(p)));
+    }
+}
+
+/// Adds the neck's lower edge, from the front to the back.
+pub fn neck(half: &mut Half, loops: &mut Loops) {
+    const COUNT: usize = 44;
+    for i in 0..=COUNT {
+        let place = chart::edge_place(PI * (i as f64 / COUNT as f64), NECK_EDGE_Y);
+        let p = chart::point(place);
+        loops.neck.push(half.add(Node::sheet(DVec3::new(p.x, NECK_EDGE_Y, p.z))));
+    }
+}
+
+/// Adds a regular cap around the pole of the chart, whose layout would otherwise fold there.
+pub fn crown(half: &mut Half) {
+    half.add(Node::sheet(chart::point(Place { phi: 0.0, t: 0.5 * PI })));
+    for (ring, count) in [(0.075, 5), (0.15, 9), (0.225, 13)] {
+        for i in 0..=count {
+            let place = Place { phi: PI * (f64::from(i) / f64::from(count)), t: 0.5 * PI - ring };
+            half.add(Node::sheet(chart::point(place)));
+        }
+    }
+}
