@@ -1,19 +1,14 @@
 use crate::clip_play::ClipPath;
+use crate::goal::{Goal, Range, sensible};
 use crate::path::{Eased, Path};
 use crate::quintic::Quintic;
 use crate::settle::settle;
-use crate::{Clip, Easing, Jet, Pace};
+use crate::{Clip, Jet, Pace};
 use std::sync::Arc;
 
 /// How many fades may run one inside the other. Five presses within one move that all would leave the range are more
 /// than fingers do; what goes beyond is folded (see [`Channel`]).
 const MAX_FADES: usize = 4;
-
-/// Share of its range by which a value may leave it through rounding.
-pub(crate) const ROUNDING: f64 = 1e-12;
-
-/// Durations that a move may have: a shorter one has derivatives without meaning, a longer one no end.
-const DURATIONS_SECS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
 
 /// The motion of one control.
 ///
@@ -40,9 +35,12 @@ pub(crate) struct Channel {
     range: Range,
     /// Time since the last start of a move.
     elapsed_secs: f64,
-    base: Path,
+    /// The innermost path, where it is a quintic.
+    base: Quintic,
     /// Age of `base` at the last start.
     base_age_secs: f64,
+    /// Whether the innermost path is the one in [`Rare`] instead.
+    other_base: bool,
     /// Number of fades that run.
     fades: u8,
     /// Whether a move waits for its delay to pass.
@@ -53,35 +51,9 @@ pub(crate) struct Channel {
 /// What a channel needs only around interruptions.
 #[derive(Clone, Debug)]
 pub(crate) struct Rare {
+    base: Path,
     fades: [Fade; MAX_FADES],
     waiting: Waiting,
-}
-
-/// The values that a control may have.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Range {
-    pub(crate) min: f64,
-    pub(crate) max: f64,
-}
-
-impl Range {
-    pub(crate) fn clamp(self, value: f64) -> f64 {
-        value.max(self.min).min(self.max)
-    }
-
-    pub(crate) fn width(self) -> f64 {
-        self.max - self.min
-    }
-
-    /// The end of the pipeline: what is out of range rests at its end. What is so by rounding only keeps its rates.
-    pub(crate) fn confine(self, state: Jet) -> Jet {
-        let slack = ROUNDING * self.width();
-        if state.value < self.min - slack || state.value > self.max + slack {
-            Jet::rest(self.clamp(state.value))
-        } else {
-            Jet { value: self.clamp(state.value), ..state }
-        }
-    }
 }
 
 #[derive(Clone, Debug)]
@@ -100,48 +72,29 @@ struct Waiting {
     goal: Goal,
 }
 
-/// Where to go and how.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Goal {
-    /// In range.
-    pub(crate) target: f64,
-    /// `None`: by the distance at the start.
-    pub(crate) duration_secs: Option<f64>,
-    pub(crate) pace: Pace,
-    /// Of either duration.
-    pub(crate) factor: f64,
-    /// `None`: least jerk.
-    pub(crate) easing: Option<Easing>,
-}
-
-impl Goal {
-    const NONE: Self =
-        Self { target: 0.0, duration_secs: None, pace: Pace::OTHER, factor: 1.0, easing: None };
-
-    fn duration_from(&self, state: Jet, range: Range) -> f64 {
-        let own_secs = self.pace.duration_secs(self.target - state.value, range.width());
-        let secs = self.duration_secs.unwrap_or(own_secs) * self.factor;
-        sensible(secs, own_secs)
-    }
-}
-
-/// A duration within [`DURATIONS_SECS`]; `otherwise` if it is no number.
-fn sensible(secs: f64, otherwise_secs: f64) -> f64 {
-    let secs = if secs.is_nan() { otherwise_secs } else { secs };
-    secs.max(*DURATIONS_SECS.start()).min(*DURATIONS_SECS.end())
-}
-
 impl Rare {
     pub(crate) fn new() -> Self {
         let fade = || Fade { age_secs: 0.0, duration_secs: 0.0, towards: Path::rest(0.0) };
-        Self { fades: std::array::from_fn(|_| fade()), waiting: Waiting { at_secs: 0.0, goal: Goal::NONE } }
+        Self {
+            base: Path::rest(0.0),
+            fades: std::array::from_fn(|_| fade()),
+            waiting: Waiting { at_secs: 0.0, goal: Goal::NONE },
+        }
     }
 }
 
 impl Channel {
     pub(crate) const fn rest(range: Range, value: f64) -> Self {
-        let base = Path::rest(value);
-        Self { range, elapsed_secs: 0.0, base, base_age_secs: 0.0, fades: 0, waits: false, sleeps: false }
+        Self {
+            range,
+            elapsed_secs: 0.0,
+            base: Quintic::rest(value),
+            base_age_secs: 0.0,
+            other_base: false,
+            fades: 0,
+            waits: false,
+            sleeps: false,
+        }
     }
 
     pub(crate) const fn range(&self) -> Range {
@@ -164,7 +117,14 @@ impl Channel {
                 let age_secs = fade.age_secs + self.elapsed_secs;
                 (fade.duration_secs - age_secs).max(fade.towards.remaining_secs(age_secs))
             }
-            None => self.base.remaining_secs(self.base_age_secs + self.elapsed_secs),
+            None => {
+                let age_secs = self.base_age_secs + self.elapsed_secs;
+                if self.other_base {
+                    rare.base.remaining_secs(age_secs)
+                } else {
+                    self.base.duration_secs() - age_secs
+                }
+            }
         }
         .max(0.0)
     }
@@ -177,11 +137,11 @@ impl Channel {
     /// Lets time pass, through the start of a move that waits, and gives the state after it.
     pub(crate) fn advance(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
         // Nearly always: a quintic, and no more.
-        if let (Path::Quintic(quintic), 0, false) = (&self.base, self.fades, self.waits) {
+        if self.fades == 0 && !self.waits && !self.other_base {
             self.elapsed_secs += dt_secs;
             let age_secs = self.base_age_secs + self.elapsed_secs;
-            self.sleeps = age_secs >= quintic.duration_secs();
-            return quintic.at(age_secs);
+            self.sleeps = age_secs >= self.base.duration_secs();
+            return self.base.at(age_secs);
         }
         self.advance_any(dt_secs, rare)
     }
@@ -263,9 +223,8 @@ impl Channel {
             return;
         }
         let direct = Quintic::new(state, goal.target, duration_secs);
-        let inside = (self.range.clamp(state.value) - state.value).abs() <= ROUNDING * self.range.width();
-        if inside && direct.stays_within(self.range.min, self.range.max) {
-            *self = Self { base: Path::Quintic(direct), ..Self::rest(self.range, goal.target) };
+        if self.range.holds(state.value) && direct.stays_within(self.range.min, self.range.max) {
+            *self = Self { base: direct, ..Self::rest(self.range, goal.target) };
             return;
         }
         self.fade_into(Path::rest(goal.target), duration_secs, rare);
@@ -290,18 +249,23 @@ impl Channel {
 
     /// Where the motion comes to rest.
     fn end(&self, rare: &Rare) -> f64 {
-        self.running(rare).last().map_or(&self.base, |fade| &fade.towards).end()
+        match self.running(rare).last() {
+            Some(fade) => fade.towards.end(),
+            None if self.other_base => rare.base.end(),
+            None => self.base.target,
+        }
     }
 
     fn state_after(&self, secs: f64, rare: &Rare) -> Jet {
-        self.inner_state(secs, self.running(rare))
+        self.inner_state(secs, usize::from(self.fades), rare)
     }
 
-    /// State of the base within these of its fades.
-    fn inner_state(&self, secs: f64, fades: &[Fade]) -> Jet {
+    /// State of the base within its innermost fades.
+    fn inner_state(&self, secs: f64, fades: usize, rare: &Rare) -> Jet {
         let now_secs = self.elapsed_secs + secs;
-        let mut state = self.base.at(self.base_age_secs + now_secs);
-        for fade in fades {
+        let age_secs = self.base_age_secs + now_secs;
+        let mut state = if self.other_base { rare.base.at(age_secs) } else { self.base.at(age_secs) };
+        for fade in &rare.fades[..fades] {
             let age_secs = fade.age_secs + now_secs;
             let towards = fade.towards.at(age_secs);
             // What is over has no weight, whatever it may be.
@@ -319,7 +283,10 @@ impl Channel {
     fn drop_faded_out(&mut self, rare: &mut Rare) {
         let over = self.running(rare).iter().rposition(|fade| fade.age_secs >= fade.duration_secs);
         if let Some(over) = over {
-            self.base = rare.fades[over].towards.clone();
+            match &rare.fades[over].towards {
+                Path::Quintic(quintic) => (self.base, self.other_base) = (*quintic, false),
+                other => (rare.base, self.other_base) = (other.clone(), true),
+            }
             self.base_age_secs = rare.fades[over].age_secs;
             rare.fades.rotate_left(over + 1);
             self.fades -= over as u8 + 1;
@@ -332,9 +299,10 @@ impl Channel {
     /// Replaces the base and the innermost fade by one quintic.
     fn fold(&mut self, rare: &mut Rare) {
         let inner = &rare.fades[0];
-        let state = self.inner_state(0.0, &rare.fades[..1]);
+        let state = self.inner_state(0.0, 1, rare);
         let remaining_secs = inner.duration_secs - inner.age_secs;
-        self.base = Path::Quintic(settle(state, inner.towards.end(), remaining_secs, self.range));
+        self.base = settle(state, inner.towards.end(), remaining_secs, self.range);
+        self.other_base = false;
         self.base_age_secs = 0.0;
         rare.fades.rotate_left(1);
         self.fades -= 1;

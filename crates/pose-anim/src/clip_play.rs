@@ -1,4 +1,4 @@
-use crate::channel::Range;
+use crate::goal::Range;
 use crate::quintic::Quintic;
 use crate::settle::settle;
 use crate::{Clip, Jet, Pace, Wrap};

@@ -1,4 +1,5 @@
-use crate::channel::{Channel, Goal, Range, Rare};
+use crate::channel::{Channel, Rare};
+use crate::goal::{Goal, Range};
 use crate::reach::reach;
 use crate::{AdvanceError, ControlTable, Jet, Pace, Player};
 

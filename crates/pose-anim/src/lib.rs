@@ -78,6 +78,7 @@ mod control;
 mod control_toml;
 mod easing;
 mod error;
+mod goal;
 mod jet;
 mod joints;
 mod layers;

@@ -1,4 +1,5 @@
-use crate::channel::{Channel, Goal, Range, Rare};
+use crate::channel::{Channel, Rare};
+use crate::goal::{Goal, Range};
 use crate::{AdvanceError, Clip, ControlTable, Jet, JumpError, Pace, Pose};
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-use crate::{Jet, channel::ROUNDING};
+use crate::{Jet, goal::ROUNDING};
 
 /// The only polynomial of degree five that starts in a given state and comes to rest at a target: the move of least
 /// jerk (Flash & Hogan 1985).

@@ -1,5 +1,5 @@
 use crate::Jet;
-use crate::channel::Range;
+use crate::goal::Range;
 
 /// Share of the range that counts as close to one of its ends.
 const KNEE: f64 = 0.05;

@@ -1,5 +1,5 @@
 use crate::Jet;
-use crate::channel::{ROUNDING, Range};
+use crate::goal::Range;
 use crate::quintic::Quintic;
 
 /// How often the wanted duration is halved: to about a ten-millionth.
@@ -19,7 +19,7 @@ const HALVINGS: i32 = 24;
 ///
 /// What finds no way runs against the very end of its range. A motion in range never does; a clip may end so. It is held there.
 pub(crate) fn settle(state: Jet, target: f64, duration_secs: f64, range: Range) -> Quintic {
-    let range = if (range.clamp(state.value) - state.value).abs() > ROUNDING * range.width() {
+    let range = if !range.holds(state.value) {
         let margin = 0.1 * range.width();
         Range { min: range.min.min(state.value - margin), max: range.max.max(state.value + margin) }
     } else {
