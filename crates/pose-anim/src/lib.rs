@@ -65,6 +65,38 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Beyond single poses
+//!
+//! - Poses add up: [`PoseSet::mix`] reads `smile:0.5 wink-left`, [`Pose::mixed`] is the same in code.
+//! - A [`Clip`] is a set of keyframe tracks, to be edited, reduced and played through a [`Player`] ([`Player::play`]).
+//! - [`Layers`] put further players over a base, with masks and weights: blinking, breathing, speech.
+//! - A [`JointPlayer`] moves a whole joint, for rigs without controls.
+//! - An [`Easing`] is a transition function: of a pose, or from key to key.
+//!
+//! ```
+//! use pose_anim::{Clip, ControlTable, Easing, Key, LayerMode, Layers, PoseSet, Track, Wrap};
+//! use std::sync::Arc;
+//!
+//! let controls = ControlTable::default_face();
+//! let poses = PoseSet::default_face(&controls);
+//! let bow = controls.index("head.bow").ok_or("no such control")?;
+//!
+//! // Breathing, for ever, on top of whatever the face does.
+//! let keys = vec![Key::new(0.0, 0.0, Easing::MinimumJerk), Key::new(2.0, 1.5, Easing::MinimumJerk)];
+//! let breath = Arc::new(Clip::new("breath", vec![Track::new(bow, keys)?])?.wrapped(Wrap::PingPong));
+//! let mut layers = Layers::new(&controls);
+//! let breathing = layers.add(&controls, LayerMode::Additive, &vec![1.0; controls.len()]);
+//! layers.layer(breathing).ok_or("no such layer")?.play(&breath, None);
+//! layers.fade_to(breathing, 1.0, 0.5);
+//! layers.base().press(&poses.mix("smile:0.5", &controls)?);
+//! layers.advance(3.0)?;
+//! // Half of the smile's -2 degrees, and half way back from 1.5.
+//! assert!((layers.values()[bow] - (-1.0 + 0.75)).abs() < 1e-4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! How moves are made, and why so, is told in `docs/transitions.md`.
+//!
 //! This crate knows no files, no clock, no threads and no GPU, and allocates nothing once its objects are made.
 
 mod bind;

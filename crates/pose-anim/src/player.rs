@@ -70,7 +70,8 @@ impl Player {
                 factor: timing.factor.into(),
                 easing: pose.transition,
             };
-            channel.press(goal, f64::from(timing.delay_secs).min(3600.0), rare);
+            let delay_secs = f64::from(timing.delay_secs);
+            channel.press(goal, if delay_secs.is_nan() { 0.0 } else { delay_secs.min(3600.0) }, rare);
         }
     }
 
