@@ -120,7 +120,7 @@ pub(crate) struct DeformArgs {
 pub(crate) struct TraceArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
-    /// Poses and the times in seconds at which they are pressed: "0 smile; 0.3 frown"
+    /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5 wink-left"
     #[arg(long)]
     pub(crate) script: String,
     /// After all values, also each control's velocity (CONTROL') and acceleration (CONTROL''), per second

@@ -1,4 +1,4 @@
-use crate::usage::{unknown, usage};
+use crate::usage::{self, unknown, usage};
 use anyhow::Result;
 use avatar_pack::{FaceState, Pack};
 use clap::{ArgMatches, Args};
@@ -9,7 +9,7 @@ use std::str::FromStr;
 /// A face state on the command line: a pose, then single controls and joints.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct FaceArgs {
-    /// Pose to start from
+    /// Pose to start from, or a mixture: "smile:0.5 wink-left"
     #[arg(long, value_name = "NAME")]
     pose: Option<String>,
     /// Set exactly this control, in degrees or as a weight; may be repeated
@@ -109,9 +109,7 @@ impl FaceArgs {
     pub(crate) fn resolve(&self, pack: &Pack, matches: &ArgMatches) -> Result<FaceChoice> {
         let mut values = pack.controls.defaults();
         if let Some(name) = &self.pose {
-            let pose = pack.poses.get(name);
-            let pose =
-                pose.ok_or_else(|| unknown("pose", name, pack.poses.iter().map(|p| p.name.as_str())))?;
+            let pose = usage::pose(pack, name)?;
             pose.values.iter().for_each(|&(control, value)| values[control] = value);
         }
         let positions = |option: &str| matches.indices_of(option).into_iter().flatten();

@@ -1,3 +1,6 @@
+use avatar_pack::Pack;
+use pose_anim::{MixError, Pose};
+
 /// The command line has to be corrected: exit status 2.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
@@ -12,4 +15,18 @@ pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
 pub(crate) fn unknown<'a>(what: &str, found: &str, names: impl Iterator<Item = &'a str>) -> anyhow::Error {
     let names: Vec<_> = names.collect();
     usage(format!("expected the name of a {what}, found {found:?}; there are: {}", names.join(", ")))
+}
+
+/// The pose of this name, or a mixture such as `smile:0.5 wink-left`.
+pub(crate) fn pose(pack: &Pack, text: &str) -> anyhow::Result<Pose> {
+    // A name in a file may hold what separates a mixture's parts.
+    if let Some(pose) = pack.poses.get(text) {
+        return Ok(pose.clone());
+    }
+    pack.poses.mix(text, &pack.controls).map_err(|error| match error {
+        MixError::UnknownPose { name, .. } => {
+            unknown("pose", &name, pack.poses.iter().map(|pose| pose.name.as_str()))
+        }
+        other => usage(other.to_string()),
+    })
 }

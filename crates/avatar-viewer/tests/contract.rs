@@ -316,6 +316,45 @@ fn trace_presses_at_exact_times() {
 }
 
 #[test]
+fn trace_prints_derivatives_that_are_those_of_the_values() {
+    let script = "0 laugh; 0.15 look-left; 0.2 smile:0.5 wink-left; 0.6 neutral";
+    let hz = 4000.0;
+    let text = run(&["trace", "--script", script, "--derivatives", "--hz", "4000", "--duration", "1.5"]).ok();
+    let header: Vec<_> = text.lines().next().expect("a header").split(',').collect();
+    assert_eq!(header.len(), 1 + 3 * 15);
+    for control in 1..=15 {
+        assert_eq!(header[control + 15], format!("{}'", header[control]));
+        assert_eq!(header[control + 30], format!("{}''", header[control]));
+    }
+    let rows: Vec<Vec<f64>> = (text.lines().skip(1))
+        .map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect())
+        .collect();
+    // Hermite's rule takes both ends' slopes into account, so that its error is far below f32's.
+    for column in 1..=30 {
+        let mut integral = rows[0][column];
+        for pair in rows.windows(2) {
+            let (a, b, dt) = (&pair[0], &pair[1], 1.0 / hz);
+            integral += (a[column + 15] + b[column + 15]) * dt / 2.0;
+            if column <= 15 {
+                integral += (a[column + 30] - b[column + 30]) * dt * dt / 12.0;
+                assert!(
+                    (integral - b[column]).abs() < 1e-5 * (1.0 + b[column].abs()),
+                    "{}: {integral} {}",
+                    header[column],
+                    b[column]
+                );
+            }
+        }
+        let last = rows[rows.len() - 1][column];
+        assert!(
+            (integral - last).abs() < 1e-2 * (1.0 + last.abs()),
+            "{}: {integral} and {last}",
+            header[column]
+        );
+    }
+}
+
+#[test]
 fn keys_name_every_pose_with_a_key() {
     let keys = run(&["keys"]).ok();
     let info = json(&run(&["info", "--json"]).ok());

@@ -1,6 +1,6 @@
 use crate::cli::TraceArgs;
 use crate::output;
-use crate::usage::{unknown, usage};
+use crate::usage::{self, usage};
 use anyhow::Result;
 use avatar_pack::Pack;
 use pose_anim::{Player, Pose};
@@ -22,7 +22,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<()> {
 }
 
 /// `TIME POSE; TIME POSE; …` in the order of the times.
-fn parse_script<'a>(script: &str, pack: &'a Pack) -> Result<Vec<(f64, &'a Pose)>> {
+fn parse_script(script: &str, pack: &Pack) -> Result<Vec<(f64, Pose)>> {
     let mut presses = Vec::new();
     for entry in script.split(';').map(str::trim).filter(|entry| !entry.is_empty()) {
         let wrong =
@@ -30,9 +30,7 @@ fn parse_script<'a>(script: &str, pack: &'a Pack) -> Result<Vec<(f64, &'a Pose)>
         let (time, name) = entry.split_once(char::is_whitespace).ok_or_else(wrong)?;
         let time: f64 =
             time.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0).ok_or_else(wrong)?;
-        let pose = pack.poses.get(name.trim());
-        let names = || pack.poses.iter().map(|pose| pose.name.as_str());
-        presses.push((time, pose.ok_or_else(|| unknown("pose", name.trim(), names()))?));
+        presses.push((time, usage::pose(pack, name.trim())?));
     }
     presses.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     Ok(presses)
@@ -45,7 +43,7 @@ struct Rows {
     derivatives: bool,
 }
 
-fn trace(pack: &Pack, presses: &[(f64, &Pose)], rows: &Rows) -> Result<String> {
+fn trace(pack: &Pack, presses: &[(f64, Pose)], rows: &Rows) -> Result<String> {
     let mut player = Player::new(&pack.controls);
     let mut presses = presses.iter().peekable();
     let mut now = 0.0;
@@ -69,7 +67,8 @@ fn trace(pack: &Pack, presses: &[(f64, &Pose)], rows: &Rows) -> Result<String> {
         let _ = write!(out, "{t}");
         let columns = [player.values(), player.velocities(), player.accelerations()];
         for number in columns.iter().take(suffixes.len()).copied().flatten() {
-            let _ = write!(out, ",{number}");
+            // The sum turns −0 into 0.
+            let _ = write!(out, ",{}", number + 0.0);
         }
         out.push('\n');
     }

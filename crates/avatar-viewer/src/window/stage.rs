@@ -1,5 +1,5 @@
 use crate::scene::{self, View};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_for_surface_blocking};
 use avatar_render::{AvatarModel, AvatarState, Renderer, RendererConfig, Targets};
@@ -113,6 +113,11 @@ impl Stage {
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
-        Ok(())
+        match self.gpu.errors.take() {
+            None => Ok(()),
+            Some(error) => {
+                bail!("expected adapter {:?} to draw the frame, found: {error}", self.gpu.info.name)
+            }
+        }
     }
 }
