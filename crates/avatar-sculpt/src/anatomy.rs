@@ -22,9 +22,9 @@ pub const LID_RADIUS: f64 = 2.03;
 pub const LID_INNER_RADIUS: f64 = EYE_REACH + 0.015;
 
 /// Where the lids end, measured from the eye's centre: the inner and the outer corner.
-pub const CANTHUS_INNER: DVec2 = DVec2::new(-1.40, -0.20);
+pub const CANTHUS_INNER: DVec2 = DVec2::new(-1.42, -0.20);
 /// See [`CANTHUS_INNER`].
-pub const CANTHUS_OUTER: DVec2 = DVec2::new(1.60, 0.16);
+pub const CANTHUS_OUTER: DVec2 = DVec2::new(1.64, 0.22);
 
 /// Half the width of the mouth.
 pub const MOUTH_HALF_WIDTH: f64 = 2.2;
@@ -47,7 +47,7 @@ pub fn lid_margin(s: f64, upper: bool) -> DVec2 {
     // The upper arch peaks a little to the inner side, the lower one to the outer: an almond, not an ellipse.
     let skewed = if upper { pow(s, 0.86) } else { pow(s, 1.22) };
     let arch = pow(4.0 * skewed * (1.0 - skewed), if upper { 0.62 } else { 0.72 });
-    DVec2::new(at.x, at.y + arch * if upper { 0.69 } else { -0.62 })
+    DVec2::new(at.x, at.y + arch * if upper { 0.64 } else { -0.57 })
 }
 
 /// The line between the lips: a point for `u` from the midline (0) to the corner (1), seen from the front.
@@ -104,7 +104,9 @@ pub fn below_mouth(p: DVec3, lower: bool) -> f64 {
     // As a length, so that the transition stays gentle close to the joint.
     let radius = rel.y.hypot(rel.z).max(4.0);
     let spread = lerp(0.67, 2.8, smooth(MOUTH_HALF_WIDTH - 0.3, MOUTH_HALF_WIDTH + 2.2, x));
-    let inside = smooth(MOUTH_HALF_WIDTH, 0.1 * MOUTH_HALF_WIDTH, x);
+    // An opened mouth is an oval: the lips part quickly next to the corner and slowly in the middle.
+    let u = (x / MOUTH_HALF_WIDTH).min(1.0);
+    let inside = pow(1.0 - u * u, 0.55);
     let side = if lower { 1.0 } else { -1.0 };
     smooth(-1.0, 1.0, (angle - mouth) * radius / spread + side * inside)
 }

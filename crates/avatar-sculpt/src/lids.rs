@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::{
     anatomy::{CANTHUS_INNER, CANTHUS_OUTER, EYE, LID_RADIUS, lid_margin},
-    math::{atan2, cos, lerp, smooth},
+    math::{atan2, cos, lerp, pow, smooth},
 };
 
 /// Largest closing angles of the lids, in radians.
@@ -43,7 +43,7 @@ fn margin_and_share(s: f64, lower: bool) -> (f64, f64) {
     let line = lerp(CANTHUS_INNER.y, CANTHUS_OUTER.y, s) - 0.26 * arch;
     let angle = angle_of(margin.x, margin.y);
     let way = (angle - angle_of(margin.x, line)).abs();
-    let overlap = 0.085 * arch.sqrt();
+    let overlap = 0.10 * pow(arch, 0.35);
     let turn = if lower { LOWER_CLOSE } else { UPPER_CLOSE };
     (angle, ((way + overlap) / turn).min(1.0))
 }

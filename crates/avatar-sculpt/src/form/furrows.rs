@@ -27,7 +27,7 @@ fn crease(q: DVec3) -> f64 {
     if rel.length_squared() > 9.0 || rel.z < 0.3 {
         return 0.0;
     }
-    let along = smooth(-1.55, -0.9, rel.x) * smooth(2.1, 1.2, rel.x);
+    let along = smooth(-1.45, -0.3, rel.x) * smooth(2.1, 1.1, rel.x);
     let off = rel.y - lid_crease(rel.x);
     along * (0.09 * bell(off, 0.10) - 0.05 * bell(off - 0.28, 0.22))
 }

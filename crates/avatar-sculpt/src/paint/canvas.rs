@@ -122,6 +122,28 @@ impl Picture {
         Self { width, pixels }
     }
 
+    /// The picture with each pixel averaged with its neighbours, `times` times.
+    #[must_use]
+    pub fn softened(mut self, times: usize) -> Self {
+        let side = self.width;
+        for _ in 0..times {
+            let before = self.pixels.clone();
+            for y in 0..side {
+                for x in 0..side {
+                    let (mut sum, mut count) = (DVec3::ZERO, 0.0);
+                    for j in y.saturating_sub(1)..=(y + 1).min(side - 1) {
+                        for i in x.saturating_sub(1)..=(x + 1).min(side - 1) {
+                            sum += before[j * side + i];
+                            count += 1.0;
+                        }
+                    }
+                    self.pixels[y * side + x] = sum / count;
+                }
+            }
+        }
+        self
+    }
+
     /// The picture as a PNG file.
     ///
     /// # Errors

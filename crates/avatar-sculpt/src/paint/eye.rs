@@ -59,6 +59,6 @@ pub fn picture(width: usize, iris: &Iris) -> Picture {
 fn sclera(d: DVec2, s: f64) -> DVec3 {
     let at = DVec3::new(d.x, d.y, 0.0) * 26.0;
     let vein = 1.0 - smooth(0.0, 0.05, fbm(at + DVec3::Z * 4.0, 3).abs());
-    let base = rgb(232, 226, 218).lerp(rgb(206, 160, 144), smooth(1.7, 4.6, s));
+    let base = rgb(226, 219, 211).lerp(rgb(204, 150, 134), smooth(1.6, 3.4, s));
     base.lerp(rgb(196, 92, 82), 0.16 * vein * smooth(1.4, 2.6, s)) * lerp(0.90, 1.0, smooth(1.0, 1.3, s))
 }

@@ -27,7 +27,7 @@ pub fn colour(site: &Site) -> DVec3 {
 fn complexion(p: DVec3) -> DVec3 {
     let x = p.x.abs();
     let q = DVec3::new(x, p.y, p.z);
-    let mut c = rgb(212, 163, 134);
+    let mut c = rgb(217, 165, 136);
     let blush = bell3(q, DVec3::new(4.1, -2.5, 2.0), DVec3::new(1.9, 1.3, 2.4))
         + 0.45 * bell3(q, DVec3::new(0.0, -3.0, 5.9), DVec3::new(0.8, 0.7, 0.9))
         + 0.25 * bell3(q, DVec3::new(0.0, -8.9, 4.3), DVec3::new(1.3, 0.9, 1.5));
@@ -35,7 +35,7 @@ fn complexion(p: DVec3) -> DVec3 {
     c = c.lerp(rgb(224, 180, 146), 0.5 * bell3(q, DVec3::new(0.0, 4.5, 4.0), DVec3::new(3.5, 2.2, 3.0)));
     // Green shimmers at the temples, under the jaw, around eyes and mouth.
     let green = 0.75 * bell3(q, DVec3::new(6.6, 1.8, -0.8), DVec3::new(1.3, 2.6, 2.6))
-        + 0.55 * smooth(-9.0, -12.5, p.y)
+        + 0.22 * smooth(-9.0, -12.5, p.y)
         + 0.35 * bell3(q, DVec3::new(2.6, -6.5, 3.7), DVec3::new(1.2, 1.3, 1.2))
         + 0.45 * bell3(q, EYE + DVec3::new(-0.6, -1.2, 1.6), DVec3::new(1.5, 0.6, 1.2));
     c = c.lerp(rgb(158, 154, 118), 0.42 * green.min(1.0));
@@ -53,7 +53,7 @@ fn sheet(site: &Site) -> DVec3 {
     c = lips(site, c);
     c = c.lerp(rgb(62, 40, 36), 0.86 * hair::brows(p, true));
     let q = DVec3::new(p.x.abs(), p.y, p.z);
-    let nostril = bell3(q, DVec3::new(0.50, -3.86, 4.75), DVec3::new(0.24, 0.22, 0.34));
+    let nostril = bell3(q, DVec3::new(0.47, -3.74, 4.76), DVec3::new(0.23, 0.20, 0.34));
     c = c.lerp(rgb(70, 32, 28), 0.85 * nostril.min(1.0));
     c.lerp(rgb(58, 42, 42), 0.80 * hair::scalp(site))
 }
@@ -85,6 +85,8 @@ fn lid_edge(site: &Site) -> DVec3 {
     let dark = if site.node.lower { lerp(0.15, 0.6, smooth(0.3, 1.0, s)) } else { 0.92 };
     let edge = wet
         .lerp(rgb(34, 22, 22), dark * smooth(-0.22, -0.05, lid).max(if site.node.lower { 0.0 } else { 0.8 }));
+    // The inner corner is moist and red.
+    let edge = edge.lerp(rgb(188, 104, 92), 0.9 * smooth(0.10, 0.02, s));
     edge.lerp(rgb(96, 42, 40), smooth(-0.24, -0.5, lid))
 }
 
@@ -95,8 +97,8 @@ fn lips(site: &Site, c: DVec3) -> DVec3 {
         return c;
     }
     let p = site.p;
-    let red = rgb(181, 86, 84);
-    let light = rgb(206, 118, 110);
+    let red = rgb(182, 95, 88);
+    let light = rgb(212, 134, 120);
     let centre = if site.node.lower { bell(p.x, 1.1) * bell(lip - 0.5, 0.35) } else { 0.5 * bell(p.x, 1.3) };
     let lines = fbm(DVec3::new(p.x * 9.0, p.y * 1.5, p.z), 2);
     let tone = red.lerp(light, 0.6 * centre) * (1.0 + 0.09 * lines);

@@ -14,7 +14,7 @@ const UPPER: [(f64, f64); 7] =
     [(0.64, 0.92), (0.50, 0.84), (0.53, 0.92), (0.50, 0.76), (0.50, 0.72), (0.72, 0.66), (0.70, 0.62)];
 /// The same for the lower teeth.
 const LOWER: [(f64, f64); 7] =
-    [(0.42, 0.78), (0.44, 0.78), (0.50, 0.84), (0.50, 0.74), (0.52, 0.70), (0.74, 0.64), (0.72, 0.60)];
+    [(0.42, 0.84), (0.44, 0.84), (0.50, 0.88), (0.50, 0.72), (0.52, 0.64), (0.74, 0.52), (0.72, 0.48)];
 
 /// The dental arch at a signed arc position: a place on it and the way along it.
 struct Arch {
@@ -59,7 +59,7 @@ pub fn upper() -> Part {
 #[must_use]
 pub fn lower() -> Part {
     let arch = Arch { half_width: 2.0, front: 3.12, back: 0.6 };
-    let mut part = row(&LOWER, &arch, -6.45, 1.0);
+    let mut part = row(&LOWER, &arch, -6.40, 1.0);
     tongue(&mut part);
     part.finish();
     part
@@ -68,7 +68,7 @@ pub fn lower() -> Part {
 /// A row of teeth that grow from the gum's height in the direction `grow` (up 1, down −1).
 fn row(sizes: &[(f64, f64)], arch: &Arch, gum_y: f64, grow: f64) -> Part {
     let mut part = Part::default();
-    let mut run = 0.02;
+    let mut run = 0.0;
     for (k, &(width, length)) in sizes.iter().enumerate() {
         let angle = arch.angle_of(run + 0.5 * width);
         run += width;
@@ -102,7 +102,7 @@ fn tooth(part: &mut Part, arch: &Arch, angle: f64, kind: usize, size: DVec3, gro
         let thin = if kind < 3 { lerp(1.0, 0.45, tip) } else { lerp(1.0, 0.9, tip) };
         let wide = lerp(0.80, 1.0, tip) * if kind == 2 { lerp(1.0, 0.72, tip * tip) } else { 1.0 };
         let p = centre
-            + side * (0.485 * size.x * wide * ring * block(sin(lon), 0.7))
+            + side * (0.498 * size.x * wide * ring * block(sin(lon), 0.7))
             + DVec3::Y * (0.5 * (size.y + root) * up)
             + outward * (0.5 * thickness * thin * ring * block(cos(lon), 0.7));
         let v = 0.5 - 0.5 * up * -grow;

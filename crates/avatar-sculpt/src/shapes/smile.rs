@@ -24,5 +24,5 @@ pub(super) fn displacement(node: &Node) -> DVec3 {
     let apple = DVec3::new(0.10, 0.42, 0.24) * cheek;
     let wing = bell3(p, DVec3::new(1.0, -3.4, 4.6), DVec3::new(0.7, 0.7, 0.9));
     let flare = DVec3::new(0.09, 0.07, 0.0) * wing;
-    lips + apple + flare + lid_turn(node, true, 0.17)
+    lips + apple + flare + lid_turn(node, true, 0.24) + lid_turn(node, false, -0.05)
 }

@@ -29,16 +29,16 @@ pub fn root(beta: f64) -> DVec2 {
 }
 
 fn root_own(beta: f64) -> DVec2 {
-    let up = if sin(beta) > 0.0 { 2.25 } else { 2.1 };
-    DVec2::new(-0.25 + 0.72 * cos(beta), up * sin(beta))
+    let up = if sin(beta) > 0.0 { 2.1 } else { 1.95 };
+    DVec2::new(-0.25 + 0.66 * cos(beta), up * sin(beta))
 }
 
 /// The rim in the ear's own plane: a long ear with a soft point behind its top.
 fn rim(beta: f64) -> DVec2 {
-    let up = if sin(beta) > 0.0 { 2.75 } else { 2.45 };
-    let width = lerp(1.42, 1.02, smooth(0.0, -0.9, sin(beta)));
-    let point = bell(beta - 1.02, 0.36);
-    DVec2::new(0.30 + width * cos(beta), up * sin(beta)) + DVec2::new(0.42, 0.72) * point
+    let up = if sin(beta) > 0.0 { 2.55 } else { 2.25 };
+    let width = lerp(1.28, 0.90, smooth(0.0, -0.9, sin(beta)));
+    let point = bell(beta - 1.10, 0.34);
+    DVec2::new(0.30 + width * cos(beta), up * sin(beta)) + DVec2::new(0.46, 1.0) * point
 }
 
 /// Knots of the path at `beta`: share of the way from the ear's middle to its rim, and height over the front edge.
@@ -49,7 +49,7 @@ fn knots(beta: f64, root: DVec3, front_x: f64) -> Vec<DVec3> {
     let lobe = bell(beta - 4.75, 0.55);
     let front = bell(beta - PI, 0.75);
     let groove = (1.0 - lobe) * (1.0 - 0.9 * front);
-    let lift = 0.12 + 1.15 * back + 0.25 * smooth(0.2, 1.0, sin(beta)) + 0.15 * lobe;
+    let lift = 0.12 + 0.98 * back + 0.25 * smooth(0.2, 1.0, sin(beta)) + 0.15 * lobe;
     let tragus = bell(beta - 3.45, 0.30);
     let at = |share: f64, height: f64| {
         let own = middle + (edge - middle) * share;

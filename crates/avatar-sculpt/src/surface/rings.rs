@@ -9,8 +9,8 @@ use super::{
 };
 use crate::{
     anatomy::{
-        EYE, LID_RADIUS, MOUTH_HALF_WIDTH, MOUTH_Y, NECK_EDGE_Y, lid_margin, lower_lip, mouth_depth,
-        mouth_line, upper_lip,
+        EYE, MOUTH_HALF_WIDTH, MOUTH_Y, NECK_EDGE_Y, lid_margin, lower_lip, mouth_depth, mouth_line,
+        upper_lip,
     },
     math::{cos, lerp, sin, smooth},
 };
@@ -60,9 +60,8 @@ pub fn eye(half: &mut Half, loops: &mut Loops) {
         let tau = 2.0 * PI * i as f64 / EYE_AROUND as f64;
         let lower = i < EYE_AROUND / 2;
         let flat = lid_margin(0.5 * (1.0 - cos(tau)), !lower);
-        let direction =
-            DVec3::new(flat.x, flat.y, (LID_RADIUS * LID_RADIUS - flat.length_squared()).sqrt()) / LID_RADIUS;
-        let p = chart::leave(EYE + direction * 1.5, direction);
+        // Straight from the front: where the opening ends is then where the weights say it ends.
+        let p = chart::cast(EYE + DVec3::new(flat.x, flat.y, 6.0), DVec3::NEG_Z);
         inner.push(chart::place_of(p));
         loops.eye.push(half.add(Node { lower, lid: 0.0, ..Node::sheet(p) }));
     }

@@ -14,7 +14,7 @@ const PI: f64 = std::f64::consts::PI;
 /// Wanted distance between neighbours at a point of the skin.
 #[must_use]
 pub fn spacing(p: DVec3) -> f64 {
-    let face = smooth(-2.5, 1.5, p.z) * smooth(-11.5, -10.0, p.y) * smooth(7.0, 4.0, p.y);
+    let face = smooth(-4.5, 1.0, p.z) * smooth(-11.5, -10.0, p.y) * smooth(7.0, 4.0, p.y);
     let h = lerp(0.82, 0.30, face);
     let nose = bell3(p, DVec3::new(0.5, -3.3, 5.0), DVec3::new(1.6, 1.3, 1.7));
     let bridge = bell3(p, DVec3::new(0.4, -0.8, 4.2), DVec3::new(1.3, 2.4, 1.7));
@@ -23,7 +23,7 @@ pub fn spacing(p: DVec3) -> f64 {
     let nose = nose.max(0.6 * brow);
     let ear = bell3(p, DVec3::new(7.0, -1.5, -5.3), DVec3::new(2.0, 3.0, 2.0));
     let throat = smooth(-5.0, -8.0, p.y) * smooth(-13.0, -11.5, p.y) * smooth(-9.0, -6.5, p.z);
-    let h = h.min(lerp(h, 0.42, throat));
+    let h = h.min(lerp(h, 0.36, throat));
     lerp(lerp(h, 0.115, nose.min(1.0)), 0.3, ear)
 }
 
