@@ -17,9 +17,10 @@ const ACROSS: [(f64, f64); 5] =
 const DOWN: [(f64, f64); 7] =
     [(-2.9, 0.89), (-1.4, 0.80), (-0.95, 0.735), (0.0, 0.40), (0.6, 0.19), (1.0, 0.09), (1.6, 0.002)];
 
-/// Rectangles (left, top, width, height) of the swept parts, for the left half.
 /// Below this height the picture holds only swept parts.
 pub const STRIP_TOP: f64 = 0.9;
+
+/// Rectangles (left, top, width, height) of the swept parts, for the left half.
 const MOUTH: (f64, f64, f64, f64) = (0.505, 0.905, 0.12, 0.085);
 const SOCKET: (f64, f64, f64, f64) = (0.64, 0.905, 0.14, 0.085);
 const EAR: (f64, f64, f64, f64) = (0.79, 0.905, 0.20, 0.085);

@@ -23,8 +23,8 @@ impl Part {
         (self.positions.len() - 1) as u32
     }
 
-    /// Adds a grid of `rows` × `columns` vertices. Rows run so that right × down points out of the surface…
-    /// seen from outside, columns go left to right and rows from top to bottom.
+    /// Adds a grid of `rows` × `columns` vertices. Seen from outside, columns go left to right and rows from top to
+    /// bottom.
     pub fn add_grid(
         &mut self,
         rows: usize,

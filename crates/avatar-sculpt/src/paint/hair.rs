@@ -21,9 +21,9 @@ const HAIRLINE: [(f64, f64); 13] = [
     (1.5, 1.0),
     (1.75, 1.25),
     (1.95, -1.6),
-    (2.2, -5.2),
-    (2.6, -7.0),
-    (3.15, -7.5),
+    (2.2, -4.7),
+    (2.6, -6.3),
+    (3.15, -7.8),
 ];
 
 /// Density of the hair on the scalp, 0…1.
@@ -36,7 +36,9 @@ pub fn scalp(site: &Site) -> f64 {
     let turn = atan2(p.x.abs(), p.z + 4.5);
     let wander = 0.28 * fbm(p * 1.7, 3);
     let over = p.y + wander - curve(&HAIRLINE, turn);
-    smooth(-0.45, 1.0, over)
+    // At the nape the hair thins out over a longer way than at the forehead.
+    let nape = smooth(1.9, 2.4, turn);
+    smooth(lerp(-0.45, -1.1, nape), lerp(1.0, 1.7, nape), over)
 }
 
 /// Density of a brow, 0…1, drawn as single strokes when `strokes` is set.

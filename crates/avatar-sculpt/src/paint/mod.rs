@@ -34,7 +34,7 @@ pub fn all(skin: &Skin) -> Result<Vec<(String, Vec<u8>)>> {
     let coarse = canvas::Sites::of(skin, OTHER_PIXELS);
     let mut files = vec![
         ("SkinTex_Decal.png".to_owned(), fine.paint(skin::colour).png()?),
-        ("SkinTex_AO.png".to_owned(), coarse.paint(skin::occlusion).softened(4).png_grey()?),
+        ("SkinTex_AO.png".to_owned(), coarse.paint(skin::occlusion).softened(6).png_grey()?),
         ("SkinTex_Gloss.png".to_owned(), coarse.paint(skin::gloss).png_grey()?),
         ("HairMap.png".to_owned(), coarse.paint(hair::density_colour).png_grey()?),
         ("TeethTex_Decal.png".to_owned(), teeth::picture(OTHER_PIXELS / 2).png()?),

@@ -158,7 +158,7 @@ pub fn gloss(site: &Site) -> DVec3 {
         Patch::Mouth => 0.85,
         Patch::Socket => 0.8,
         _ if site.node.lip <= 1.08 => lerp(0.62, 0.78, smooth(1.0, 0.4, site.node.lip)),
-        _ if site.node.lid <= 0.5 => g + 0.14 * smooth(0.5, 0.1, site.node.lid),
+        _ if site.node.lid <= 0.5 => g + 0.06 * smooth(0.5, 0.1, site.node.lid),
         _ => g,
     };
     DVec3::splat(g)
