@@ -9,6 +9,7 @@
 //! The result depends on nothing but this source: no clock, no chance, no hash order, no platform mathematics.
 
 pub mod anatomy;
+pub mod bake;
 pub mod crease;
 pub mod form;
 pub mod layout;
@@ -30,3 +31,4 @@ pub mod weights;
 mod tests;
 
 pub use pack::{Pack, build};
+pub use paint::Detail;

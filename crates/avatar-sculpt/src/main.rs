@@ -1,23 +1,28 @@
 //! Writes the default avatar pack, or checks that the one on disk is what this program makes.
 //!
-//! `avatar-sculpt [--out DIR] [--check]`
+//! `avatar-sculpt [--out DIR] [--check] [--draft]`
+//!
+//! `--draft` paints pictures at a quarter of their edge length: enough to judge a form, and much quicker.
 
 use std::{fs, path::PathBuf, process::ExitCode};
 
 use anyhow::{Context as _, Result, bail};
+use avatar_sculpt::Detail;
 
 fn main() -> Result<ExitCode> {
     let mut out = PathBuf::from("assets/marsienne");
     let mut check = false;
+    let mut detail = Detail::Full;
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--out" => out = arguments.next().context("--out needs a folder")?.into(),
             "--check" => check = true,
-            other => bail!("unknown argument {other:?}; usage: avatar-sculpt [--out DIR] [--check]"),
+            "--draft" => detail = Detail::Draft,
+            other => bail!("unknown argument {other:?}; usage: avatar-sculpt [--out DIR] [--check] [--draft]"),
         }
     }
-    let pack = avatar_sculpt::build()?;
+    let pack = avatar_sculpt::build(detail)?;
     if check {
         let mut differing = 0;
         for (name, bytes) in &pack.files {

@@ -1,12 +1,22 @@
 //! The whole pack in memory.
 
 use anyhow::Result;
+use avatar_mesh::{
+    Mesh,
+    raw::{write_triangles, write_vertices},
+};
 
 use crate::{
-    paint,
+    bake::{self, Scene},
+    mesh::Part,
+    paint::{self, Detail},
     parts::{eyes, teeth},
-    raw, rig, skin,
+    raw, rig,
+    skin::{self, Skin},
 };
+
+/// The controls are text that people read and edit; it goes into the pack as it is.
+const CONTROLS: &str = include_str!("controls.toml");
 
 /// Files by name, in a fixed order.
 #[derive(Clone, Debug, Default)]
@@ -15,16 +25,18 @@ pub struct Pack {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Builds every file of the pack; touches no file itself.
-///
-/// # Errors
-///
-/// If a picture cannot be encoded.
-pub fn build() -> Result<Pack> {
-    let mut files = vec![("Transformations.xml".to_owned(), rig::transformations_xml().into_bytes())];
-    let skin = skin::build();
-    files.push(("MarsienneSkin_VB.raw".to_owned(), raw::skin_vertices(&skin)));
-    files.push(("MarsienneSkin_IB.raw".to_owned(), raw::indices(&skin.triangles)));
+/// Everything that has a form.
+#[derive(Clone, Debug)]
+pub struct Sculpture {
+    /// The skin.
+    pub skin: Skin,
+    /// The rigid parts by the stem of their files.
+    pub parts: [(&'static str, Part); 6],
+}
+
+/// Sculpts skin and rigid parts.
+#[must_use]
+pub fn sculpt() -> Sculpture {
     let (eyeball, cornea) = (eyes::eyeball(), eyes::cornea());
     let parts = [
         ("UpperJaw", teeth::upper()),
@@ -34,10 +46,48 @@ pub fn build() -> Result<Pack> {
         ("RtEyeTransp_smtt", cornea.mirrored()),
         ("LtEyeTransp_smtt", cornea),
     ];
-    for (name, part) in &parts {
-        files.push((format!("{name}_VB.raw"), raw::part_vertices(part)));
-        files.push((format!("{name}_IB.raw"), raw::indices(&part.triangles)));
+    Sculpture { skin: skin::build(), parts }
+}
+
+/// Joints, controls and meshes: all files but the pictures.
+///
+/// # Errors
+///
+/// If the joints cannot be written.
+pub fn geometry(sculpture: &Sculpture) -> Result<Pack> {
+    let mut files = vec![
+        ("Transformations.xml".to_owned(), rig::transformations_xml()?.into_bytes()),
+        ("controls.toml".to_owned(), CONTROLS.as_bytes().to_vec()),
+    ];
+    let mut add = |stem: &str, mesh: &Mesh| {
+        files.push((format!("{stem}_VB.raw"), write_vertices(mesh)));
+        files.push((format!("{stem}_IB.raw"), write_triangles(mesh)));
+    };
+    add("MarsienneSkin", &raw::skin(&sculpture.skin));
+    for (stem, part) in &sculpture.parts {
+        add(stem, &raw::part(part));
     }
-    files.extend(paint::all(&skin)?);
     Ok(Pack { files })
+}
+
+/// The pictures, painted from the sculpture.
+///
+/// # Errors
+///
+/// If a picture cannot be encoded.
+pub fn pictures(sculpture: &Sculpture, detail: Detail) -> Result<Pack> {
+    let baked = bake::bake(&Scene::new(sculpture));
+    Ok(Pack { files: paint::all(&sculpture.skin, &baked, detail)? })
+}
+
+/// Builds every file of the pack; touches no file itself.
+///
+/// # Errors
+///
+/// If a file cannot be encoded.
+pub fn build(detail: Detail) -> Result<Pack> {
+    let sculpture = sculpt();
+    let mut pack = geometry(&sculpture)?;
+    pack.files.extend(pictures(&sculpture, detail)?.files);
+    Ok(pack)
 }

@@ -1,17 +1,10 @@
 //! The nine joints and their file.
 
-use std::fmt::Write as _;
-
-use glam::{DMat3, DMat4, DVec3};
+use anyhow::{Context as _, Result};
+use glam::{DMat3, DMat4, DVec3, Mat4};
+use rig_core::{RawJoint, RawRig};
 
 use crate::anatomy::{EYE, HEAD, JAW, NECK};
-
-/// A joint at rest in the world.
-struct Joint {
-    name: &'static str,
-    world: DMat4,
-    omitted: bool,
-}
 
 /// A frame from its local x and y directions; z follows.
 fn frame(x: DVec3, y: DVec3, origin: DVec3) -> DMat4 {
@@ -31,35 +24,35 @@ fn sideways(x: DVec3, origin: DVec3) -> DMat4 {
 }
 
 /// The file `Transformations.xml`.
-#[must_use]
-pub fn transformations_xml() -> String {
+///
+/// # Errors
+///
+/// If the writer refuses the rig.
+pub fn transformations_xml() -> Result<String> {
     let neck = frame(DVec3::Y, DVec3::X, NECK);
     let head = frame(DVec3::Y, DVec3::X, HEAD);
     let right_eye = DVec3::new(-EYE.x, EYE.y, EYE.z);
     let tilted = |up: f64| DVec3::new(0.0, up, 1.0);
-    // A lid's x axis points at the lid; the right lid's frame is the left one's, half a turn about z.
-    let joint = |name, world, omitted| Joint { name, world, omitted };
     let children = [
-        joint("JawJoint", sideways(DVec3::new(0.0, -0.72, 1.0), JAW), false),
-        joint("RtLowerLidJoint", sideways(-tilted(-0.45), right_eye), false),
-        joint("LtLowerLidJoint", sideways(tilted(-0.45), EYE), false),
-        joint("RtUpperLidJoint", sideways(-tilted(0.42), right_eye), false),
-        joint("LtUpperLidJoint", sideways(tilted(0.42), EYE), false),
-        joint("RtEyeJoint", sideways(DVec3::Z, right_eye), true),
-        joint("LtEyeJoint", sideways(DVec3::Z, EYE), true),
+        ("JawJoint", sideways(DVec3::new(0.0, -0.72, 1.0), JAW)),
+        // A lid's x axis points at the lid; the right lid's frame is the left one's, half a turn about z.
+        ("RtLowerLidJoint", sideways(-tilted(-0.45), right_eye)),
+        ("LtLowerLidJoint", sideways(tilted(-0.45), EYE)),
+        ("RtUpperLidJoint", sideways(-tilted(0.42), right_eye)),
+        ("LtUpperLidJoint", sideways(tilted(0.42), EYE)),
+        ("RtEyeJoint", sideways(DVec3::Z, right_eye)),
+        ("LtEyeJoint", sideways(DVec3::Z, EYE)),
     ];
-    let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    text.push_str("<!-- Matrices are transposed: the translation stands in the last row. -->\n<JointSet>\n");
-    open(&mut text, 1, "NeckJoint", &neck, false);
-    text.push_str("    <Children>\n");
-    open(&mut text, 3, "HeadJoint", &(rigid_inverse(&neck) * head), false);
-    text.push_str("        <Children>\n");
-    for child in &children {
-        open(&mut text, 5, child.name, &(rigid_inverse(&head) * child.world), child.omitted);
-        text.push_str("          </Joint>\n");
+    let mut joints = vec![
+        RawJoint::new("NeckJoint", None, file_matrix(neck)),
+        RawJoint::new("HeadJoint", Some("NeckJoint"), file_matrix(rigid_inverse(&neck) * head)),
+    ];
+    for (name, world) in children {
+        let local = file_matrix(rigid_inverse(&head) * world);
+        let omit = name.ends_with("EyeJoint");
+        joints.push(RawJoint { omit, ..RawJoint::new(name, Some("HeadJoint"), local) });
     }
-    text.push_str("        </Children>\n      </Joint>\n    </Children>\n  </Joint>\n</JointSet>\n");
-    text
+    RawRig { joints }.to_xml().context("cannot write the joints")
 }
 
 fn rigid_inverse(m: &DMat4) -> DMat4 {
@@ -73,17 +66,7 @@ fn rigid_inverse(m: &DMat4) -> DMat4 {
     )
 }
 
-/// Writes the opening of a joint and its matrix, column by column.
-fn open(text: &mut String, depth: usize, name: &str, matrix: &DMat4, omitted: bool) {
-    let pad = "  ".repeat(depth);
-    let omit = if omitted { " omit=\"true\"" } else { "" };
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "{pad}<Joint name=\"{name}\"{omit}>");
-    let _ = writeln!(text, "{pad}  <Matrix transposed=\"true\">");
-    for column in [matrix.x_axis, matrix.y_axis, matrix.z_axis, matrix.w_axis] {
-        // Adding zero turns a negative zero into a plain one.
-        let [a, b, c, d] = column.to_array().map(|v| v as f32 + 0.0);
-        let _ = writeln!(text, "{pad}    {a} {b} {c} {d}");
-    }
-    let _ = writeln!(text, "{pad}  </Matrix>");
+/// The matrix in the file's precision, without negative zeros.
+fn file_matrix(m: DMat4) -> Mat4 {
+    m.as_mat4() + Mat4::ZERO
 }

@@ -2,11 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{canvas::Picture, rgb};
+use super::{picture::Picture, rgb};
 use crate::{
-    math::{atan2, bell, cos, fbm, lerp, pow, sin, smooth},
+    math::{atan2, bell, cos, fbm, lerp, noise3, pow, sin, smooth},
     parts::eyes::{image_radius, iris_angle},
 };
+
+const PI: f64 = std::f64::consts::PI;
 
 /// The colours of an iris.
 #[derive(Clone, Copy, Debug)]
@@ -19,46 +21,102 @@ pub struct Iris {
     pub ring: [u8; 3],
 }
 
-/// The four irises of the pack.
+/// The four irises of the pack: jade, amber, violet, umber.
 pub const IRISES: [Iris; 4] = [
-    Iris { inner: [222, 164, 70], outer: [72, 142, 116], ring: [18, 48, 46] },
+    Iris { inner: [206, 152, 66], outer: [78, 140, 112], ring: [16, 44, 42] },
     Iris { inner: [236, 178, 84], outer: [176, 96, 38], ring: [62, 26, 12] },
     Iris { inner: [170, 168, 190], outer: [112, 96, 168], ring: [38, 28, 74] },
     Iris { inner: [150, 104, 62], outer: [84, 50, 30], ring: [26, 14, 10] },
 ];
 
 /// Radius of the pupil as a share of the iris.
-const PUPIL: f64 = 0.36;
+const PUPIL: f64 = 0.34;
+
+/// Light that the lids leave to the eyeball while it looks ahead, over the eyeball's picture.
+#[derive(Clone, Debug)]
+pub struct Shade {
+    values: Vec<f64>,
+}
+
+impl Shade {
+    /// Cells per side of the picture.
+    const SIDE: usize = 40;
+
+    /// Spreads openness measured at directions from the eye's centre over the picture. The spread is wide on purpose:
+    /// the shade turns with the eye, and only a soft one may.
+    #[must_use]
+    pub fn of(measured: &[(DVec3, f64)]) -> Self {
+        let cell = |i: usize| (i as f64 + 0.5) / Self::SIDE as f64;
+        let values = (0..Self::SIDE * Self::SIDE).map(|i| {
+            let d = DVec2::new(cell(i % Self::SIDE), cell(i / Self::SIDE)) - DVec2::splat(0.5);
+            let angle = PI * pow((d.length() / 0.498).min(1.0), 1.0 / 0.6);
+            let turn = atan2(-d.y, d.x);
+            let toward = DVec3::new(sin(angle) * cos(turn), sin(angle) * sin(turn), cos(angle));
+            let (mut sum, mut total) = (0.0, 1e-12);
+            for (direction, open) in measured {
+                let near = bell((*direction - toward).length(), 0.16);
+                sum += near * open;
+                total += near;
+            }
+            sum / total
+        });
+        Self { values: values.collect() }
+    }
+
+    fn at(&self, uv: DVec2) -> f64 {
+        let last = Self::SIDE - 1;
+        let p = (uv * Self::SIDE as f64 - 0.5).clamp(DVec2::ZERO, DVec2::splat(last as f64 - 1e-6));
+        let (x, y) = (p.x as usize, p.y as usize);
+        let value = |i: usize, j: usize| self.values[j * Self::SIDE + i];
+        let across = |j: usize| lerp(value(x, j), value(x + 1, j), p.x.fract());
+        lerp(across(y), across(y + 1), p.y.fract())
+    }
+}
 
 /// The eyeball's picture.
 #[must_use]
-pub fn picture(width: usize, iris: &Iris) -> Picture {
+pub fn picture(width: usize, iris: &Iris, shade: &Shade) -> Picture {
     let edge = image_radius(iris_angle());
-    let bytes = |c: [u8; 3]| rgb(c[0], c[1], c[2]);
     Picture::from_uv(width, |uv| {
         let d = uv - DVec2::splat(0.5);
         let r = d.length();
         let turn = atan2(-d.y, d.x);
         // The picture widens the middle; `s` is the true share of the iris's radius.
         let s = pow(r / edge, 1.0 / 0.6);
-        let white = sclera(d, s);
-        let round = DVec3::new(cos(turn), sin(turn), 0.0);
-        let fibres = fbm(round * 13.0 + DVec3::Z * (s * 1.3), 3);
-        let coarse = fbm(round * 5.0 + DVec3::new(3.0, 7.0, s), 2);
-        let waves = 0.05 * coarse;
-        let mut c = bytes(iris.inner).lerp(bytes(iris.outer), smooth(0.42, 0.66, s + waves));
-        c *= 1.0 + 0.55 * fibres;
-        c = c.lerp(bytes(iris.inner) * 1.1, 0.35 * bell(s - 0.5 - waves, 0.05));
-        c = c.lerp(bytes(iris.ring), smooth(0.76, 0.97, s + 0.5 * waves));
-        c = c.lerp(rgb(8, 6, 8), smooth(PUPIL + 0.035, PUPIL - 0.02, s));
-        c.lerp(white, smooth(0.965, 1.05, s))
+        let open = shade.at(uv);
+        // Not the whole depth of the shade: some of it the renderer adds for every eye.
+        let dim = lerp(0.42, 1.0, smooth(0.05, 0.62, open));
+        let c = sclera(d, s).lerp(iris_colour(iris, turn, s), smooth(1.04, 0.955, s));
+        // Shade on flesh and eyes is warm: light comes back from the lids.
+        let warm = DVec3::new(1.0, 0.94, 0.90);
+        c * dim * DVec3::ONE.lerp(warm, 1.0 - dim)
     })
+}
+
+/// The iris at a turn and a share of its radius.
+fn iris_colour(iris: &Iris, turn: f64, s: f64) -> DVec3 {
+    let bytes = |c: [u8; 3]| rgb(c[0], c[1], c[2]);
+    let round = DVec3::new(cos(turn), sin(turn), 0.0);
+    // Fibres run outward from the pupil and part at the collarette.
+    let fine = fbm(round * 26.0 + DVec3::Z * (s * 1.6), 2);
+    let coarse = fbm(round * 8.0 + DVec3::new(3.0, 7.0, s * 1.2), 2);
+    let crypts = smooth(0.25, 0.6, noise3(round * 5.0 + DVec3::Z * (s * 5.0)));
+    let collarette = 0.52 + 0.05 * coarse;
+    let mut c = bytes(iris.inner).lerp(bytes(iris.outer), smooth(collarette - 0.10, collarette + 0.16, s));
+    c *= 1.0 + 0.50 * fine + 0.25 * coarse;
+    c *= 1.0 - 0.35 * crypts * smooth(collarette, collarette + 0.1, s) * smooth(0.95, 0.8, s);
+    c = c.lerp(bytes(iris.inner) * 1.15, 0.40 * bell(s - collarette, 0.045));
+    // Light gathers on the side away from the lamp, as through a lens.
+    c *= 1.0 + 0.22 * smooth(0.35, 0.75, s) * -sin(turn);
+    c = c.lerp(bytes(iris.ring), 0.92 * smooth(0.78, 0.98, s + 0.05 * coarse));
+    c.lerp(rgb(7, 5, 7), smooth(PUPIL + 0.03, PUPIL - 0.02, s + 0.01 * fine))
 }
 
 /// The white: never quite white, redder away from the iris, with faint veins.
 fn sclera(d: DVec2, s: f64) -> DVec3 {
     let at = DVec3::new(d.x, d.y, 0.0) * 26.0;
-    let vein = 1.0 - smooth(0.0, 0.05, fbm(at + DVec3::Z * 4.0, 3).abs());
-    let base = rgb(226, 219, 211).lerp(rgb(204, 150, 134), smooth(1.6, 3.4, s));
-    base.lerp(rgb(196, 92, 82), 0.16 * vein * smooth(1.4, 2.6, s)) * lerp(0.90, 1.0, smooth(1.0, 1.3, s))
+    let vein = 1.0 - smooth(0.0, 0.045, fbm(at + DVec3::Z * 4.0, 3).abs());
+    let base = rgb(220, 213, 206).lerp(rgb(200, 150, 136), smooth(1.5, 3.3, s));
+    let veined = base.lerp(rgb(190, 88, 78), 0.22 * vein * smooth(1.25, 2.4, s));
+    veined * lerp(0.80, 1.0, smooth(0.98, 1.28, s))
 }

@@ -5,18 +5,42 @@ pub mod canvas;
 pub mod eye;
 pub mod hair;
 pub mod marks;
+pub mod picture;
+pub mod relief;
 pub mod skin;
 pub mod teeth;
 
 use anyhow::Result;
 use glam::DVec3;
 
-use crate::skin::Skin;
+use crate::{bake::Baked, skin::Skin};
 
-/// Edge length of the skin's colour picture in pixels.
-pub const SKIN_PIXELS: usize = 1024;
-/// Edge length of all other pictures.
-pub const OTHER_PIXELS: usize = 512;
+/// How large the pictures are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Detail {
+    /// 2048² for the skin, 1024² for all else.
+    #[default]
+    Full,
+    /// A quarter of that on each side.
+    Draft,
+}
+
+impl Detail {
+    /// Edge length of the skin's pictures in pixels.
+    #[must_use]
+    pub fn skin_pixels(self) -> usize {
+        match self {
+            Self::Full => 2048,
+            Self::Draft => 512,
+        }
+    }
+
+    /// Edge length of all other pictures.
+    #[must_use]
+    pub fn other_pixels(self) -> usize {
+        self.skin_pixels() / 2
+    }
+}
 
 /// A colour from bytes, each channel 0…1.
 #[must_use]
@@ -29,18 +53,26 @@ pub fn rgb(r: u8, g: u8, b: u8) -> DVec3 {
 /// # Errors
 ///
 /// If a picture cannot be encoded.
-pub fn all(skin: &Skin) -> Result<Vec<(String, Vec<u8>)>> {
-    let fine = canvas::Sites::of(skin, SKIN_PIXELS);
-    let coarse = canvas::Sites::of(skin, OTHER_PIXELS);
+pub fn all(skin: &Skin, baked: &Baked, detail: Detail) -> Result<Vec<(String, Vec<u8>)>> {
+    let fine = canvas::Sites::of(skin, detail.skin_pixels());
+    let coarse = canvas::Sites::of(skin, detail.other_pixels());
+    let (black, white, level) = (DVec3::ZERO, DVec3::ONE, DVec3::new(0.5, 0.5, 1.0));
     let mut files = vec![
-        ("SkinTex_Decal.png".to_owned(), fine.paint(skin::colour).png()?),
-        ("SkinTex_AO.png".to_owned(), coarse.paint(skin::occlusion).softened(6).png_grey()?),
-        ("SkinTex_Gloss.png".to_owned(), coarse.paint(skin::gloss).png_grey()?),
-        ("HairMap.png".to_owned(), coarse.paint(hair::density_colour).png_grey()?),
-        ("TeethTex_Decal.png".to_owned(), teeth::picture(OTHER_PIXELS / 2).png()?),
+        ("SkinTex_Decal.png".to_owned(), fine.paint(rgb(190, 140, 114), skin::colour).png()?),
+        ("SkinTex_Normal.png".to_owned(), fine.paint(level, relief::normal).png()?),
+        ("SkinTex_AO.png".to_owned(), fine.paint(white, |s| skin::occlusion(s, baked)).png_grey()?),
+        ("SkinTex_Gloss.png".to_owned(), fine.paint(DVec3::splat(0.34), skin::gloss).png_grey()?),
+        (
+            "SkinTex_Thickness.png".to_owned(),
+            coarse.paint(white, |s| DVec3::splat(s.mix(&baked.thickness))).png_grey()?,
+        ),
+        ("HairMap.png".to_owned(), coarse.paint(black, hair::density_colour).png_grey()?),
+        ("TeethTex_Decal.png".to_owned(), teeth::picture(detail.other_pixels()).png()?),
     ];
+    let shade = eye::Shade::of(&baked.eyeball);
     for (i, iris) in eye::IRISES.iter().enumerate() {
-        files.push((format!("EyeTex_Decal{i:02}.png"), eye::picture(OTHER_PIXELS, iris).png()?));
+        let name = format!("EyeTex_Decal{i:02}.png");
+        files.push((name, eye::picture(detail.other_pixels(), iris, &shade).png()?));
     }
     Ok(files)
 }

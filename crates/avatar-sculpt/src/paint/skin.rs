@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use super::{canvas::Site, hair, marks, rgb};
+use super::{canvas::Site, hair, marks, relief, rgb};
 use crate::{
     anatomy::EYE,
-    form, lids,
+    bake::Baked,
+    lids,
     math::{bell, bell3, fbm, lerp, smooth},
     surface::half::Patch,
 };
@@ -115,33 +116,23 @@ fn ear(site: &Site) -> DVec3 {
     base.lerp(rgb(204, 116, 96), 0.35 + 0.3 * rim).lerp(rgb(120, 62, 50), 0.55 * smooth(0.70, 0.92, own))
 }
 
-/// Ambient occlusion: light 1, shade 0.
+/// Ambient occlusion: light 1, shade 0. Measured on the meshes; what hair-thin parts would add is drawn.
 #[must_use]
-pub fn occlusion(site: &Site) -> DVec3 {
-    let open = match site.node.patch {
-        Patch::Mouth => lerp(0.55, 0.12, smooth(0.0, 0.45, site.node.own.x)),
-        Patch::Socket => lerp(0.75, 0.15, smooth(0.0, -0.35, site.node.lid)),
-        Patch::Ear => {
-            let own = site.node.own.x;
-            lerp(1.0, 0.45, smooth(0.55, 0.85, own)).min(lerp(0.5, 1.0, smooth(0.02, 0.22, own)))
-                - 0.25 * bell(own - 0.55, 0.06)
-        }
-        Patch::Sheet => {
-            let n = form::normal(site.p);
-            // A pixel lies on a flat triangle; its place on the round skin is a little beside it.
-            let p = site.p - n * form::distance(site.p);
-            let mut closed = 0.0;
-            let mut gain = 0.42;
-            for step in [0.25, 0.55, 1.0, 1.8] {
-                closed += gain * (0.94 - form::distance(p + n * step) / step).clamp(0.0, 1.0);
-                gain *= 0.8;
-            }
-            let lash = if site.node.lid <= 1.0 { 0.25 * smooth(0.12, 0.0, site.node.lid) } else { 0.0 };
-            let slit = if site.node.lip <= 2.0 { 0.35 * smooth(0.2, 0.0, site.node.lip) } else { 0.0 };
-            1.0 - closed - lash - slit
-        }
+pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
+    let open = site.mix(&baked.openness);
+    let drawn = match site.node.patch {
+        // Bare darkness says less than a mouth that can be seen into.
+        Patch::Mouth => open.max(0.16),
+        Patch::Socket | Patch::Ear => open,
+        Patch::Sheet => open - 0.18 * lash_shade(site),
     };
-    DVec3::splat(open.clamp(0.06, 1.0))
+    // The ear and the neck still see each other: full openness is rare, and should be white.
+    DVec3::splat(smooth(0.0, 1.0, lerp(0.10, 1.06, drawn)).clamp(0.05, 1.0))
+}
+
+/// Shade of the lashes on the lids' edges.
+fn lash_shade(site: &Site) -> f64 {
+    if site.node.lid > 1.0 { 0.0 } else { smooth(0.10, 0.0, site.node.lid) }
 }
 
 /// Gloss: wet or oily 1, dry 0.

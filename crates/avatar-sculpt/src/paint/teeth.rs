@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{canvas::Picture, rgb};
+use super::{picture::Picture, rgb};
 use crate::math::{fbm, smooth};
 
 /// The picture. Teeth end at 0.48, gums lie between 0.5 and 0.74, the tongue below.
