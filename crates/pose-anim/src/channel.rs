@@ -2,13 +2,13 @@ use crate::clip_play::ClipPath;
 use crate::goal::{Goal, Range, sensible};
 use crate::path::{Eased, Path};
 use crate::quintic::Quintic;
-use crate::settle::settle;
+use crate::rare::{Fade, MAX_FADES, Rare, Waiting};
 use crate::{Clip, Jet, Pace};
 use std::sync::Arc;
 
-/// How many fades may run one inside the other. Five presses within one move that all would leave the range are more
-/// than fingers do; what goes beyond is folded (see [`Channel`]).
-const MAX_FADES: usize = 4;
+mod nest;
+#[cfg(test)]
+mod tests;
 
 /// The motion of one control.
 ///
@@ -46,41 +46,8 @@ pub(crate) struct Channel {
     /// Whether a move waits for its delay to pass.
     waits: bool,
     sleeps: bool,
-}
-
-/// What a channel needs only around interruptions.
-#[derive(Clone, Debug)]
-pub(crate) struct Rare {
-    base: Path,
-    fades: [Fade; MAX_FADES],
-    waiting: Waiting,
-}
-
-#[derive(Clone, Debug)]
-struct Fade {
-    /// Age at the last start.
-    age_secs: f64,
-    duration_secs: f64,
-    /// As old as the fade.
-    towards: Path,
-}
-
-/// A move that is to start when `elapsed_secs` has come to a time.
-#[derive(Clone, Copy, Debug)]
-struct Waiting {
-    at_secs: f64,
-    goal: Goal,
-}
-
-impl Rare {
-    pub(crate) fn new() -> Self {
-        let fade = || Fade { age_secs: 0.0, duration_secs: 0.0, towards: Path::rest(0.0) };
-        Self {
-            base: Path::rest(0.0),
-            fades: std::array::from_fn(|_| fade()),
-            waiting: Waiting { at_secs: 0.0, goal: Goal::NONE },
-        }
-    }
+    /// Whether a direct move has begun at this very moment (`elapsed_secs` = 0), so that another one replaces it.
+    fresh: bool,
 }
 
 impl Channel {
@@ -94,6 +61,7 @@ impl Channel {
             fades: 0,
             waits: false,
             sleeps: false,
+            fresh: false,
         }
     }
 
@@ -137,7 +105,7 @@ impl Channel {
     /// Lets time pass, through the start of a move that waits, and gives the state after it.
     pub(crate) fn advance(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
         // Nearly always: a quintic, and no more.
-        if self.fades == 0 && !self.waits && !self.other_base {
+        if self.fades == 0 && !self.waits && !self.other_base && !self.fresh {
             self.elapsed_secs += dt_secs;
             let age_secs = self.base_age_secs + self.elapsed_secs;
             self.sleeps = age_secs >= self.base.duration_secs();
@@ -148,7 +116,14 @@ impl Channel {
 
     #[cold]
     fn advance_any(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
-        let mut until_secs = self.elapsed_secs + dt_secs;
+        if std::mem::take(&mut self.fresh) {
+            rare.forget();
+        }
+        // A clip may repeat itself for days: what an addition loses is made up for in the next one (Kahan 1965).
+        let step_secs = dt_secs - rare.lost_secs;
+        let mut until_secs = self.elapsed_secs + step_secs;
+        let lost_secs = (until_secs - self.elapsed_secs) - step_secs;
+        rare.lost_secs = if lost_secs.is_finite() { lost_secs } else { 0.0 };
         if self.waits && until_secs >= rare.waiting.at_secs {
             let Waiting { at_secs, goal } = rare.waiting;
             until_secs -= at_secs;
@@ -156,8 +131,11 @@ impl Channel {
             self.start(goal, rare);
         }
         self.elapsed_secs = until_secs;
+        self.drop_faded_out(rare);
+        self.drop_repetitions(rare);
         if self.is_at_rest(rare) {
             *self = Self { sleeps: true, ..Self::rest(self.range, self.end(rare)) };
+            rare.forget();
         }
         self.state(rare)
     }
@@ -174,6 +152,7 @@ impl Channel {
         self.sleeps = false;
         if delay_secs > 0.0 {
             rare.waiting = Waiting { at_secs: self.elapsed_secs + delay_secs, goal };
+            rare.lost_secs = 0.0;
             self.waits = true;
         } else {
             self.start(goal, rare);
@@ -189,9 +168,10 @@ impl Channel {
         fade_secs: Option<f64>,
         rare: &mut Rare,
     ) {
+        let Some(path) = ClipPath::new(clip, track, pace, self.range) else { return };
         self.waits = false;
         self.sleeps = false;
-        let Some(path) = ClipPath::new(clip, track, pace, self.range) else { return };
+        self.take_back(rare);
         let distance = path.at(0.0).value - self.state(rare).value;
         let secs = fade_secs.unwrap_or_else(|| pace.duration_secs(distance, self.range.width()));
         self.fade_into(Path::Clip(path), sensible(secs, pace.longest_secs.into()), rare);
@@ -199,6 +179,7 @@ impl Channel {
 
     /// Comes to rest about where the least braking leads, if anything moves.
     pub(crate) fn stop(&mut self, pace: Pace, rare: &mut Rare) {
+        self.take_back(rare);
         if self.is_at_rest(rare) {
             return;
         }
@@ -211,6 +192,7 @@ impl Channel {
 
     fn start(&mut self, goal: Goal, rare: &mut Rare) {
         self.waits = false;
+        self.take_back(rare);
         let state = self.state(rare);
         if state == Jet::rest(goal.target) && self.is_at_rest(rare) {
             *self = Self::rest(self.range, goal.target);
@@ -224,87 +206,35 @@ impl Channel {
         }
         let direct = Quintic::new(state, goal.target, duration_secs);
         if self.range.holds(state.value) && direct.stays_within(self.range.min, self.range.max) {
-            *self = Self { base: direct, ..Self::rest(self.range, goal.target) };
+            let begun = Self { base: direct, fresh: true, ..Self::rest(self.range, goal.target) };
+            rare.before = std::mem::replace(self, begun);
             return;
         }
         self.fade_into(Path::rest(goal.target), duration_secs, rare);
+    }
+
+    /// Forgets a direct move that has begun at this very moment: what begins now takes over from the motion before it. The fades
+    /// of that one are still there, because a direct move leaves [`Rare`] alone until time passes.
+    fn take_back(&mut self, rare: &Rare) {
+        if self.fresh && self.elapsed_secs == 0.0 {
+            *self = Self { waits: false, sleeps: false, fresh: false, ..rare.before.clone() };
+        }
     }
 
     /// Lets the present motion go on and fades from it into another one, which begins now.
     fn fade_into(&mut self, towards: Path, duration_secs: f64, rare: &mut Rare) {
         self.base_age_secs += self.elapsed_secs;
         rare.fades[..usize::from(self.fades)].iter_mut().for_each(|fade| fade.age_secs += self.elapsed_secs);
-        self.elapsed_secs = 0.0;
+        (self.elapsed_secs, rare.lost_secs, self.fresh) = (0.0, 0.0, false);
         self.drop_faded_out(rare);
+        // What has begun at this very moment is replaced.
+        if self.running(rare).last().is_some_and(|fade| fade.age_secs == 0.0) {
+            self.fades -= 1;
+        }
         if usize::from(self.fades) == MAX_FADES {
             self.fold(rare);
         }
         rare.fades[usize::from(self.fades)] = Fade { age_secs: 0.0, duration_secs, towards };
         self.fades += 1;
-    }
-
-    fn running<'r>(&self, rare: &'r Rare) -> &'r [Fade] {
-        &rare.fades[..usize::from(self.fades)]
-    }
-
-    /// Where the motion comes to rest.
-    fn end(&self, rare: &Rare) -> f64 {
-        match self.running(rare).last() {
-            Some(fade) => fade.towards.end(),
-            None if self.other_base => rare.base.end(),
-            None => self.base.target,
-        }
-    }
-
-    fn state_after(&self, secs: f64, rare: &Rare) -> Jet {
-        self.inner_state(secs, usize::from(self.fades), rare)
-    }
-
-    /// State of the base within its innermost fades.
-    fn inner_state(&self, secs: f64, fades: usize, rare: &Rare) -> Jet {
-        let now_secs = self.elapsed_secs + secs;
-        let age_secs = self.base_age_secs + now_secs;
-        let mut state = if self.other_base { rare.base.at(age_secs) } else { self.base.at(age_secs) };
-        for fade in &rare.fades[..fades] {
-            let age_secs = fade.age_secs + now_secs;
-            let towards = fade.towards.at(age_secs);
-            // What is over has no weight, whatever it may be.
-            state = if age_secs >= fade.duration_secs {
-                towards
-            } else {
-                state.mix(towards, Jet::step(age_secs, fade.duration_secs))
-            };
-        }
-        state
-    }
-
-    /// Removes the parts that no longer have any weight: everything inside a fade that is over, and a fade that has
-    /// just begun (another press at the same moment replaces it). To be called at `elapsed_secs` = 0.
-    fn drop_faded_out(&mut self, rare: &mut Rare) {
-        let over = self.running(rare).iter().rposition(|fade| fade.age_secs >= fade.duration_secs);
-        if let Some(over) = over {
-            match &rare.fades[over].towards {
-                Path::Quintic(quintic) => (self.base, self.other_base) = (*quintic, false),
-                other => (rare.base, self.other_base) = (other.clone(), true),
-            }
-            self.base_age_secs = rare.fades[over].age_secs;
-            rare.fades.rotate_left(over + 1);
-            self.fades -= over as u8 + 1;
-        }
-        if self.running(rare).last().is_some_and(|fade| fade.age_secs == 0.0) {
-            self.fades -= 1;
-        }
-    }
-
-    /// Replaces the base and the innermost fade by one quintic.
-    fn fold(&mut self, rare: &mut Rare) {
-        let inner = &rare.fades[0];
-        let state = self.inner_state(0.0, 1, rare);
-        let remaining_secs = inner.duration_secs - inner.age_secs;
-        self.base = settle(state, inner.towards.end(), remaining_secs, self.range);
-        self.other_base = false;
-        self.base_age_secs = 0.0;
-        rare.fades.rotate_left(1);
-        self.fades -= 1;
     }
 }

@@ -39,7 +39,8 @@ impl Transition {
     /// The state `age_secs` into a span that runs from value `a` to value `b` in `span_secs` (more than 0).
     pub(crate) fn at(self, age_secs: f64, span_secs: f64, a: f64, b: f64) -> Jet {
         let rate = 1.0 / span_secs;
-        let u = (age_secs * rate).clamp(0.0, 1.0);
+        // The product need not be 1 at the end.
+        let u = if age_secs >= span_secs { 1.0 } else { (age_secs * rate).clamp(0.0, 1.0) };
         let share = Jet { value: u, velocity: rate, acceleration: 0.0 };
         let line = Jet { value: a + (b - a) * u, velocity: (b - a) * rate, acceleration: 0.0 };
         match self {

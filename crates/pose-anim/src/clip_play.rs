@@ -20,15 +20,24 @@ impl ClipPath {
     pub(crate) fn new(clip: &Arc<Clip>, track: usize, pace: Pace, range: Range) -> Option<Self> {
         let keys = clip.tracks().get(track)?;
         let last = keys.just_before(keys.end_secs());
-        // A last step arrives at its value without having moved.
         let end = keys.at(keys.end_secs()).value;
-        let tail = if last.is_rest() || last.value != end {
+        let tail = if jumps_or_rests(last, end, pace.longest_secs.into(), range.width()) {
             Quintic::rest(end)
         } else {
-            settle(last, end, pace.longest_secs.into(), range)
+            settle(Jet { value: end, ..last }, end, pace.longest_secs.into(), range)
         };
         let clip_secs = if clip.wrap == Wrap::Once { keys.end_secs() } else { clip.duration_secs() };
         Some(Self { clip: Arc::clone(clip), track, clip_secs, tail })
+    }
+
+    /// Seconds after which the motion repeats itself; `None` if it does not.
+    pub(crate) fn period_secs(&self) -> Option<f64> {
+        let period_secs = match self.clip.wrap {
+            Wrap::Once => return None,
+            Wrap::Loop => self.clip_secs,
+            Wrap::PingPong => 2.0 * self.clip_secs,
+        };
+        (period_secs > 0.0).then_some(period_secs)
     }
 
     pub(crate) fn at(&self, age_secs: f64) -> Jet {
@@ -51,4 +60,12 @@ impl ClipPath {
     pub(crate) fn end(&self) -> f64 {
         self.tail.target
     }
+}
+
+/// Whether nothing is left to be braked at the end of a track: it jumps to its last value (two keys at one time), or it rests. Both are
+/// decided up to rounding: a span ends at `a + (b − a)`, which is `b` to an ulp only, and with slopes that cancel to about as much.
+fn jumps_or_rests(last: Jet, end: f64, secs: f64, width: f64) -> bool {
+    let none = 1e-9 * width;
+    (last.value - end).abs() > none
+        || ((last.velocity * secs).abs() <= none && (last.acceleration * secs * secs).abs() <= none)
 }

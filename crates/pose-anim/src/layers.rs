@@ -1,5 +1,6 @@
-use crate::channel::{Channel, Rare};
+use crate::channel::Channel;
 use crate::goal::{Goal, Range};
+use crate::rare::Rare;
 use crate::reach::reach;
 use crate::{AdvanceError, ControlTable, Jet, Pace, Player};
 

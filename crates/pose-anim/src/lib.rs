@@ -121,6 +121,7 @@ mod player;
 mod pose;
 mod pose_toml;
 mod quintic;
+mod rare;
 mod reach;
 mod reduce;
 mod settle;

@@ -1,5 +1,6 @@
-use crate::channel::{Channel, Rare};
+use crate::channel::Channel;
 use crate::goal::{Goal, Range};
+use crate::rare::Rare;
 use crate::{AdvanceError, Clip, ControlTable, Jet, JumpError, Pace, Pose};
 use std::sync::Arc;
 

@@ -78,3 +78,66 @@ pub(crate) fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
     let q = -0.5 * (b + discriminant.sqrt().copysign(b));
     [q / a, c / q]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3000))]
+
+        /// The closed form of the extrema against a look at many points.
+        #[test]
+        fn stays_within_is_what_a_dense_look_sees(
+            value in -1.0f64..=1.0, velocity in -40.0f64..40.0, acceleration in -400.0f64..400.0,
+            target in prop_oneof![-1.0f64..=1.0, Just(-1.0), Just(1.0)], secs in 0.01f64..0.5,
+        ) {
+            let quintic = Quintic::new(Jet { value, velocity, acceleration }, target, secs);
+            let beyond = (0..=4000)
+                .map(|step| quintic.at(f64::from(step) / 4000.0 * secs).value.abs() - 1.0)
+                .fold(f64::MIN, f64::max);
+            // Between two of the points an extremum is higher by the curvature there times a quarter of a step squared at most.
+            let curve = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| quintic.at(s * secs * (1.0 - 1e-9)).acceleration.abs());
+            let missed = curve.into_iter().fold(0.0, f64::max) * 4.0 * (secs / 4000.0).powi(2);
+            if quintic.stays_within(-1.0, 1.0) {
+                prop_assert!(beyond <= 4e-12, "{}", beyond);
+            } else {
+                prop_assert!(beyond > -missed - 1e-12, "{} {}", beyond, missed);
+            }
+        }
+
+        #[test]
+        fn it_begins_with_its_state_and_ends_at_rest(
+            value in -1.0f64..=1.0, velocity in -40.0f64..40.0, acceleration in -400.0f64..400.0,
+            target in -1.0f64..=1.0, secs in 0.01f64..5.0,
+        ) {
+            let quintic = Quintic::new(Jet { value, velocity, acceleration }, target, secs);
+            let start = quintic.at(0.0);
+            prop_assert!((start.value - value).abs() < 1e-15 * 4.0);
+            prop_assert!((start.velocity - velocity).abs() < 1e-12 * (1.0 + 1.0 / secs + velocity.abs()));
+            let size = 1.0 / (secs * secs) + velocity.abs() / secs + acceleration.abs();
+            prop_assert!((start.acceleration - acceleration).abs() < 1e-13 * (1.0 + size));
+            prop_assert_eq!(quintic.at(secs), Jet::rest(target));
+            // On the way there, too, and not only from the very end on.
+            let last = quintic.at(secs * (1.0 - 1e-8));
+            prop_assert!((last.value - target).abs() < 1e-12 && last.velocity.abs() < 1e-6 * (1.0 + size));
+            prop_assert!(last.acceleration.abs() < 1e-4 * (1.0 + size));
+        }
+    }
+
+    #[test]
+    fn roots_of_all_kinds() {
+        let near = |found: [f64; 2], expected: f64| found.iter().any(|root| (root - expected).abs() < 1e-12);
+        let found = roots(1.0, -3.0, 2.0);
+        assert!(near(found, 1.0) && near(found, 2.0));
+        assert!(near(roots(0.0, 2.0, -1.0), 0.5));
+        assert!(near(roots(1.0, -2.0, 1.0), 1.0));
+        // Without cancellation.
+        assert!(
+            (roots(1.0, -1e9, 1.0)[1] - 1e-9).abs() < 1e-24
+                || (roots(1.0, -1e9, 1.0)[0] - 1e-9).abs() < 1e-24
+        );
+        assert!(roots(1.0, 0.0, 1.0).iter().all(|root| root.is_nan()));
+    }
+}

@@ -43,5 +43,54 @@ pub(crate) fn settle(state: Jet, target: f64, duration_secs: f64, range: Range) 
             return quintic;
         }
     }
+    #[cfg(test)]
+    tests::FALLBACKS.set(tests::FALLBACKS.get() + 1);
     Quintic::rest(range.clamp(state.value))
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::cell::Cell;
+
+    thread_local! {
+        /// How often no way was found.
+        pub(crate) static FALLBACKS: Cell<u32> = const { Cell::new(0) };
+    }
+
+    const RANGE: Range = Range { min: -2.0, max: 3.0 };
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(5000))]
+
+        /// From every state of a motion in range there is a way on that stays there, and it begins with that state.
+        #[test]
+        fn a_motion_in_range_finds_a_way(
+            from in -2.0f64..=3.0, to in prop_oneof![-2.0f64..=3.0, Just(-2.0), Just(3.0)],
+            old_secs in 0.002f64..3.0, share in 0.001f64..0.999,
+            target in -2.0f64..=3.0, secs in 0.001f64..10.0,
+        ) {
+            let state = Quintic::new(Jet::rest(from), to, old_secs).at(share * old_secs);
+            let before = FALLBACKS.get();
+            let found = settle(state, target, secs, RANGE);
+            prop_assert_eq!(FALLBACKS.get(), before);
+            let start = found.at(0.0);
+            prop_assert!((start.value - state.value).abs() < 1e-12);
+            prop_assert!((start.velocity - state.velocity).abs() < 1e-9 * (1.0 + state.velocity.abs()));
+            prop_assert!((start.acceleration - state.acceleration).abs() < 1e-9 * (1.0 + state.acceleration.abs()));
+            for step in 0..=400 {
+                let value = found.at(f64::from(step) / 400.0 * found.duration_secs()).value;
+                prop_assert!((-2.0 - 1e-11..=3.0 + 1e-11).contains(&value), "{}", value);
+            }
+        }
+    }
+
+    #[test]
+    fn the_end_of_the_range_at_speed_is_held() {
+        let before = FALLBACKS.get();
+        let wall = Jet { value: 3.0, velocity: 1.0, acceleration: 0.0 };
+        assert_eq!(settle(wall, 3.0, 0.4, RANGE).at(0.1), Jet::rest(3.0));
+        assert_eq!(FALLBACKS.get(), before + 1);
+    }
 }

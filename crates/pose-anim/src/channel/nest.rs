@@ -1,0 +1,94 @@
+//! Fades in fades: what they give, when they are over, and what becomes of them when they are too many.
+
+use super::Channel;
+#[cfg(test)]
+use super::tests;
+use crate::Jet;
+use crate::path::Path;
+use crate::rare::{Fade, Rare};
+use crate::settle::settle;
+
+impl Channel {
+    pub(super) fn running<'r>(&self, rare: &'r Rare) -> &'r [Fade] {
+        &rare.fades[..usize::from(self.fades)]
+    }
+
+    /// Where the motion comes to rest.
+    pub(super) fn end(&self, rare: &Rare) -> f64 {
+        match self.running(rare).last() {
+            Some(fade) => fade.towards.end(),
+            None if self.other_base => rare.base.end(),
+            None => self.base.target,
+        }
+    }
+
+    pub(super) fn state_after(&self, secs: f64, rare: &Rare) -> Jet {
+        self.inner_state(secs, usize::from(self.fades), rare)
+    }
+
+    /// State of the base within its innermost fades.
+    pub(super) fn inner_state(&self, secs: f64, fades: usize, rare: &Rare) -> Jet {
+        let now_secs = self.elapsed_secs + secs;
+        let fades = &rare.fades[..fades];
+        // What is inside a fade that is over has no weight, whatever it may be.
+        let over = fades.iter().rposition(|fade| fade.is_over(now_secs));
+        let (state, outer) = match over {
+            Some(over) => (fades[over].towards.at(fades[over].age_secs + now_secs), &fades[over + 1..]),
+            None => {
+                let age_secs = self.base_age_secs + now_secs;
+                (if self.other_base { rare.base.at(age_secs) } else { self.base.at(age_secs) }, fades)
+            }
+        };
+        outer.iter().fold(state, |state, fade| {
+            let age_secs = fade.age_secs + now_secs;
+            state.mix(fade.towards.at(age_secs), Jet::step(age_secs, fade.duration_secs))
+        })
+    }
+
+    /// Removes everything inside a fade that is over.
+    pub(super) fn drop_faded_out(&mut self, rare: &mut Rare) {
+        let over = self.running(rare).iter().rposition(|fade| fade.is_over(self.elapsed_secs));
+        let Some(over) = over else { return };
+        self.base_age_secs = rare.fades[over].age_secs;
+        let towards = std::mem::replace(&mut rare.fades[over].towards, Path::rest(0.0));
+        self.other_base = !matches!(towards, Path::Quintic(_));
+        if let Path::Quintic(quintic) = towards {
+            self.base = quintic;
+        }
+        rare.base = towards;
+        rare.fades[..over].iter_mut().for_each(|fade| fade.towards = Path::rest(0.0));
+        rare.fades.rotate_left(over + 1);
+        self.fades -= over as u8 + 1;
+    }
+
+    /// Where a clip that repeats itself runs alone, keeps its time within one repetition: beyond, digits would be lost. An
+    /// infinite time ends at its start.
+    pub(super) fn drop_repetitions(&mut self, rare: &Rare) {
+        if self.fades > 0 || self.waits || !self.other_base {
+            return;
+        }
+        let Path::Clip(clip) = &rare.base else { return };
+        let Some(period_secs) = clip.period_secs() else { return };
+        let age_secs = self.base_age_secs + self.elapsed_secs;
+        if age_secs >= period_secs {
+            self.base_age_secs = 0.0;
+            self.elapsed_secs = if age_secs.is_finite() { age_secs % period_secs } else { 0.0 };
+        }
+    }
+
+    /// Replaces the base and the innermost fade by one quintic.
+    pub(super) fn fold(&mut self, rare: &mut Rare) {
+        #[cfg(test)]
+        tests::FOLDS.set(tests::FOLDS.get() + 1);
+        let inner = &rare.fades[0];
+        let state = self.inner_state(0.0, 1, rare);
+        let remaining_secs = inner.duration_secs - inner.age_secs;
+        self.base = settle(state, inner.towards.end(), remaining_secs, self.range);
+        self.other_base = false;
+        self.base_age_secs = 0.0;
+        rare.base = Path::rest(0.0);
+        rare.fades[0].towards = Path::rest(0.0);
+        rare.fades.rotate_left(1);
+        self.fades -= 1;
+    }
+}
