@@ -81,6 +81,37 @@ fn names_that_do_not_exist_are_noticed() {
     assert!(declares("    pub names: Vec<String>,", "names"));
 }
 
+/// Where this test itself was built: `…/target/<profile>/deps/<test>`.
+fn target_folder() -> PathBuf {
+    let test = std::env::current_exe().expect("this test's file");
+    test.ancestors().nth(3).expect("the target folder").to_owned()
+}
+
+#[test]
+fn every_link_of_the_documents_leads_somewhere() {
+    let mut documents = vec!["README.md".to_owned(), "ARCHITECTURE.md".to_owned(), "CHANGELOG.md".to_owned()];
+    for entry in fs::read_dir(root().join("docs")).expect("the documents") {
+        let name = entry.expect("an entry").file_name().into_string().expect("a name");
+        if name.ends_with(".md") {
+            documents.push(format!("docs/{name}"));
+        }
+    }
+    let mut links = 0;
+    for document in documents {
+        let text = read(&document);
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let file = link.split('#').next().expect("a link");
+            if file.is_empty() || file.contains("://") {
+                continue;
+            }
+            let target = root().join(&document).parent().expect("a folder").join(file);
+            assert!(target.exists(), "{document}: {link} leads nowhere");
+            links += 1;
+        }
+    }
+    assert!(links >= 8, "the documents were not read: {links} links");
+}
+
 /// The fenced blocks of a language in a text.
 fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
     let fence = format!("```{language}\n");
@@ -119,14 +150,15 @@ fn the_readmes_programs_run_in_projects_of_their_own() {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.args(["run", "--quiet", "--offline"]).current_dir(project);
         // The workspace's own profile and folder, so that dependencies are not built a second time.
-        cargo.env("CARGO_TARGET_DIR", root().join("target"));
+        cargo.env("CARGO_TARGET_DIR", target_folder());
         cargo.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "line-tables-only");
         let output = cargo.output().expect("cargo starts");
         let stderr = String::from_utf8_lossy(&output.stderr);
         let no_adapter = name == "avatar-render" && stderr.contains("expected a GPU adapter");
         let required = std::env::var_os("MIMIK_REQUIRE_GPU").is_some_and(|value| value == "1");
         if no_adapter && !required {
-            eprintln!("skipped the picture of {name}: {stderr}");
+            let skipped = format_args!("SKIPPED: the picture of {name}: {stderr}\n");
+            let _ = std::io::Write::write_fmt(&mut std::io::stderr(), skipped);
             continue;
         }
         assert!(output.status.success(), "{name}: {stderr}");

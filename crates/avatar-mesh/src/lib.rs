@@ -4,7 +4,7 @@
 //!  VB, IB bytes ──raw──▶ Mesh { points, shapes, skinning } ──deform──▶ positions, normals ──obj──▶ text
 //! ```
 //!
-//! Spaces and units are those of the [rig](../rig_core/index.html): column vectors, right-handed, +Y up, the face
+//! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up, the face
 //! looks along +Z, the character's left is +X. Texture coordinates have their origin at the top left corner of
 //! the image and v grows downward. Triangles run counter-clockwise seen from outside.
 //!

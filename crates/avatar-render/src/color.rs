@@ -2,6 +2,12 @@
 
 use std::sync::OnceLock;
 
+/// Linear light from an 8-bit sRGB colour with straight alpha, which is not encoded.
+pub fn linear_from_srgb8(srgb: [u8; 4]) -> [f32; 4] {
+    let [red, green, blue, alpha] = srgb.map(|byte| f32::from(byte) / 255.0);
+    [linear_from_srgb(red), linear_from_srgb(green), linear_from_srgb(blue), alpha]
+}
+
 pub(crate) fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

@@ -78,6 +78,7 @@ mod targets;
 mod texture;
 
 pub use camera::Camera;
+pub use color::linear_from_srgb8;
 pub use deformer::{Deformer, DeformerError};
 pub use image::{Image, ImageSizeError};
 pub use material::Material;

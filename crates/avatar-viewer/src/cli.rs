@@ -1,6 +1,9 @@
 use crate::face_args::FaceArgs;
+use crate::scene::{BACKGROUND, SAMPLES, View};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::fmt;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// Shows a rigged face in a window, and does the same without one.
 ///
@@ -67,7 +70,7 @@ pub(crate) struct RenderArgs {
     pub(crate) size: Size,
     /// Where the camera stands; `left` looks at the character's left side
     #[arg(long, value_enum, default_value = "front")]
-    pub(crate) view: View,
+    pub(crate) view: ViewName,
     /// Camera's angle around the vertical axis in degrees: 90 stands at the character's left [default: the view's]
     #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
     pub(crate) yaw: Option<f32>,
@@ -75,10 +78,10 @@ pub(crate) struct RenderArgs {
     #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
     pub(crate) pitch: Option<f32>,
     /// Samples per pixel, 1 or 4
-    #[arg(long, default_value = "4", value_parser = samples)]
+    #[arg(long, default_value_t = SAMPLES, value_parser = samples)]
     pub(crate) samples: u32,
     /// `#RRGGBB` in sRGB, or `transparent`
-    #[arg(long, default_value = "#23272e", value_parser = background, value_name = "COLOUR")]
+    #[arg(long, default_value_t = Background(BACKGROUND), value_name = "COLOUR")]
     pub(crate) background: Background,
 }
 
@@ -121,16 +124,16 @@ pub(crate) struct TraceArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
     /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5 wink-left"
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub(crate) script: String,
     /// After all values, also each control's velocity (CONTROL') and acceleration (CONTROL''), per second
     #[arg(long)]
     pub(crate) derivatives: bool,
     /// Rows per second
-    #[arg(long, default_value = "240", value_parser = positive)]
+    #[arg(long, default_value = "240", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) hz: f64,
     /// Seconds; the last row is at or just before this time
-    #[arg(long, default_value = "3", value_parser = positive)]
+    #[arg(long, default_value = "3", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) duration: f64,
 }
 
@@ -159,7 +162,7 @@ pub(crate) struct Size {
 /// The largest side that every WebGPU adapter can draw.
 const MAX_SIDE: u32 = 8192;
 
-impl std::str::FromStr for Size {
+impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -173,7 +176,7 @@ impl std::str::FromStr for Size {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum View {
+pub(crate) enum ViewName {
     Front,
     Left,
     Right,
@@ -181,35 +184,48 @@ pub(crate) enum View {
     Back,
 }
 
-impl View {
-    /// Camera's angle around the vertical axis.
-    pub(crate) fn yaw_degrees(self) -> f32 {
+impl ViewName {
+    /// Where the camera stands.
+    pub(crate) fn view(self) -> View {
+        let around = |yaw_degrees| View { yaw_degrees, ..View::FRONT };
         match self {
-            Self::Front => 0.0,
-            Self::Left => 90.0,
-            Self::Right => -90.0,
-            Self::ThreeQuarter => 35.0,
-            Self::Back => 180.0,
+            Self::Front => View::FRONT,
+            Self::Left => around(90.0),
+            Self::Right => around(-90.0),
+            Self::ThreeQuarter => View::THREE_QUARTER,
+            Self::Back => around(180.0),
         }
     }
 }
 
+/// A background in sRGB with straight alpha.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Background {
-    Transparent,
-    /// 8 bits each of red, green and blue in sRGB.
-    Color([u8; 3]),
+pub(crate) struct Background(pub(crate) [u8; 4]);
+
+impl FromStr for Background {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text.eq_ignore_ascii_case("transparent") {
+            return Ok(Self([0; 4]));
+        }
+        let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
+        // Not from_str_radix alone: it takes a sign.
+        let digits = digits.filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()));
+        let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+        let number = number.ok_or("expected #RRGGBB or transparent")?;
+        let [_, red, green, blue] = number.to_be_bytes();
+        Ok(Self([red, green, blue, 255]))
+    }
 }
 
-fn background(text: &str) -> Result<Background, String> {
-    if text.eq_ignore_ascii_case("transparent") {
-        return Ok(Background::Transparent);
+impl fmt::Display for Background {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            [.., 0] => write!(f, "transparent"),
+            [red, green, blue, _] => write!(f, "#{red:02x}{green:02x}{blue:02x}"),
+        }
     }
-    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && digits.is_ascii());
-    let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
-    let number = number.ok_or("expected #RRGGBB or transparent")?;
-    let [_, red, green, blue] = number.to_be_bytes();
-    Ok(Background::Color([red, green, blue]))
 }
 
 fn samples(text: &str) -> Result<u32, String> {

@@ -31,7 +31,7 @@ impl FromStr for Setting {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (control, value) = text.split_once('=').ok_or("expected CONTROL=VALUE, as in jaw.open=12")?;
+        let (control, value) = text.rsplit_once('=').ok_or("expected CONTROL=VALUE, as in jaw.open=12")?;
         let value = number(value)?;
         Ok(Self { control: control.trim().to_owned(), value })
     }

@@ -1,5 +1,5 @@
 use anyhow::{Context, Result, bail};
-use avatar_pack::{Pack, Source, SourceError, Textures};
+use avatar_pack::{Pack, Source, SourceError, Textures, Warning};
 use include_dir::{Dir, include_dir};
 use std::borrow::Cow;
 use std::io::ErrorKind;
@@ -22,7 +22,10 @@ impl Files {
             Ok(metadata) if metadata.is_dir() => Ok(Self::Folder(path.to_owned())),
             Ok(_) => bail!("{}: expected the folder of an avatar, found a file", path.display()),
             Err(error) if error.kind() == ErrorKind::NotFound => {
-                bail!("{}: expected the folder of an avatar, found nothing of that name", path.display())
+                bail!(
+                    "{}: expected the folder of an avatar (or a verb), found nothing of that name",
+                    path.display()
+                )
             }
             Err(error) => {
                 Err(error).with_context(|| format!("{}: expected the folder of an avatar", path.display()))
@@ -41,7 +44,9 @@ impl Files {
     /// Loads everything but the textures, and prints warnings.
     pub(crate) fn load_pack(&self) -> Result<Pack> {
         let pack = Pack::load(self)?;
-        pack.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+        // A part that is turned around needs nobody's attention; `info` tells.
+        let told = pack.warnings.iter().filter(|warning| !matches!(warning, Warning::InsideOut { .. }));
+        told.for_each(|warning| eprintln!("warning: {warning}"));
         Ok(pack)
     }
 

@@ -19,6 +19,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let matches = cli::Cli::command().get_matches();
+    quiet_mesa();
     let run = match cli::Cli::from_arg_matches(&matches) {
         Ok(cli) => verbs::run(cli, &matches),
         Err(error) => error.exit(),
@@ -31,3 +32,21 @@ fn main() -> ExitCode {
     eprintln!("error: {error:#}");
     if error.is::<usage::UsageError>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
+
+/// Starts the program anew where Mesa's layer that sorts devices would look for Wayland and print an error of its own
+/// among ours (no XDG_RUNTIME_DIR, as in containers). The layer takes its switch from the environment, which a program
+/// can set safely only for another one.
+fn quiet_mesa() {
+    #[cfg(unix)]
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() && std::env::var_os(MESA_SWITCH).is_none() {
+        use std::os::unix::process::CommandExt;
+        if let Ok(program) = std::env::current_exe() {
+            // Returns only if it fails; then the noise stays.
+            let arguments = std::env::args_os().skip(1);
+            let _ = std::process::Command::new(program).args(arguments).env(MESA_SWITCH, "1").exec();
+        }
+    }
+}
+
+#[cfg(unix)]
+const MESA_SWITCH: &str = "NODEVICE_SELECT";

@@ -1,12 +1,20 @@
 use crate::cli::Size;
 use crate::face_args::FaceChoice;
 use crate::scene::{self, View};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use avatar_mesh::Deformed;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking};
 use avatar_render::{AvatarModel, AvatarState, Deformer};
 use image::RgbaImage;
+
+/// What the device complained about outside of any call, such as running out of memory.
+fn check(gpu: &Gpu) -> Result<()> {
+    match gpu.errors.take() {
+        None => Ok(()),
+        Some(error) => bail!("expected adapter {:?} to hold the avatar, found: {error}", gpu.info.name),
+    }
+}
 
 /// A GPU without a window, holding one avatar.
 pub(crate) struct Offscreen {
@@ -24,6 +32,7 @@ impl Offscreen {
         let gpu = open_blocking(GpuOptions::default())?;
         let model = scene::upload(pack, textures, &gpu.device, &gpu.queue)?;
         let avatar = AvatarState::new(&gpu.device, &model);
+        check(&gpu)?;
         Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, canvas: None })
     }
 
@@ -63,6 +72,9 @@ impl Offscreen {
     pub(crate) fn deform(&mut self, pack: &Pack, face: &FaceChoice, part: usize) -> Result<Deformed> {
         self.pose(pack, face)?;
         let deformer = Deformer::new(&self.gpu.device);
-        Ok(deformer.run(&self.gpu.device, &self.gpu.queue, &self.model, &self.avatar, part)?)
+        let deformed = deformer.run(&self.gpu.device, &self.gpu.queue, &self.model, &self.avatar, part);
+        // The device's own words say more than that nothing came back.
+        check(&self.gpu)?;
+        Ok(deformed?)
     }
 }

@@ -1,50 +1,103 @@
 use anyhow::{Context, Result, bail};
-use std::io::{ErrorKind, Write};
+use std::fs::Permissions;
+use std::io::{BufWriter, ErrorKind, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file whole or not at all: beside its place, then renamed. What is no regular file (a terminal, a pipe,
-/// `/dev/null`) is written to directly, for a rename would replace it.
-pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
-    let what = || format!("{}: expected a file that can be written", path.display());
-    let metadata = std::fs::metadata(path);
-    match &metadata {
-        Ok(metadata) if metadata.is_dir() => {
-            bail!("{}: expected the name of a file to write, found a folder", path.display())
+/// A file to be written, whole or not at all. Checked before the work, so that a slip in a name costs nothing.
+#[derive(Debug)]
+pub(crate) struct OutputFile {
+    path: PathBuf,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    /// Written beside its place, then renamed; an old file's permissions stay.
+    File(Option<Permissions>),
+    /// A terminal, a pipe, `/dev/null`: written to directly, for a rename would replace it.
+    Device,
+}
+
+impl OutputFile {
+    /// Checks that a file can be made there.
+    pub(crate) fn check(named: &Path) -> Result<Self> {
+        if named.to_string_lossy().ends_with(std::path::is_separator) {
+            bail!("{}: expected the name of a file to write, found that of a folder", named.display());
         }
-        Ok(metadata) if !metadata.is_file() => return std::fs::write(path, bytes).with_context(what),
-        _ => {}
+        // A link keeps pointing to the file that it names, also where that file is yet to be made.
+        let mut path = named.to_owned();
+        for _ in 0..MAX_LINKS {
+            let Ok(target) = std::fs::read_link(&path) else { break };
+            path = folder_of(&path).join(target);
+        }
+        let kind = match std::fs::metadata(&path) {
+            Ok(metadata) if metadata.is_dir() => {
+                bail!("{}: expected the name of a file to write, found a folder", named.display())
+            }
+            Ok(metadata) if metadata.is_file() => Kind::File(Some(metadata.permissions())),
+            Ok(_) => Kind::Device,
+            Err(_) => Kind::File(None),
+        };
+        let folder = folder_of(&path);
+        if !folder.is_dir() {
+            bail!("{}: expected a folder to write to, found none", folder.display());
+        }
+        Ok(Self { path, kind })
     }
-    // A link keeps pointing to the file that it names.
-    let path =
-        if metadata.is_ok() { std::fs::canonicalize(path).with_context(what)? } else { path.to_owned() };
-    let folder = match path.parent() {
+
+    /// Writes the file.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
+        let what = || format!("{}: expected a file that can be written", self.path.display());
+        let Kind::File(permissions) = &self.kind else {
+            return std::fs::write(&self.path, bytes).with_context(what);
+        };
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As for any new file: the umask takes away what it must.
+            builder.permissions(Permissions::from_mode(0o666));
+        }
+        let file = builder.prefix(".avatar-viewer-").tempfile_in(folder_of(&self.path));
+        let mut file = file.map_err(without_path).with_context(what)?;
+        file.write_all(bytes).with_context(what)?;
+        if let Some(permissions) = permissions {
+            file.as_file().set_permissions(permissions.clone()).with_context(what)?;
+        }
+        file.persist(&self.path).map_err(|error| error.error).with_context(what)?;
+        Ok(())
+    }
+}
+
+/// Links that lead to links; more are a circle.
+const MAX_LINKS: usize = 40;
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
-    };
-    if !folder.is_dir() {
-        bail!("{}: expected a folder to write to, found none", folder.display());
     }
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As for any new file: the umask takes away what it must.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.prefix(".avatar-viewer-").tempfile_in(&folder).with_context(what)?;
-    file.write_all(bytes).with_context(what)?;
-    file.persist(&path).with_context(what)?;
-    Ok(())
+}
+
+/// The bare reason: the name of the temporary file would only confuse.
+fn without_path(error: std::io::Error) -> std::io::Error {
+    error.raw_os_error().map_or_else(|| error.kind().into(), std::io::Error::from_raw_os_error)
 }
 
 /// Prints to standard output, all or an error.
 pub(crate) fn print(text: &str) -> Result<()> {
-    let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).context("standard output")
+    stream(|out| Ok(out.write_all(text.as_bytes())?))
+}
+
+/// Prints to standard output piece by piece, so that long output needs no room.
+pub(crate) fn stream(write: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> Result<()>) -> Result<()> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    write(&mut out).context("standard output")?;
+    out.flush().context("standard output")
 }
 
 /// Whether the error is that nobody reads our output any more.
 pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
-    let io = error.downcast_ref::<std::io::Error>();
+    let io = error.chain().find_map(|cause| cause.downcast_ref::<std::io::Error>());
     io.is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
 }

@@ -3,8 +3,14 @@
 use anyhow::Result;
 use avatar_mesh::{Bounds, PartKind};
 use avatar_pack::{Pack, Texture, Textures};
-use avatar_render::{AvatarModel, Camera, Image, Light, PartBones, PartDesc, PartTextures, Scene};
+use avatar_render::{
+    AvatarModel, Camera, Image, Light, PartBones, PartDesc, PartTextures, Scene, linear_from_srgb8,
+};
 
+/// Samples per pixel, unless said otherwise.
+pub(crate) const SAMPLES: u32 = 4;
+/// Background in sRGB, opaque, unless said otherwise.
+pub(crate) const BACKGROUND: [u8; 4] = [0x23, 0x27, 0x2e, 255];
 /// Angle of view from top to bottom: long enough a lens not to distort a face.
 const VERTICAL_FOV_DEGREES: f32 = 24.0;
 
@@ -40,14 +46,7 @@ pub(crate) fn scene(pack: &Pack, view: View, width: u32, height: u32, background
     let whole_head = Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
     let (yaw, pitch) = (view.yaw_degrees.to_radians(), view.pitch_degrees.to_radians());
     let camera = Camera::orbit(bounds.center(), whole_head * view.distance, yaw, pitch, fov, aspect);
-    Scene { camera, background: background_linear(background), light: Light::default() }
-}
-
-/// sRGB to linear light (IEC 61966-2-1), alpha unchanged.
-fn background_linear(srgb: [u8; 4]) -> [f32; 4] {
-    let [red, green, blue, alpha] = srgb.map(|byte| f32::from(byte) / 255.0);
-    let linear = |c: f32| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
-    [linear(red), linear(green), linear(blue), alpha]
+    Scene { camera, background: linear_from_srgb8(background), light: Light::default() }
 }
 
 /// Uploads the pack's meshes and textures.

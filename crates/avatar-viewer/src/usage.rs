@@ -14,7 +14,8 @@ pub(crate) fn usage(message: impl Into<String>) -> anyhow::Error {
 /// As [`usage`], for a name that is not in the pack, with the names that are.
 pub(crate) fn unknown<'a>(what: &str, found: &str, names: impl Iterator<Item = &'a str>) -> anyhow::Error {
     let names: Vec<_> = names.collect();
-    usage(format!("expected the name of a {what}, found {found:?}; there are: {}", names.join(", ")))
+    let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+    usage(format!("expected the name of a {what}, found {found:?}; there are: {names}"))
 }
 
 /// The pose of this name, or a mixture such as `smile:0.5 wink-left`.

@@ -10,7 +10,7 @@ use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{ConnectionExt, ImageFormat};
+use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat};
 
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -71,6 +71,31 @@ impl Desk {
 
     fn key(&self, key: &str) {
         self.do_xdotool(&["key", key]);
+    }
+
+    /// Presses the window's close button, as a window manager tells it.
+    fn close_button(&self) {
+        let (connection, _) = x11rb::connect(Some(&self.display)).expect("the display");
+        let atom =
+            |name: &[u8]| connection.intern_atom(false, name).expect("sent").reply().expect("an atom").atom;
+        let message = [atom(b"WM_DELETE_WINDOW"), x11rb::CURRENT_TIME, 0, 0, 0];
+        let event = ClientMessageEvent::new(32, self.window, atom(b"WM_PROTOCOLS"), message);
+        connection.send_event(false, self.window, EventMask::NO_EVENT, event).expect("sent");
+        connection.flush().expect("sent");
+    }
+
+    /// Waits for the program's end, which is a success.
+    #[track_caller]
+    fn closes(&mut self) {
+        let start = Instant::now();
+        let status = loop {
+            if let Some(status) = self.viewer.0.try_wait().expect("the viewer can be waited for") {
+                break status;
+            }
+            assert!(start.elapsed() < PATIENCE, "the window did not close");
+            std::thread::sleep(Duration::from_millis(20));
+        };
+        assert!(status.success(), "{status}");
     }
 
     /// What the window shows now.
@@ -145,7 +170,7 @@ fn can_run() -> bool {
     }
     let required = std::env::var_os("MIMIK_REQUIRE_GPU").is_some_and(|value| value == "1");
     assert!(!required, "MIMIK_REQUIRE_GPU=1, but {missing:?} is not installed");
-    eprintln!("skipped: {missing:?} is not installed");
+    common::tell(&format!("{missing:?} is not installed"));
     false
 }
 
@@ -170,11 +195,13 @@ fn a_person_poses_the_face_by_keys() {
             }
         }
     };
+    let before_the_second_key = desk.picture();
     desk.key(&key_of("smile"));
     let yawn = render(&[&size[..], &["--pose", "yawn"]].concat());
     let smile = render(&[&size[..], &["--pose", "smile"]].concat());
     assert_ne!(difference(&half_way, &at_rest), Some(0), "the face moves");
     assert_ne!(difference(&half_way, &yawn), Some(0), "and it does not jump");
+    assert_ne!(difference(&before_the_second_key, &yawn), Some(0), "the second key falls into the move");
     desk.shows(&smile, "after the last press");
 
     // The camera: by mouse and back by key.
@@ -191,13 +218,38 @@ fn a_person_poses_the_face_by_keys() {
     desk.shows(&render(&["--size", "400x500"]), "back to the default face");
 
     desk.key("Escape");
-    let start = Instant::now();
-    let status = loop {
-        if let Some(status) = desk.viewer.0.try_wait().expect("the viewer can be waited for") {
-            break status;
-        }
-        assert!(start.elapsed() < PATIENCE, "Escape did not close the window");
-        std::thread::sleep(Duration::from_millis(20));
-    };
-    assert!(status.success(), "{status}");
+    desk.closes();
+}
+
+#[test]
+fn the_command_lines_face_is_shown_until_a_pose_is_pressed() {
+    if !can_run() {
+        return;
+    }
+    let face =
+        ["--size", "320x240", "--set", "eye.left.ud=20", "--rotate", "HeadJoint=x:25", "--set", "smile=0.5"];
+    let mut desk = Desk::open(&face);
+    desk.shows(&render(&face), "at first");
+    desk.key(&key_of("surprise"));
+    desk.shows(&render(&["--size", "320x240", "--pose", "surprise"]), "after a press");
+    desk.close_button();
+    desk.closes();
+}
+
+#[test]
+fn a_real_face_is_posed_by_keys() {
+    let Some(face) = common::real_face() else { return };
+    if !can_run() {
+        return;
+    }
+    let face = [face.to_str().expect("a plain path"), "--size", "400x300"];
+    let mut desk = Desk::open(&face);
+    desk.shows(&render(&face), "at first");
+    for pose in ["laugh", "wink-left", "look-up"] {
+        desk.key(&key_of(pose));
+        std::thread::sleep(Duration::from_millis(120));
+    }
+    desk.shows(&render(&[&face[..], &["--pose", "look-up"]].concat()), "after three presses");
+    desk.close_button();
+    desk.closes();
 }

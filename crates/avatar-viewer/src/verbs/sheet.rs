@@ -1,8 +1,9 @@
 use crate::cli::{SheetArgs, Size};
 use crate::face_args::FaceChoice;
+use crate::label;
 use crate::offscreen::Offscreen;
-use crate::scene::View;
-use crate::{label, output};
+use crate::output::OutputFile;
+use crate::scene::{BACKGROUND, SAMPLES, View};
 use anyhow::Result;
 use image::{Rgba, RgbaImage, imageops};
 
@@ -11,17 +12,20 @@ const FACE: Size = Size { width: 240, height: 300 };
 const LABEL_HEIGHT: u32 = 34;
 const GAP: u32 = 12;
 const COLUMNS: u32 = 4;
-const CELL_COLOR: [u8; 4] = [0x23, 0x27, 0x2e, 255];
 const SHEET_COLOR: [u8; 4] = [0x16, 0x18, 0x1c, 255];
 const LABEL_COLOR: [u8; 3] = [0xe6, 0xe2, 0xda];
 
 pub(super) fn run(args: &SheetArgs) -> Result<()> {
+    let out = OutputFile::check(&args.out)?;
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let textures = files.load_textures();
-    let mut offscreen = Offscreen::open(&pack, &textures, 4)?;
+    let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES)?;
 
     let poses: Vec<_> = pack.poses.iter().collect();
+    if poses.is_empty() {
+        eprintln!("warning: expected poses to draw, found none: the sheet is empty");
+    }
     let rows = (poses.len() as u32).div_ceil(COLUMNS).max(1);
     let (cell_width, cell_height) = (FACE.width * 2, FACE.height + LABEL_HEIGHT);
     let (width, height) = (GAP + COLUMNS * (cell_width + GAP), GAP + rows * (cell_height + GAP));
@@ -34,10 +38,10 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
         pose.values.iter().for_each(|&(control, value)| values[control] = value);
         let face = FaceChoice::of_values(values);
 
-        let cell = RgbaImage::from_pixel(cell_width, cell_height, Rgba(CELL_COLOR));
+        let cell = RgbaImage::from_pixel(cell_width, cell_height, Rgba(BACKGROUND));
         imageops::replace(&mut sheet, &cell, left.into(), top.into());
         for (place, view) in [View::FRONT, View::THREE_QUARTER].into_iter().enumerate() {
-            let picture = offscreen.picture(&pack, &face, view, FACE, CELL_COLOR)?;
+            let picture = offscreen.picture(&pack, &face, view, FACE, BACKGROUND)?;
             let x = left + place as u32 * FACE.width;
             imageops::replace(&mut sheet, &picture, x.into(), top.into());
         }
@@ -45,5 +49,5 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
         let center = left + cell_width / 2;
         label::draw(&mut sheet, &pose.name, center as f32, baseline as f32, 22.0, LABEL_COLOR)?;
     }
-    output::write_file(&args.out, &super::render::png(&sheet)?)
+    out.write(&super::render::png(&sheet)?)
 }

@@ -4,7 +4,8 @@ use crate::usage::{self, usage};
 use anyhow::Result;
 use avatar_pack::Pack;
 use pose_anim::{Player, Pose};
-use std::fmt::Write;
+use std::borrow::Cow;
+use std::io::Write;
 
 /// More rows than this are a slip of the keyboard, not a wish.
 const MAX_ROWS: f64 = 10_000_000.0;
@@ -18,7 +19,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<()> {
         return Err(usage(format!("expected at most {MAX_ROWS} rows, found --hz × --duration = {last_row}")));
     }
     let rows = Rows { hz: args.hz, last: last_row as u64, derivatives: args.derivatives };
-    output::print(&trace(&pack, &presses, &rows)?)
+    output::stream(|out| trace(&pack, &presses, &rows, out))
 }
 
 /// `TIME POSE; TIME POSE; …` in the order of the times.
@@ -43,18 +44,18 @@ struct Rows {
     derivatives: bool,
 }
 
-fn trace(pack: &Pack, presses: &[(f64, Pose)], rows: &Rows) -> Result<String> {
+fn trace(pack: &Pack, presses: &[(f64, Pose)], rows: &Rows, out: &mut impl Write) -> Result<()> {
     let mut player = Player::new(&pack.controls);
     let mut presses = presses.iter().peekable();
     let mut now = 0.0;
-    let mut out = String::from("t");
+    write!(out, "t")?;
     let suffixes: &[&str] = if rows.derivatives { &["", "'", "''"] } else { &[""] };
     for suffix in suffixes {
         for control in pack.controls.controls() {
-            let _ = write!(out, ",{}{suffix}", control.name);
+            write!(out, ",{}", quoted(&format!("{}{suffix}", control.name)))?;
         }
     }
-    out.push('\n');
+    writeln!(out)?;
     for row in 0..=rows.last {
         let t = row as f64 / rows.hz;
         while let Some((time, pose)) = presses.next_if(|(time, _)| *time <= t) {
@@ -64,13 +65,21 @@ fn trace(pack: &Pack, presses: &[(f64, Pose)], rows: &Rows) -> Result<String> {
         }
         player.advance(t - now)?;
         now = t;
-        let _ = write!(out, "{t}");
+        write!(out, "{t}")?;
         let columns = [player.values(), player.velocities(), player.accelerations()];
         for number in columns.iter().take(suffixes.len()).copied().flatten() {
             // The sum turns −0 into 0.
-            let _ = write!(out, ",{}", number + 0.0);
+            write!(out, ",{}", number + 0.0)?;
         }
-        out.push('\n');
+        writeln!(out)?;
     }
-    Ok(out)
+    Ok(())
+}
+
+/// A column's name as CSV wants it (RFC 4180).
+fn quoted(name: &str) -> Cow<'_, str> {
+    match name.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", name.replace('"', "\"\"")).into(),
+        false => name.into(),
+    }
 }

@@ -42,11 +42,24 @@ pub(crate) fn action(key: &Key) -> Option<Action> {
     WINDOW_KEYS.iter().find(|(key, ..)| key == named).map(|(.., action)| *action)
 }
 
+/// Keys of poses that never come through, because the window takes them itself.
+pub(crate) fn dead(pack: &Pack) -> impl Iterator<Item = String> {
+    pack.poses.iter().filter_map(|pose| {
+        let key = pose.key.as_ref()?;
+        let (_, name, meaning, _) = WINDOW_KEYS.iter().find(|(named, name, ..)| {
+            key.eq_ignore_ascii_case(name) || key.eq_ignore_ascii_case(&format!("{named:?}"))
+        })?;
+        Some(format!("pose {}: expected a free key, found {name}, which means: {meaning}", pose.name))
+    })
+}
+
 /// The pose that this key presses: by the character that the key types, or, where a layout puts that character
 /// behind Shift (digits on French keyboards), by the key's place.
 pub(crate) fn pose<'a>(pack: &'a Pack, logical: &Key, physical: PhysicalKey) -> Option<&'a Pose> {
     let named = |name: &str| {
-        pack.poses.iter().find(|pose| pose.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(name)))
+        let ignoring_case =
+            |pose: &&Pose| pose.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(name));
+        pack.poses.by_key(name).or_else(|| pack.poses.iter().find(ignoring_case))
     };
     let typed = match logical {
         Key::Character(typed) => named(typed),

@@ -4,13 +4,14 @@ pub(crate) mod keys;
 mod stage;
 
 use crate::cli::WindowArgs;
+use crate::face_args::FaceChoice;
 use crate::files::Files;
 use crate::scene::View;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use avatar_pack::{FaceState, Pack, Textures};
 use clap::ArgMatches;
 use keys::Action;
-use pose_anim::Player;
+use pose_anim::{Player, Pose};
 use stage::Stage;
 use std::sync::Arc;
 use std::time::Instant;
@@ -37,7 +38,8 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let pack = files.load_pack()?;
     let textures = files.load_textures();
     let start = args.face.resolve(&pack, matches)?;
-    let event_loop = EventLoop::new().context("expected a display (X11 or Wayland) to open a window on")?;
+    keys::dead(&pack).for_each(|warning| eprintln!("warning: {warning}"));
+    let event_loop = EventLoop::new().map_err(|_| no_display())?;
     let mut player = Player::new(&pack.controls);
     player.jump_to(&start.start_values())?;
     let mut app = App {
@@ -47,6 +49,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         pack,
         textures,
         player,
+        start: Some(start),
         view: View::FRONT,
         stage: None,
         last_frame: None,
@@ -58,6 +61,16 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     app.failure.map_or(Ok(()), Err)
 }
 
+/// winit's own words name its source files; what a person can change are two variables.
+fn no_display() -> anyhow::Error {
+    let variable = |name| match std::env::var_os(name) {
+        Some(value) => format!("{name}={}", value.to_string_lossy()),
+        None => format!("no {name}"),
+    };
+    let (x11, wayland) = (variable("DISPLAY"), variable("WAYLAND_DISPLAY"));
+    anyhow!("expected a display (X11 or Wayland) to open a window on, found {x11} and {wayland}")
+}
+
 struct App {
     title: String,
     size: PhysicalSize<u32>,
@@ -65,6 +78,8 @@ struct App {
     textures: Textures,
     player: Player,
     state: FaceState,
+    /// The face of the command line, with its single controls and joints; until a pose is pressed.
+    start: Option<FaceChoice>,
     view: View,
     stage: Option<Stage>,
     /// When the last frame of a running motion was drawn; `None` while nothing moves.
@@ -89,10 +104,11 @@ impl ApplicationHandler for App {
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::Resized(size) => {
-                if let Some(stage) = &mut self.stage {
-                    stage.resize(size);
+                let resized = self.stage.as_mut().map_or(Ok(()), |stage| stage.resize(size));
+                match resized {
+                    Ok(()) => self.redraw(),
+                    Err(error) => self.fail(event_loop, error),
                 }
-                self.redraw();
             }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => self.key(event_loop, &event),
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
@@ -152,20 +168,23 @@ impl App {
             }
             Some(Action::Defaults) => {
                 let defaults = self.pack.controls.defaults();
-                self.catch_up();
-                self.player.press(&pose_anim::Pose::from_values("defaults", &defaults));
-                self.redraw();
+                self.press(&Pose::from_values("defaults", &defaults));
             }
             // A key that is held down repeats itself; a pose is pressed once.
             None if event.repeat => {}
             None => {
                 if let Some(pose) = keys::pose(&self.pack, &event.logical_key, event.physical_key).cloned() {
-                    self.catch_up();
-                    self.player.press(&pose);
-                    self.redraw();
+                    self.press(&pose);
                 }
             }
         }
+    }
+
+    fn press(&mut self, pose: &Pose) {
+        self.start = None;
+        self.catch_up();
+        self.player.press(pose);
+        self.redraw();
     }
 
     fn pointer(&mut self, position: PhysicalPosition<f64>) {
@@ -206,7 +225,10 @@ impl App {
             self.catch_up();
         }
         let Some(stage) = &mut self.stage else { return Ok(()) };
-        self.state.pose(&self.pack, self.player.values())?;
+        match &self.start {
+            Some(start) => start.apply(&self.pack, &mut self.state)?,
+            None => self.state.pose(&self.pack, self.player.values())?,
+        }
         stage.draw(&self.pack, &self.state, self.view)?;
         if self.player.is_at_rest() {
             // Nothing moves: no frame until something happens.

@@ -1,4 +1,4 @@
-use crate::scene::{self, View};
+use crate::scene::{self, BACKGROUND, SAMPLES, View};
 use anyhow::{Context, Result, bail};
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_for_surface_blocking};
@@ -8,11 +8,6 @@ use wgpu::CurrentSurfaceTexture as Acquired;
 use winit::dpi::PhysicalSize;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
-
-/// Samples per pixel, as in `render`.
-const SAMPLES: u32 = 4;
-/// The background, as in `render`.
-const BACKGROUND: [u8; 4] = [0x23, 0x27, 0x2e, 255];
 
 /// The window's surface and everything that draws on it.
 pub(super) struct Stage {
@@ -55,7 +50,7 @@ impl Stage {
         let model = scene::upload(pack, textures, device, &gpu.queue)?;
         let avatar = AvatarState::new(device, &model);
         let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar };
-        stage.resize(size);
+        stage.resize(size)?;
         Ok(stage)
     }
 
@@ -64,16 +59,20 @@ impl Stage {
     }
 
     /// Fits surface and targets to the window; a window without area (minimised) is not drawn.
-    pub(super) fn resize(&mut self, size: PhysicalSize<u32>) {
+    ///
+    /// # Errors
+    /// Memory for the targets ran out.
+    pub(super) fn resize(&mut self, size: PhysicalSize<u32>) -> Result<()> {
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         self.targets = None;
         if size.width == 0 || size.height == 0 {
-            return;
+            return Ok(());
         }
         (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
         self.surface.configure(&self.gpu.device, &self.config);
-        let targets = Targets::new(&self.gpu.device, &self.renderer, self.config.width, self.config.height);
-        self.targets = targets.ok();
+        let (width, height) = (self.config.width, self.config.height);
+        self.targets = Some(Targets::new(&self.gpu.device, &self.renderer, width, height)?);
+        Ok(())
     }
 
     /// Draws one frame. A surface that is not ready loses this frame, not the window.
@@ -83,20 +82,24 @@ impl Stage {
         }
         let frame = match self.surface.get_current_texture() {
             Acquired::Success(frame) | Acquired::Suboptimal(frame) => frame,
-            Acquired::Timeout | Acquired::Validation => {
+            Acquired::Timeout => {
                 self.window.request_redraw();
                 return Ok(());
             }
+            Acquired::Validation => {
+                let error = self.gpu.errors.take().unwrap_or_default();
+                bail!("expected a picture of the window to draw on, found: {error}");
+            }
             Acquired::Occluded => return Ok(()),
             Acquired::Outdated => {
-                self.resize(self.window.inner_size());
+                self.resize(self.window.inner_size())?;
                 self.window.request_redraw();
                 return Ok(());
             }
             Acquired::Lost => {
                 self.surface =
                     self.gpu.instance.create_surface(self.window.clone()).context("the lost surface")?;
-                self.resize(self.window.inner_size());
+                self.resize(self.window.inner_size())?;
                 self.window.request_redraw();
                 return Ok(());
             }

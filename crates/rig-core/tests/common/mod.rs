@@ -74,6 +74,8 @@ pub(crate) fn shared_data() -> Option<std::path::PathBuf> {
     if folder.is_dir() {
         return Some(folder);
     }
-    println!("SKIPPED: the real data is not at {}", folder.display());
+    // Past the harness, which keeps the output of tests that pass to itself.
+    let skipped = format_args!("SKIPPED: {} is not there\n", folder.display());
+    let _ = std::io::Write::write_fmt(&mut std::io::stderr(), skipped);
     None
 }
