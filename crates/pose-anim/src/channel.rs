@@ -102,6 +102,11 @@ impl Channel {
         self.sleeps
     }
 
+    /// The state of a control that sleeps.
+    pub(crate) const fn at_rest(&self) -> Jet {
+        Jet::rest(self.base.target)
+    }
+
     /// Lets time pass, through the start of a move that waits, and gives the state after it.
     pub(crate) fn advance(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
         // Nearly always: a quintic, and no more.

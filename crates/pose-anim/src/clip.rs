@@ -177,18 +177,30 @@ impl Key {
             Transition::Hermite { leaving, arriving } => [leaving, arriving, 0.0, 0.0],
         };
         let sound = |number: &f64| number.abs() <= 1e12;
-        if numbers.iter().chain([&self.time_secs, &self.value]).all(sound) {
-            Ok(())
-        } else {
-            Err(ClipError::NotFinite { control, key })
+        if !numbers.iter().chain([&self.time_secs, &self.value]).all(sound) {
+            return Err(ClipError::NotFinite { control, key });
+        }
+        match self.transition {
+            Transition::Part { from, to, .. }
+                if !(0.0..=1.0).contains(&from.min(to)) || from.max(to) > 1.0 =>
+            {
+                Err(ClipError::Share { control, key })
+            }
+            _ => Ok(()),
         }
     }
 }
 
 /// What follows the end of a clip.
+///
+/// The seams are as smooth as the clip makes them. A loop goes on from its last values to its first ones, so where they differ the value
+/// jumps, and where they arrive and leave with different rates there is a corner. Ping-pong turns every rate round, so what arrives
+/// at speed (a straight span) turns in a corner. A track that ends before the clip does rests from its last key to the
+/// end of the repetition, at once, however fast it was. Equal first and last keys and spans that rest at both ends
+/// ([`Easing::MinimumJerk`]) make a seam that cannot be felt. Starting, stopping and interrupting is smooth whatever the seams are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// The last values stay. (In a player they come to rest smoothly.)
+    /// The last values stay. (In a player they come to rest smoothly, each from where its own track ends.)
     #[default]
     Once,
     /// The start.

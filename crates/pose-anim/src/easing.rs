@@ -99,6 +99,21 @@ impl Easing {
         Some(Self::Family(*family, *direction))
     }
 
+    /// Whether the numbers are such that a curve can be drawn through them: Bézier handles are finite, and no further than
+    /// [`Self::FURTHEST`] up or down. (Their x are clamped anyway.)
+    pub fn is_sound(self) -> bool {
+        match self {
+            Self::Bezier([x1, y1, x2, y2]) => {
+                x1.is_finite() && x2.is_finite() && y1.abs() <= Self::FURTHEST && y2.abs() <= Self::FURTHEST
+            }
+            _ => true,
+        }
+    }
+
+    /// The furthest that a Bézier handle may reach up or down: a thousand times the move's distance. What is beyond has derivatives
+    /// beyond the numbers, and no meaning.
+    pub const FURTHEST: f64 = 1000.0;
+
     /// All names that [`Self::from_name`] knows.
     pub fn names() -> Vec<String> {
         let families = FAMILIES.iter().flat_map(|(family, _)| {

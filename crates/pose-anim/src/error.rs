@@ -145,6 +145,16 @@ pub enum ClipError {
         /// Index of the key.
         key: usize,
     },
+    /// A piece of a span that begins or ends outside of it.
+    #[error(
+        "control {control}, key {key}: expected a piece of a span between its shares 0 and 1, found another"
+    )]
+    Share {
+        /// Index of the control.
+        control: usize,
+        /// Index of the key.
+        key: usize,
+    },
     /// A factor of time that is none.
     #[error("expected a factor greater than 0 that keeps the clip within 1000000 s, found {factor}")]
     Factor {

@@ -3,6 +3,7 @@ use crate::goal::{Goal, Range};
 use crate::rare::Rare;
 use crate::reach::reach;
 use crate::{AdvanceError, ControlTable, Jet, Pace, Player};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How a layer acts on what is below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,9 +14,15 @@ pub enum LayerMode {
     Override,
 }
 
-/// Name of a layer of a [`Layers`].
+/// Name of a layer of a [`Layers`], and of its clones. Other stacks do not know it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LayerId(usize);
+pub struct LayerId {
+    stack: usize,
+    index: usize,
+}
+
+/// Number of the next stack.
+static STACKS: AtomicUsize = AtomicUsize::new(0);
 
 /// A base player with further players on top of it, each with a mask over the controls and a weight.
 ///
@@ -29,12 +36,18 @@ pub struct LayerId(usize);
 ///
 /// The result has derivatives as the players have, by the rules for sums and products, and is as continuous as they are:
 /// weights move as smoothly as values. Where no layer has any share, the base goes through to the last bit.
+///
+/// What overshoots its range on purpose is clamped at the very end only, after all layers, or not at all: [`Self::with_overshoot`].
 #[derive(Clone, Debug)]
 pub struct Layers {
+    stack: usize,
+    confined: bool,
     base: Player,
     layers: Vec<Layer>,
     defaults: Vec<f64>,
     ranges: Vec<Range>,
+    /// What is combined in a tick.
+    states: Vec<Jet>,
     values: Vec<f32>,
     velocities: Vec<f32>,
     accelerations: Vec<f32>,
@@ -56,6 +69,9 @@ impl Layers {
     pub fn new(controls: &ControlTable) -> Self {
         let base = Player::new(controls);
         Self {
+            stack: STACKS.fetch_add(1, Ordering::Relaxed),
+            confined: true,
+            states: vec![Jet::default(); controls.len()],
             layers: Vec::new(),
             defaults: controls.controls().iter().map(|control| control.default.into()).collect(),
             ranges: controls
@@ -70,9 +86,18 @@ impl Layers {
         }
     }
 
-    /// Puts a layer on top, with weight 0: a player like the base's with everything at its default. `mask` is its share per
-    /// control, 0 to 1; controls beyond its end have none. This allocates; nothing after it does.
+    /// The same layers, whose combined values may leave their ranges where a transition function overshoots on purpose (back,
+    /// elastic). The offset of an additive layer still takes nothing beyond a range that is not there already.
+    #[must_use]
+    pub fn with_overshoot(self) -> Self {
+        Self { confined: false, ..self }
+    }
+
+    /// Puts a layer on top, with weight 0: a player with everything at its default, for the table that the stack was made from. `mask` is its
+    /// share per control, 0 to 1; controls beyond its end have none, and neither have controls beyond the end of another, shorter
+    /// table. This allocates; nothing after it does.
     pub fn add(&mut self, controls: &ControlTable, mode: LayerMode, mask: &[f32]) -> LayerId {
+        let mask = &mask[..mask.len().min(controls.len())];
         let share = |index: usize| mask.get(index).map_or(0.0, |share| WEIGHTS.clamp(f64::from(*share)));
         self.layers.push(Layer {
             player: Player::new(controls),
@@ -81,7 +106,7 @@ impl Layers {
             weight: Channel::rest(WEIGHTS, 0.0),
             rare: Rare::new(),
         });
-        LayerId(self.layers.len() - 1)
+        LayerId { stack: self.stack, index: self.layers.len() - 1 }
     }
 
     /// The base, to be pressed.
@@ -91,13 +116,17 @@ impl Layers {
 
     /// The player of a layer, to be pressed; `None` if the layer is of another [`Layers`].
     pub fn layer(&mut self, layer: LayerId) -> Option<&mut Player> {
-        self.layers.get_mut(layer.0).map(|layer| &mut layer.player)
+        self.find(layer).map(|layer| &mut layer.player)
+    }
+
+    fn find(&mut self, layer: LayerId) -> Option<&mut Layer> {
+        if layer.stack == self.stack { self.layers.get_mut(layer.index) } else { None }
     }
 
     /// Moves the weight of a layer to a value from 0 to 1, smoothly, in this many seconds (0.001 to 3600). Like a press, it may
     /// come at any time. Weights beyond are clamped, and NaN or a layer of another [`Layers`] changes nothing.
     pub fn fade_to(&mut self, layer: LayerId, weight: f32, duration_secs: f32) {
-        let Some(layer) = self.layers.get_mut(layer.0) else { return };
+        let Some(layer) = self.find(layer) else { return };
         if weight.is_nan() {
             return;
         }
@@ -113,7 +142,8 @@ impl Layers {
 
     /// The present weight of a layer with its derivatives; `None` if the layer is of another [`Layers`].
     pub fn weight(&self, layer: LayerId) -> Option<Jet> {
-        self.layers.get(layer.0).map(|layer| WEIGHTS.confine(layer.weight.state(&layer.rare)))
+        let layer = if layer.stack == self.stack { self.layers.get(layer.index) } else { None };
+        layer.map(|layer| WEIGHTS.confine(layer.weight.state(&layer.rare)))
     }
 
     /// Lets time pass in all players and weights, and combines them.
@@ -121,16 +151,23 @@ impl Layers {
     /// # Errors
     /// A negative time step or NaN; then nothing changes.
     pub fn advance(&mut self, dt_secs: f64) -> Result<(), AdvanceError> {
-        self.base.advance(dt_secs)?;
-        for layer in &mut self.layers {
-            layer.player.advance(dt_secs)?;
-            layer.weight.advance(dt_secs, &mut layer.rare);
-        }
+        AdvanceError::check(dt_secs)?;
         if dt_secs == 0.0 {
             return Ok(());
         }
-        for control in 0..self.values.len() {
-            let Some(state) = self.state(control) else { continue };
+        let Self { base, layers, states, defaults, ranges, .. } = self;
+        base.advance_and(dt_secs, |control, state| states[control] = state);
+        for layer in layers {
+            let weight = WEIGHTS.confine(layer.weight.advance(dt_secs, &mut layer.rare));
+            let (mode, mask) = (layer.mode, &layer.mask);
+            layer.player.advance_and(dt_secs, |control, own| {
+                // A table that is longer than the stack's has controls that it does not know.
+                let Some(state) = states.get_mut(control) else { return };
+                *state = mode.over(*state, own, mask[control], weight, defaults[control], ranges[control]);
+            });
+        }
+        for (control, state) in self.states.iter().enumerate() {
+            let state = if self.confined { self.ranges[control].confine(*state) } else { *state };
             self.values[control] = state.value as f32;
             self.velocities[control] = state.velocity as f32;
             self.accelerations[control] = state.acceleration as f32;
@@ -140,22 +177,15 @@ impl Layers {
 
     /// Value, velocity and acceleration of one control in full precision; `None` if there is no such control.
     pub fn state(&self, control: usize) -> Option<Jet> {
-        let range = *self.ranges.get(control)?;
-        let mut state = self.base.state(control)?;
+        let (range, default) = (*self.ranges.get(control)?, *self.defaults.get(control)?);
+        let mut state = self.base.free_state(control)?;
         for layer in &self.layers {
             let weight = WEIGHTS.confine(layer.weight.state(&layer.rare));
-            let share = Jet::rest(*layer.mask.get(control)?) * weight;
-            if share == Jet::rest(0.0) {
-                continue;
+            if let Some(own) = layer.player.free_state(control) {
+                state = layer.mode.over(state, own, *layer.mask.get(control)?, weight, default, range);
             }
-            let own = layer.player.state(control)?;
-            state = match layer.mode {
-                LayerMode::Override if share == Jet::rest(1.0) => own,
-                LayerMode::Override => state.mix(own, share),
-                LayerMode::Additive => reach(state, share * (own - Jet::rest(self.defaults[control])), range),
-            };
         }
-        Some(range.confine(state))
+        Some(if self.confined { range.confine(state) } else { state })
     }
 
     /// Combined values, one per control, each in its range.
@@ -177,5 +207,18 @@ impl Layers {
     pub fn is_at_rest(&self) -> bool {
         let rests = |layer: &Layer| layer.player.is_at_rest() && layer.weight.is_at_rest(&layer.rare);
         self.base.is_at_rest() && self.layers.iter().all(rests)
+    }
+}
+
+impl LayerMode {
+    /// The state `own` of a layer over the state of what is below.
+    fn over(self, below: Jet, own: Jet, mask: f64, weight: Jet, default: f64, range: Range) -> Jet {
+        let share = Jet::rest(mask) * weight;
+        match self {
+            _ if share == Jet::rest(0.0) => below,
+            Self::Override if share == Jet::rest(1.0) => own,
+            Self::Override => below.mix(own, share),
+            Self::Additive => reach(below, share * (own - Jet::rest(default)), range),
+        }
     }
 }

@@ -8,17 +8,20 @@ impl Pose {
     /// ```
     ///
     /// over the poses that name it, clamped to its range: poses add up, and half a pose is half way from the undeformed
-    /// face. Duration and transition are those of the first pose that has one, timings those of the first that has one for the
-    /// control. Weights that are not finite count as 0.
+    /// face. Duration and transition are those of the first pose that has one, the timing of a control that of the first pose that
+    /// names the control and has one for it ([`Self::timing`]). Weights that are not finite count as 0, values that are not as not named.
     pub fn mixed(name: impl Into<String>, parts: &[(&Self, f32)], controls: &ControlTable) -> Self {
         let mut mixed = Self::new(name, Vec::new());
         mixed.duration_secs = parts.iter().find_map(|(pose, _)| pose.duration_secs);
         mixed.transition = parts.iter().find_map(|(pose, _)| pose.transition);
         for (index, control) in controls.controls().iter().enumerate() {
-            let named = parts.iter().filter_map(|(pose, weight)| Some((pose.value(index)?, *weight)));
+            let named = || {
+                let value = |pose: &Self| pose.value(index).filter(|value| value.is_finite());
+                parts.iter().filter_map(move |(pose, weight)| Some((*pose, value(pose)?, *weight)))
+            };
             let default = f64::from(control.default);
             let (mut sum, mut whole, mut count) = (default, None, 0);
-            for (value, weight) in named {
+            for (_, value, weight) in named() {
                 let weight = if weight.is_finite() { f64::from(weight) } else { 0.0 };
                 sum += weight * (f64::from(value) - default);
                 count += 1;
@@ -28,10 +31,12 @@ impl Pose {
                 (0, _) => continue,
                 // One whole pose keeps its bits.
                 (1, Some(value)) => value,
-                _ => sum.max(control.min.into()).min(control.max.into()) as f32,
+                _ => sum as f32,
             };
+            let value = value.max(control.min).min(control.max);
             mixed.values.push((index, value));
-            let timing = parts.iter().flat_map(|(pose, _)| &pose.timings).find(|(other, _)| *other == index);
+            let timed = |pose: &Self| pose.timings.iter().any(|(other, _)| *other == index);
+            let timing = named().find(|(pose, ..)| timed(pose)).map(|(pose, ..)| (index, pose.timing(index)));
             mixed.timings.extend(timing);
         }
         mixed

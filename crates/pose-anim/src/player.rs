@@ -52,8 +52,11 @@ impl Player {
     /// Heads for a pose, from now on. The controls that the pose leaves out go on with whatever they do.
     ///
     /// Takes any pose: values are clamped to the ranges, and a control that does not exist or a value that is not
-    /// finite is passed over. (Poses that were read from a text are right already.)
+    /// finite is passed over, as is a transition that is not sound ([`crate::Easing::is_sound`]). Durations, after their factor, are clamped to 0.001
+    /// to 3600 s; delays to 0 to 3600 s. NaN stands for what a control does by itself: its own pace, no delay. (Poses that were read from a text
+    /// are right already.)
     pub fn press(&mut self, pose: &Pose) {
+        let easing = pose.transition.filter(|easing| easing.is_sound());
         for (control, value) in &pose.values {
             let (Some(channel), Some(rare)) = (self.channels.get_mut(*control), self.rare.get_mut(*control))
             else {
@@ -69,7 +72,7 @@ impl Player {
                 duration_secs: pose.duration_secs.map(f64::from),
                 pace: *pace,
                 factor: timing.factor.into(),
-                easing: pose.transition,
+                easing,
             };
             let delay_secs = f64::from(timing.delay_secs);
             channel.press(goal, if delay_secs.is_nan() { 0.0 } else { delay_secs.min(3600.0) }, rare);
@@ -80,7 +83,8 @@ impl Player {
     /// `fade_secs` or, with `None`, in the time that a move to the clip's start takes; the others go on. A press interrupts it as any
     /// motion, and a clip that ends at speed comes to rest smoothly.
     ///
-    /// The motion is as smooth as the clip is: a track with corners keeps them.
+    /// The motion is as smooth as the clip is: a track with corners or jumps keeps them, and so do the seams of a clip that repeats itself
+    /// ([`crate::Wrap`]). The fade takes 0.001 to 3600 s, so 0 means 1 ms.
     pub fn play(&mut self, clip: &Arc<Clip>, fade_secs: Option<f32>) {
         for (index, track) in clip.tracks().iter().enumerate() {
             let control = track.control();
@@ -100,7 +104,8 @@ impl Player {
         }
     }
 
-    /// Lets time pass. 0 changes nothing; enough of it (even infinity) brings every control to its target.
+    /// Lets time pass. 0 changes nothing; enough of it (even infinity) brings every control to its target. A clip that repeats itself has
+    /// none: it goes on from the phase that the time leads to, and after an infinite time from its start.
     ///
     /// # Errors
     /// A negative time step or NaN; then nothing changes.
@@ -110,21 +115,27 @@ impl Player {
             // Not even by rounding: just after a press, the new motion repeats the old state up to the last bit.
             return Ok(());
         }
+        self.advance_and(dt_secs, |_, _| ());
+        Ok(())
+    }
+
+    /// Lets a time pass that is more than 0, and shows every control's state after it as it is before the end of the pipeline.
+    #[inline]
+    pub(crate) fn advance_and(&mut self, dt_secs: f64, mut look: impl FnMut(usize, Jet)) {
         let outputs = self.values.iter_mut().zip(&mut self.velocities).zip(&mut self.accelerations);
-        let channels = self.channels.iter_mut().zip(&mut self.rare);
-        for ((channel, rare), ((value, velocity), acceleration)) in channels.zip(outputs) {
+        let channels = self.channels.iter_mut().zip(&mut self.rare).enumerate();
+        for ((index, (channel, rare)), ((value, velocity), acceleration)) in channels.zip(outputs) {
             if channel.sleeps() {
+                look(index, channel.at_rest());
                 continue;
             }
-            let mut state = channel.advance(dt_secs, rare);
-            if self.confined {
-                state = channel.range().confine(state);
-            }
+            let state = channel.advance(dt_secs, rare);
+            look(index, state);
+            let state = if self.confined { channel.range().confine(state) } else { state };
             *value = state.value as f32;
             *velocity = state.velocity as f32;
             *acceleration = state.acceleration as f32;
         }
-        Ok(())
     }
 
     /// Lets the same time pass for many players.
@@ -175,9 +186,14 @@ impl Player {
 
     /// Value, velocity and acceleration of one control in full precision; `None` if there is no such control.
     pub fn state(&self, control: usize) -> Option<Jet> {
-        let channel = self.channels.get(control)?;
-        let state = channel.state(self.rare.get(control)?);
-        Some(if self.confined { channel.range().confine(state) } else { state })
+        let range = self.channels.get(control)?.range();
+        let state = self.free_state(control)?;
+        Some(if self.confined { range.confine(state) } else { state })
+    }
+
+    /// The same before the end of the pipeline.
+    pub(crate) fn free_state(&self, control: usize) -> Option<Jet> {
+        Some(self.channels.get(control)?.state(self.rare.get(control)?))
     }
 
     /// Whether all controls have arrived.

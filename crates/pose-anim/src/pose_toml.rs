@@ -105,8 +105,7 @@ pub(crate) fn by_control<T>(
 
 /// The name of a transition function, or the four numbers of a Bézier curve.
 pub(crate) fn transition(entry: &Entry<'_, '_>) -> Result<Easing, TomlError> {
-    let expected =
-        "the name of a transition, such as \"cubic-in-out\", or [x1, y1, x2, y2] with x from 0 to 1";
+    let expected = "the name of a transition, such as \"cubic-in-out\", or [x1, y1, x2, y2] with x from 0 to 1 and y from -1000 to 1000";
     if let DeValue::String(name) = entry.value.get_ref() {
         let names = Easing::names();
         let unknown = || entry.unknown_value(name, "one of", names.iter().map(String::as_str));
@@ -116,7 +115,10 @@ pub(crate) fn transition(entry: &Entry<'_, '_>) -> Result<Easing, TomlError> {
     let numbers: Vec<f32> =
         entry.array()?.iter().map(|item| item.number(expected)).collect::<Result<_, _>>()?;
     match numbers[..] {
-        [x1, y1, x2, y2] if (0.0..=1.0).contains(&x1) && (0.0..=1.0).contains(&x2) => {
+        [x1, y1, x2, y2]
+            if [x1, x2].iter().all(|x| (0.0..=1.0).contains(x))
+                && Easing::Bezier([x1, y1, x2, y2].map(f64::from)).is_sound() =>
+        {
             Ok(Easing::Bezier([x1, y1, x2, y2].map(f64::from)))
         }
         _ => Err(entry.error(expected, format!("an array of {} numbers", items.len()))),

@@ -24,6 +24,9 @@ const KNEE: f64 = 0.05;
 ///
 /// Both sides have the slope `r(up/k) · r(down/k)` at `δ = 0` and no curvature there, as `δ · r(δ/k)` is of fourth order; `f` is C² by
 /// its construction; and as `up → 0`, the argument of `f` tends to 0 like `up²`, so that the result tends to `r(up/k) · δ'`.
+///
+/// A base that is out of range (a transition function that overshoots on purpose) is not pushed further out, and an offset that points
+/// inward acts as at the end of the range: all of the above tends to that as the base comes to the end, so this is C², too.
 pub(crate) fn reach(base: Jet, offset: Jet, range: Range) -> Jet {
     if offset == Jet::rest(0.0) || range.width() <= 0.0 {
         return base;
@@ -40,8 +43,7 @@ pub(crate) fn reach(base: Jet, offset: Jet, range: Range) -> Jet {
     let gentle = one - (one - smooth(back, knee)) * (one - smooth(delta, knee));
     let wanted = smooth(room, knee) * delta * gentle;
     let kept = room * saturate(wanted * inverse(room));
-    let sum = base + Jet::rest(sign) * kept;
-    Jet { value: range.clamp(sum.value), ..sum }
+    base + Jet::rest(sign) * kept
 }
 
 /// `r(x / width)`.
@@ -92,14 +94,43 @@ mod tests {
         assert_eq!(plain(0.5, 5.0), 3.0);
     }
 
+    #[test]
+    fn a_base_out_of_range_is_not_pushed_further_out() {
+        assert_eq!((plain(3.5, 1.0), plain(-2.5, -1.0)), (3.5, -2.5));
+        assert_eq!((plain(3.5, -1.0), plain(-2.5, 1.0)), (2.5, -1.5));
+    }
+
     proptest! {
+        /// Through the ends of the range and beyond, along a line, the sum is twice continuously differentiable: no change of
+        /// its jet that does not fall with the step.
+        #[test]
+        fn it_is_smooth_through_the_ends(
+            end in prop_oneof![Just(-2.0f64), Just(3.0)],
+            speed in prop_oneof![0.2f64..2.0, -2.0f64..-0.2],
+            offset in prop_oneof![-3.0f64..3.0, -0.2f64..0.2],
+        ) {
+            let at = |t: f64| {
+                let base = Jet { value: end + speed * t, velocity: speed, acceleration: 0.0 };
+                let sum = reach(base, Jet::rest(offset), RANGE);
+                [sum.value, sum.velocity, sum.acceleration]
+            };
+            for part in 0..3 {
+                let change = |h: f64| (at(h)[part] - at(-h)[part]).abs();
+                // The third derivative of the step is 60 over the cubed knee at its start; there is one at either side.
+                let jerk = 60.0 / (KNEE * RANGE.width()).powi(3) * offset.abs() * speed.abs().powi(3);
+                let slope = speed.abs() * [1.0, 0.0, 0.0][part] + jerk;
+                prop_assert!(change(1e-6) < 3e-6 * slope + 1e-9, "{part}: {}", change(1e-6));
+            }
+        }
+
         #[test]
         fn stays_in_range_and_has_its_derivatives(
             base in prop_oneof![-2.0f64..=3.0, Just(-2.0), Just(3.0), -2.0f64..-1.95, 2.95f64..3.0],
             offset in prop_oneof![-8.0f64..8.0, -0.3f64..0.3, -1e-3f64..1e-3],
             rates in prop::array::uniform4(-1.0f64..1.0),
         ) {
-            prop_assert!((RANGE.min..=RANGE.max).contains(&plain(base, offset)));
+            let slack = 1e-12 * RANGE.width();
+            prop_assert!((RANGE.min - slack..=RANGE.max + slack).contains(&plain(base, offset)));
             // Along parabolas that stay in range near this moment.
             let inward = if base > 0.5 { -1.0 } else { 1.0 };
             let at = |t: f64| {

@@ -178,6 +178,20 @@ fn editing_keys() {
         ),
         (track.bake(-1.0).map(|_| ()), "control 7, key 3: expected a time from 0 s to 1000000 s, found -1 s"),
         (
+            track.set_transition(
+                0,
+                Transition::Part { easing: Easing::Linear, from: -0.1, to: 1.0, rise: 1.0 },
+            ),
+            "control 7, key 0: expected a piece of a span between its shares 0 and 1, found another",
+        ),
+        (
+            track.set_transition(
+                0,
+                Transition::Part { easing: Easing::Linear, from: 0.5, to: 1.1, rise: 1.0 },
+            ),
+            "control 7, key 0: expected a piece of a span between its shares 0 and 1, found another",
+        ),
+        (
             track.set_transition(0, Transition::Hermite { leaving: f64::INFINITY, arriving: 0.0 }),
             "control 7, key 0: expected finite numbers up to 1e12, found others",
         ),

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
-use pose_anim::{AdvanceError, Clip, ControlTable, Easing, JumpError, Player, Pose, PoseSet, Timing};
+use pose_anim::{AdvanceError, Clip, ControlTable, Easing, Jet, JumpError, Player, Pose, PoseSet, Timing};
 use pose_anim::{Key, Track, Transition, Wrap};
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -47,6 +47,47 @@ fn poses_from_elsewhere_cannot_harm() {
         assert!(player.velocities().iter().chain(player.accelerations()).all(|rate| rate.is_finite()));
     }
     assert!(player.state(3).is_none());
+}
+
+/// Numbers that only a program can put into a pose, in every combination, at rest and while moving, clamped and not.
+#[test]
+fn poses_of_bad_numbers_give_good_ones() {
+    let table = table();
+    let numbers = [f32::NAN, 0.0, -1.0, f32::INFINITY, f32::NEG_INFINITY];
+    let mut transitions = vec![None, Some(Easing::Bezier([0.0, 1000.0, 1.0, -1000.0]))];
+    for bad in [f64::NAN, 1e300, -1e300, f64::INFINITY] {
+        transitions
+            .extend([[bad; 4], [0.3, bad, 0.4, 1.0], [bad, 0.0, 0.4, 1.0]].map(Easing::Bezier).map(Some));
+    }
+    for (delay_secs, factor) in numbers.iter().flat_map(|a| numbers.map(|b| (*a, b))) {
+        let mut players = [Player::new(&table), Player::new(&table).with_overshoot()];
+        for transition in &transitions {
+            let mut pose = Pose::new("p", vec![(0, 40.0), (2, 0.5)]).timed(0, Timing { delay_secs, factor });
+            pose.transition = *transition;
+            for player in &mut players {
+                player.press(&pose);
+                for dt in [0.0, 1e-9, 0.01, 0.05] {
+                    player.advance(dt).unwrap();
+                    for control in 0..3 {
+                        let state = player.state(control).unwrap();
+                        let parts = [state.value, state.velocity, state.acceleration];
+                        assert!(parts.iter().all(|part| part.is_finite()), "{pose:?}: {state:?}");
+                    }
+                    let rates = player.velocities().iter().chain(player.accelerations());
+                    assert!(rates.chain(player.values()).all(|number| number.is_finite()), "{pose:?}");
+                }
+            }
+        }
+        for player in &mut players {
+            player.advance(1e9).unwrap();
+            assert_eq!((player.values()[0], player.values()[2]), (40.0, 0.5));
+        }
+    }
+    // A transition without sense is passed over: least jerk.
+    let mut player = Player::new(&table);
+    player.press(&Pose::new("p", vec![(2, 1.0)]).lasting(1.0).along(Easing::Bezier([f64::NAN; 4])));
+    player.advance(0.25).unwrap();
+    assert!((player.state(2).unwrap().value - Jet::step(0.25, 1.0).value).abs() < 1e-12);
 }
 
 #[test]
@@ -125,6 +166,22 @@ fn mixtures() {
     for (text, expected) in errors {
         assert_eq!(poses.mix(text, &table).unwrap_err().to_string(), expected);
     }
+}
+
+#[test]
+fn mixtures_keep_to_ranges_and_to_poses_that_name_the_control() {
+    let table = table();
+    let timing = |delay_secs| Timing { delay_secs, factor: 2.0 };
+    // Timings, but no value: this pose has no say about the control.
+    let silent = Pose::new("a", vec![(2, 0.5)]).timed(0, timing(0.1));
+    // Two timings: the last one holds, as when the pose is pressed alone.
+    let spoken = Pose::new("b", vec![(0, 500.0)]).timed(0, timing(0.2)).timed(0, timing(0.3));
+    let later = Pose::new("c", vec![(0, f32::NAN), (1, 5.0)]).timed(0, timing(0.4));
+    let mixed = Pose::mixed("m", &[(&later, 1.0), (&silent, 1.0), (&spoken, 1.0)], &table);
+    assert_eq!(mixed.timing(0), spoken.timing(0));
+    assert_eq!(mixed.timing(0).delay_secs, 0.3);
+    assert_eq!(mixed.values, [(0, 70.0), (1, 5.0), (2, 0.5)]);
+    assert_eq!(mixed.timings.len(), 1);
 }
 
 #[test]

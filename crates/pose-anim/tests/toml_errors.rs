@@ -114,8 +114,12 @@ fn poses() {
             "line 3, column 14: pose.transition: NAMES, found \"cubic-inout\"; did you mean \"cubic-in-out\"?",
         ),
         (
+            "name = \"a\"\ntransition = [0, 0, 1, 1001]",
+            "line 3, column 14: pose.transition: expected the name of a transition, such as \"cubic-in-out\", or [x1, y1, x2, y2] with x from 0 to 1 and y from -1000 to 1000, found an array of 4 numbers",
+        ),
+        (
             "name = \"a\"\ntransition = [0, 0, 2, 1]",
-            "line 3, column 14: pose.transition: expected the name of a transition, such as \"cubic-in-out\", or [x1, y1, x2, y2] with x from 0 to 1, found an array of 4 numbers",
+            "line 3, column 14: pose.transition: expected the name of a transition, such as \"cubic-in-out\", or [x1, y1, x2, y2] with x from 0 to 1 and y from -1000 to 1000, found an array of 4 numbers",
         ),
         (
             "name = \"a\"\n[pose.timing]\nhead.turn = { delay = -1 }",
