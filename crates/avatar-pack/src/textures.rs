@@ -11,6 +11,8 @@ pub enum Texture {
     SkinOcclusion,
     /// Gloss of the skin, linear.
     SkinGloss,
+    /// Relief of the skin, a tangent-space normal map, linear. The original has none.
+    SkinNormal,
     /// Colour of an eyeball, sRGB; there are four irises.
     Eye(u8),
     /// Colour of teeth, gums and tongue, sRGB.
@@ -21,10 +23,11 @@ pub enum Texture {
 
 impl Texture {
     /// All textures that a pack may have.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::SkinColor,
         Self::SkinOcclusion,
         Self::SkinGloss,
+        Self::SkinNormal,
         Self::Eye(0),
         Self::Eye(1),
         Self::Eye(2),
@@ -39,6 +42,7 @@ impl Texture {
             Self::SkinColor => "SkinTex_Decal".to_owned(),
             Self::SkinOcclusion => "SkinTex_AO".to_owned(),
             Self::SkinGloss => "SkinTex_Gloss".to_owned(),
+            Self::SkinNormal => "SkinTex_Normal".to_owned(),
             Self::Eye(iris) => format!("EyeTex_Decal{iris:02}"),
             Self::Teeth => "TeethTex_Decal".to_owned(),
             Self::HairDensity => "HairMap".to_owned(),

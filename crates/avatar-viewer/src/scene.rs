@@ -63,14 +63,15 @@ pub(crate) fn upload(
             rgba: image.as_raw().clone(),
         })
     };
-    let skin = [Texture::SkinColor, Texture::SkinOcclusion, Texture::SkinGloss].map(image);
+    let skin =
+        [Texture::SkinColor, Texture::SkinOcclusion, Texture::SkinGloss, Texture::SkinNormal].map(image);
     let (eye, teeth) = (image(Texture::Eye(0)), image(Texture::Teeth));
     let textures_of = |kind| match kind {
         PartKind::Skin => PartTextures {
             color: skin[0].as_ref(),
             occlusion: skin[1].as_ref(),
             gloss: skin[2].as_ref(),
-            ..PartTextures::default()
+            normal: skin[3].as_ref(),
         },
         PartKind::Teeth => PartTextures { color: teeth.as_ref(), ..PartTextures::default() },
         PartKind::Eyeball => PartTextures { color: eye.as_ref(), ..PartTextures::default() },
