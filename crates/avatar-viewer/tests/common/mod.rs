@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "every test file uses its own share of these helpers")]
 #![allow(unreachable_pub, reason = "a module of several test programs")]
 
+use serde_json::Value;
+use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -33,7 +35,9 @@ pub fn finish(command: &mut Command) -> Run {
         stdout: String::from_utf8(stdout).expect("standard output is text"),
         stderr: String::from_utf8(stderr).expect("standard error is text"),
     };
-    assert!(!run.stderr.contains("panicked"), "a panic: {}", run.stderr);
+    for inner in ["panicked", ".rs:"] {
+        assert!(!run.stderr.contains(inner), "an answer for programmers: {}", run.stderr);
+    }
     run
 }
 
@@ -103,4 +107,33 @@ pub fn has_adapter() -> bool {
     assert!(run.stderr.contains("adapter"), "rendering failed for another reason: {}", run.stderr);
     tell(run.stderr.trim());
     false
+}
+
+/// Text as JSON.
+pub fn json(text: &str) -> Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+/// A list of numbers.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
+}
+
+/// All numbers agree to 1e-4.
+pub fn close(found: &[f64], expected: &[f64], what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() <= 1e-4, "{what}: expected {expected}, found {found}");
+    }
+}
+
+/// `v` and `vn` lines of an OBJ.
+pub fn read_obj(path: &Path) -> (Vec<Vec<f64>>, Vec<Vec<f64>>, Vec<String>) {
+    let text = fs::read_to_string(path).expect("an OBJ");
+    let vectors = |prefix: &str| {
+        let lines = text.lines().filter_map(|line| line.strip_prefix(prefix));
+        lines.map(|line| line.split(' ').map(|x| x.parse().expect("a number")).collect()).collect()
+    };
+    let faces = text.lines().filter(|line| line.starts_with("f ")).map(str::to_owned).collect();
+    (vectors("v "), vectors("vn "), faces)
 }
