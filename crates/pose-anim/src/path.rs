@@ -67,8 +67,9 @@ impl Eased {
             return Jet::rest(self.target);
         }
         let rate = 1.0 / self.duration_secs;
-        // An infinite slope at the very start would meet a weight of 0 there and give NaN.
-        let curve = self.easing.at((age_secs * rate).max(1e-12));
+        // An infinite slope at the very start or end would meet a weight of 0 there, or one of a few ulps. The weights are of third
+        // order in time, so a billionth of a millisecond further in, the product is next to nothing.
+        let curve = self.easing.at((age_secs * rate).clamp(1e-12, 1.0 - 1e-12));
         let rise = self.target - self.from;
         let along = Jet {
             value: self.from + rise * curve.value,
@@ -76,7 +77,14 @@ impl Eased {
             acceleration: rise * curve.acceleration * rate * rate,
         };
         let landing_secs = Self::BLEND * self.duration_secs;
-        let share = Jet::step(age_secs - (self.duration_secs - landing_secs), landing_secs);
-        along.mix(Jet::rest(self.target), share)
+        let left_secs = self.duration_secs - age_secs;
+        if left_secs >= landing_secs {
+            return along;
+        }
+        // The step backward in time, `1 − r(s) = r(1 − s)`: near its end, `1 − r(s)` would be made of rounding errors only, and some
+        // functions (the circle) have derivatives there that make something of them.
+        let back = Jet::step(left_secs, landing_secs);
+        let weight = Jet { velocity: -back.velocity, ..back };
+        Jet::rest(self.target) + weight * (along - Jet::rest(self.target))
     }
 }
