@@ -47,7 +47,7 @@ pub fn lid_margin(s: f64, upper: bool) -> DVec2 {
     // The upper arch peaks a little to the inner side, the lower one to the outer: an almond, not an ellipse.
     let skewed = if upper { pow(s, 0.86) } else { pow(s, 1.22) };
     let arch = pow(4.0 * skewed * (1.0 - skewed), if upper { 0.62 } else { 0.72 });
-    DVec2::new(at.x, at.y + arch * if upper { 0.64 } else { -0.57 })
+    DVec2::new(at.x, at.y + arch * if upper { 0.52 } else { -0.57 })
 }
 
 /// The line between the lips: a point for `u` from the midline (0) to the corner (1), seen from the front.
@@ -66,7 +66,7 @@ pub fn mouth_depth(u: f64) -> f64 {
 /// Height of the red of the upper lip at `u` from the midline to the corner, with the cupid's bow.
 #[must_use]
 pub fn upper_lip(u: f64) -> f64 {
-    let bow = [(0.0, 0.60), (0.07, 0.62), (0.2, 0.73), (0.45, 0.58), (0.75, 0.31), (1.0, 0.05)];
+    let bow = [(0.0, 0.61), (0.06, 0.62), (0.21, 0.70), (0.45, 0.57), (0.75, 0.31), (1.0, 0.05)];
     curve(&bow, u)
 }
 
@@ -88,7 +88,7 @@ pub fn lid_crease(offset_x: f64) -> f64 {
 pub fn brow(s: f64) -> (DVec2, f64) {
     let x = lerp(1.25, 5.75, s);
     let y = curve(&[(0.0, 2.22), (0.3, 2.50), (0.62, 2.84), (0.8, 2.74), (1.0, 2.22)], s);
-    (DVec2::new(x, y), curve(&[(0.0, 0.18), (0.15, 0.24), (0.6, 0.19), (1.0, 0.03)], s))
+    (DVec2::new(x, y), curve(&[(0.0, 0.20), (0.15, 0.27), (0.6, 0.22), (1.0, 0.04)], s))
 }
 
 /// How much of the jaw's motion the skin at `p` takes, before the neck is considered; `lower` says on which side

@@ -19,7 +19,9 @@ fn main() -> Result<ExitCode> {
             "--out" => out = arguments.next().context("--out needs a folder")?.into(),
             "--check" => check = true,
             "--draft" => detail = Detail::Draft,
-            other => bail!("unknown argument {other:?}; usage: avatar-sculpt [--out DIR] [--check] [--draft]"),
+            other => {
+                bail!("unknown argument {other:?}; usage: avatar-sculpt [--out DIR] [--check] [--draft]")
+            }
         }
     }
     let pack = avatar_sculpt::build(detail)?;

@@ -28,25 +28,30 @@ pub(super) fn add_eyes(d: f64, q: DVec3) -> f64 {
     let lids = ball(q, EYE + DVec3::new(0.0, 0.20, 0.0), LID_RADIUS + 0.01);
     let fold = ball(q, EYE + DVec3::new(0.16, 0.47, -0.08), LID_RADIUS - 0.05);
     // Below, a tight fillet: the cheek must not rise above the lower lid, where the upper one comes to rest.
-    let fillet = lerp(0.26, 0.5, smooth(-0.9, 0.2, q.y - EYE.y));
+    let fillet = lerp(0.34, 0.5, smooth(-0.9, 0.2, q.y - EYE.y));
+    // Toward the nose the hollow between lid and brow is filled: a deep one would be smeared over the closed lid.
+    let filled = ellipsoid(q, DVec3::new(2.25, 1.22, 2.68), DVec3::new(0.85, 0.70, 0.62));
+    let d = join(d, filled, 0.8);
     join(d, join(lids, fold, 0.3), fillet)
 }
 
 /// Bridge, tip, wings and nostrils.
 pub(super) fn add_nose(d: f64, q: DVec3) -> f64 {
-    let bridge = cone(q, DVec3::new(0.0, 1.5, 3.25), 0.62, DVec3::new(0.0, -1.0, 4.14), 0.56);
-    let dorsum = cone(q, DVec3::new(0.0, -1.0, 4.14), 0.56, DVec3::new(0.0, -2.45, 5.0), 0.58);
-    let tip = ellipsoid_pitched(q, DVec3::new(0.0, -2.88, 5.36), DVec3::new(0.68, 0.56, 0.64), -0.30);
+    let bridge = cone(q, DVec3::new(0.0, 1.5, 3.30), 0.54, DVec3::new(0.0, -1.0, 4.26), 0.42);
+    let dorsum = cone(q, DVec3::new(0.0, -1.0, 4.26), 0.42, DVec3::new(0.0, -2.45, 5.13), 0.46);
+    let tip = ellipsoid_pitched(q, DVec3::new(0.0, -2.80, 5.36), DVec3::new(0.48, 0.50, 0.58), -0.30);
     let x = soft_abs(q.x, 0.1);
     let w = DVec3::new(x, q.y, q.z);
-    let wing = ellipsoid_pitched(w, DVec3::new(0.78, -3.12, 4.42), DVec3::new(0.56, 0.54, 0.90), 0.25);
-    let columella = cone(q, DVec3::new(0.0, -3.26, 5.20), 0.27, DVec3::new(0.0, -3.66, 4.2), 0.33);
-    let wall = cone(w, DVec3::new(0.32, 0.9, 2.95), 0.44, DVec3::new(0.38, -2.2, 4.12), 0.58);
-    let ridge = join(join(join(bridge, dorsum, 0.6), wall, 1.1), tip, 0.7);
-    let lower = join(join(ridge, wing, 0.75), columella, 0.3);
-    let nostril = ellipsoid_pitched(w, DVec3::new(0.47, -3.74, 4.74), DVec3::new(0.22, 0.34, 0.38), -0.35);
+    let wing = ellipsoid_pitched(w, DVec3::new(0.72, -3.10, 4.30), DVec3::new(0.46, 0.46, 0.84), 0.25);
+    // From the tip to the wing: without it both would be balls of their own.
+    let lobule = cone(w, DVec3::new(0.18, -2.80, 5.32), 0.42, DVec3::new(0.66, -3.04, 4.62), 0.40);
+    let columella = cone(q, DVec3::new(0.0, -3.16, 5.22), 0.25, DVec3::new(0.0, -3.66, 4.2), 0.31);
+    let wall = cone(w, DVec3::new(0.32, 0.9, 2.95), 0.38, DVec3::new(0.36, -2.2, 4.16), 0.52);
+    let ridge = join(join(join(bridge, dorsum, 0.6), wall, 0.9), join(tip, lobule, 0.5), 0.8);
+    let lower = join(join(ridge, wing, 0.7), columella, 0.35);
+    let nostril = ellipsoid_pitched(w, DVec3::new(0.45, -3.70, 4.70), DVec3::new(0.23, 0.50, 0.40), -0.35);
     let d = join(d, lower, 0.9);
-    carve(d, nostril, 0.34)
+    carve(d, nostril, 0.28)
 }
 
 /// The pad of the chin.

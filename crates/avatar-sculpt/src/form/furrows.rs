@@ -17,8 +17,8 @@ pub(super) fn depth(q: DVec3) -> f64 {
 
 /// The groove between nose and upper lip, with its two ridges.
 fn philtrum(q: DVec3) -> f64 {
-    let along = smooth(-3.75, -4.2, q.y) * smooth(-5.25, -4.95, q.y) * smooth(3.0, 3.8, q.z);
-    along * (0.085 * bell(q.x, 0.22) - 0.06 * bell(q.x - 0.40, 0.17))
+    let along = smooth(-3.75, -4.2, q.y) * smooth(-5.1, -4.7, q.y) * smooth(3.0, 3.8, q.z);
+    along * (0.075 * bell(q.x, 0.26) - 0.03 * bell(q.x - 0.42, 0.20))
 }
 
 /// The fold above the upper lid.
@@ -27,14 +27,14 @@ fn crease(q: DVec3) -> f64 {
     if rel.length_squared() > 9.0 || rel.z < 0.3 {
         return 0.0;
     }
-    let along = smooth(-1.45, -0.3, rel.x) * smooth(2.1, 1.1, rel.x);
+    let along = smooth(-1.15, -0.1, rel.x) * smooth(2.1, 1.1, rel.x);
     let off = rel.y - lid_crease(rel.x);
-    along * (0.09 * bell(off, 0.10) - 0.05 * bell(off - 0.28, 0.22))
+    along * (0.10 * bell(off, 0.09) - 0.06 * bell(off - 0.26, 0.24))
 }
 
 /// The small pit at the corner of the mouth.
 fn corner(q: DVec3) -> f64 {
-    0.09 * bell3(q, DVec3::new(MOUTH_HALF_WIDTH + 0.14, MOUTH_Y - 0.04, 3.5), DVec3::new(0.30, 0.34, 0.9))
+    0.05 * bell3(q, DVec3::new(MOUTH_HALF_WIDTH + 0.14, MOUTH_Y - 0.04, 3.5), DVec3::new(0.30, 0.34, 0.9))
 }
 
 /// The hollow under the lower lip.

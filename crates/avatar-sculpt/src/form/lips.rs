@@ -17,6 +17,8 @@ pub(super) fn add(d: f64, q: DVec3) -> f64 {
     let line = mouth_line(u).y;
     let depth = mouth_depth(u);
     let fade = 1.0 - smooth(0.55, 1.08, q.x / MOUTH_HALF_WIDTH);
+    // At the corner the pads run out flat: blades there would draw lines onto the cheek.
+    let taper = 1.0 - smooth(0.72, 1.04, q.x / MOUTH_HALF_WIDTH);
     let overshoot = (q.x - MOUTH_HALF_WIDTH).max(0.0);
     // Each pad is an ellipse across the mouth line; its distance is taken in that plane only.
     let pad = |centre_y: f64, centre_z: f64, ry: f64, rz: f64| {
@@ -25,15 +27,16 @@ pub(super) fn add(d: f64, q: DVec3) -> f64 {
     };
     let (hu, hl) = (upper_lip(u), lower_lip(u));
     let tubercle = 0.05 * bell(q.x, 0.35);
-    let upper = pad(line + 0.44 * hu, depth - 0.17, 0.60 * hu + 0.02, 0.14 + (0.30 + tubercle) * fade);
-    let lower = pad(line - 0.46 * hl, depth - 0.26, 0.58 * hl + 0.02, 0.12 + 0.36 * fade);
+    let upper =
+        pad(line + 0.44 * hu, depth - 0.17, 0.60 * hu + 0.02, 0.05 + 0.09 * taper + (0.30 + tubercle) * fade);
+    let lower = pad(line - 0.46 * hl, depth - 0.26, 0.58 * hl + 0.02, 0.05 + 0.07 * taper + 0.36 * fade);
     // The skin falls in a little where it meets the mouth line: the crease reads even when the lips touch.
     let crease = ellipsoid(
         DVec3::new(overshoot, q.y - line, q.z - depth - 0.05 - 0.20 * fade),
         DVec3::ZERO,
         DVec3::new(0.16, 0.06, 0.12 + 0.23 * fade),
     );
-    let d = join(d, upper, 0.16);
-    let d = join(d, lower, 0.20);
+    let d = join(d, upper, 0.26);
+    let d = join(d, lower, 0.26);
     carve(d, crease, 0.08)
 }

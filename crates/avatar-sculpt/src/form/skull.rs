@@ -52,7 +52,7 @@ const WIDEST: [(f64, f64); 5] = [(-10.5, -0.6), (-8.0, -2.2), (-5.0, -3.6), (0.0
 /// Distance from skull and neck.
 pub(super) fn distance(q: DVec3) -> f64 {
     let cranium = ellipsoid(q, DVec3::new(0.0, 3.7, -5.0), DVec3::new(7.15, 8.55, 9.1));
-    let crown = ellipsoid(q, DVec3::new(0.0, 4.7, -6.9), DVec3::new(6.6, 6.8, 7.2));
+    let crown = ellipsoid(q, DVec3::new(0.0, 4.7, -6.9), DVec3::new(6.95, 6.9, 7.2));
     let head = join(join(cranium, crown, 1.5), face(q), 1.4);
     join(head, neck(q), 1.1)
 }
@@ -85,5 +85,5 @@ fn neck(q: DVec3) -> f64 {
     let strap = cone(q, DVec3::new(4.1, -5.2, -6.2), 0.6, DVec3::new(0.65, -15.9, -2.35), 0.5);
     let nape = cone(q, DVec3::new(0.9, -6.5, -8.3), 1.9, DVec3::new(2.6, -16.5, -7.4), 2.3);
     let base = ellipsoid(q, DVec3::new(0.0, -18.9, -6.0), DVec3::new(6.6, 3.9, 4.3));
-    join(join(join(column, nape, 1.8), base, 2.6), strap, 0.9)
+    join(join(join(column, nape, 1.8), base, 2.6), strap, 1.2)
 }

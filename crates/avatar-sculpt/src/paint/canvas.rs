@@ -119,8 +119,7 @@ fn shares(uv: &[DVec2; 3], x: usize, y: usize) -> Option<[f64; 3]> {
 
 /// Grows the islands ring by ring: mip levels mix neighbours, and must find the island's own colours there.
 fn spill(owner: &[u32], side: usize, rings: usize) -> Vec<(u32, u32)> {
-    let mut source: Vec<u32> =
-        (0..).zip(owner).map(|(i, o)| if *o == NOBODY { NOBODY } else { i }).collect();
+    let mut source: Vec<u32> = (0..).zip(owner).map(|(i, o)| if *o == NOBODY { NOBODY } else { i }).collect();
     let mut found = Vec::new();
     for _ in 0..rings {
         let first = found.len();

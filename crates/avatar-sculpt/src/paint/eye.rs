@@ -23,14 +23,14 @@ pub struct Iris {
 
 /// The four irises of the pack: jade, amber, violet, umber.
 pub const IRISES: [Iris; 4] = [
-    Iris { inner: [206, 152, 66], outer: [78, 140, 112], ring: [16, 44, 42] },
+    Iris { inner: [182, 142, 74], outer: [78, 134, 108], ring: [16, 44, 42] },
     Iris { inner: [236, 178, 84], outer: [176, 96, 38], ring: [62, 26, 12] },
     Iris { inner: [170, 168, 190], outer: [112, 96, 168], ring: [38, 28, 74] },
     Iris { inner: [150, 104, 62], outer: [84, 50, 30], ring: [26, 14, 10] },
 ];
 
 /// Radius of the pupil as a share of the iris.
-const PUPIL: f64 = 0.34;
+const PUPIL: f64 = 0.37;
 
 /// Light that the lids leave to the eyeball while it looks ahead, over the eyeball's picture.
 #[derive(Clone, Debug)]

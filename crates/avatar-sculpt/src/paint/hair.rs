@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::canvas::Site;
 use crate::{
-    anatomy::brow,
+    anatomy::{EYE, brow},
+    lids,
     math::{atan2, curve, fbm, hash01, lerp, smooth},
     surface::half::Patch,
 };
@@ -51,25 +52,36 @@ pub fn brows(p: DVec3, strokes: bool) -> f64 {
     let s = (x - 1.25) / 4.5;
     let (middle, half) = brow(s.clamp(0.0, 1.0));
     let off = (p.y - middle.y) / half;
-    let ends = smooth(-0.05, 0.10, s) * smooth(1.02, 0.85, s);
-    let body = ends * smooth(1.15, 0.35, off.abs());
+    let ends = smooth(-0.06, 0.22, s) * smooth(1.02, 0.85, s);
+    let body = ends * smooth(1.25, 0.35, off.abs());
     if !strokes || body <= 0.0 {
         return body;
     }
     // Hairs lean outward: steep at the inner end, nearly along the brow at the tail.
-    let lean = lerp(0.75, 2.6, smooth(0.0, 0.6, s));
+    let lean = lerp(0.55, 2.4, smooth(0.0, 0.6, s));
     let across = DVec2::new(x - lean * (p.y - middle.y), p.y);
-    let column = (across.x * 11.0).floor();
-    let within = (across.x * 11.0).fract() - 0.5;
-    let chance = hash01((column + 400.0) as u64 * 2 + u64::from(p.x > 0.0));
+    let column = (across.x * 24.0).floor();
+    let within = (across.x * 24.0).fract() - 0.5;
+    let chance = hash01((column + 900.0) as u64 * 2 + u64::from(p.x > 0.0));
     let hair = smooth(0.62, 0.0, within.abs()) * (0.6 + 0.4 * chance);
     let reach = smooth(1.2, 0.6, (off - 0.5 * (chance - 0.5)).abs());
-    body * (0.5 + 0.5 * hair) * reach
+    body * (0.62 + 0.38 * hair) * reach
+}
+
+/// Density of the lashes: a thin line on the outer edge of the lids, stronger above and toward the outer corner.
+fn lashes(site: &Site) -> f64 {
+    let node = &site.node;
+    if node.patch != Patch::Sheet || node.lid > 0.05 {
+        return 0.0;
+    }
+    let s = lids::along(node.p - EYE);
+    let strength = if node.lower { 0.10 } else { 0.30 };
+    strength * smooth(0.05, 0.02, node.lid) * smooth(0.12, 0.5, s) * smooth(1.03, 0.97, s)
 }
 
 /// The density picture's colour.
 #[must_use]
 pub fn density_colour(site: &Site) -> DVec3 {
     let brow = if site.node.patch == Patch::Sheet { 0.4 * brows(site.p, false) } else { 0.0 };
-    DVec3::splat(scalp(site).max(brow))
+    DVec3::splat(scalp(site).max(brow).max(lashes(site)))
 }

@@ -7,7 +7,7 @@ use crate::{
     anatomy::EYE,
     bake::Baked,
     lids,
-    math::{bell, bell3, fbm, lerp, smooth},
+    math::{bell, bell3, fbm, lerp, pow, smooth},
     surface::half::Patch,
 };
 
@@ -29,10 +29,10 @@ fn complexion(p: DVec3) -> DVec3 {
     let x = p.x.abs();
     let q = DVec3::new(x, p.y, p.z);
     let mut c = rgb(217, 165, 136);
-    let blush = bell3(q, DVec3::new(4.1, -2.5, 2.0), DVec3::new(1.9, 1.3, 2.4))
+    let blush = bell3(q, DVec3::new(3.8, -2.3, 2.4), DVec3::new(1.8, 1.2, 2.2))
         + 0.45 * bell3(q, DVec3::new(0.0, -3.0, 5.9), DVec3::new(0.8, 0.7, 0.9))
         + 0.25 * bell3(q, DVec3::new(0.0, -8.9, 4.3), DVec3::new(1.3, 0.9, 1.5));
-    c = c.lerp(rgb(209, 124, 104), 0.50 * blush.min(1.0));
+    c = c.lerp(rgb(209, 124, 104), 0.36 * blush.min(1.0));
     c = c.lerp(rgb(224, 180, 146), 0.5 * bell3(q, DVec3::new(0.0, 4.5, 4.0), DVec3::new(3.5, 2.2, 3.0)));
     // Green shimmers at the temples, under the jaw, around eyes and mouth.
     let green = 0.75 * bell3(q, DVec3::new(6.6, 1.8, -0.8), DVec3::new(1.3, 2.6, 2.6))
@@ -48,13 +48,13 @@ fn complexion(p: DVec3) -> DVec3 {
 /// The outer skin with everything drawn on it.
 fn sheet(site: &Site) -> DVec3 {
     let p = site.p;
-    let mut c = complexion(p);
+    let mut c = complexion(p) * (1.0 - 0.03 * relief::depth(site));
     c = c.lerp(rgb(112, 116, 92), 0.62 * marks::at(p));
     c = eyes(site, c);
     c = lips(site, c);
     c = c.lerp(rgb(62, 40, 36), 0.86 * hair::brows(p, true));
     let q = DVec3::new(p.x.abs(), p.y, p.z);
-    let nostril = bell3(q, DVec3::new(0.47, -3.74, 4.76), DVec3::new(0.23, 0.20, 0.34));
+    let nostril = bell3(q, DVec3::new(0.45, -3.52, 4.70), DVec3::new(0.24, 0.30, 0.36));
     c = c.lerp(rgb(70, 32, 28), 0.85 * nostril.min(1.0));
     c.lerp(rgb(58, 42, 42), 0.80 * hair::scalp(site))
 }
@@ -87,7 +87,7 @@ fn lid_edge(site: &Site) -> DVec3 {
     let edge = wet
         .lerp(rgb(34, 22, 22), dark * smooth(-0.22, -0.05, lid).max(if site.node.lower { 0.0 } else { 0.8 }));
     // The inner corner is moist and red.
-    let edge = edge.lerp(rgb(188, 104, 92), 0.9 * smooth(0.10, 0.02, s));
+    let edge = edge.lerp(rgb(190, 112, 98), 0.95 * smooth(0.15, 0.05, s));
     edge.lerp(rgb(96, 42, 40), smooth(-0.24, -0.5, lid))
 }
 
@@ -102,9 +102,9 @@ fn lips(site: &Site, c: DVec3) -> DVec3 {
     let light = rgb(212, 134, 120);
     let centre = if site.node.lower { bell(p.x, 1.1) * bell(lip - 0.5, 0.35) } else { 0.5 * bell(p.x, 1.3) };
     let lines = fbm(DVec3::new(p.x * 9.0, p.y * 1.5, p.z), 2);
-    let tone = red.lerp(light, 0.6 * centre) * (1.0 + 0.09 * lines);
-    let tone = tone.lerp(rgb(92, 34, 38), 0.85 * smooth(0.16, 0.0, lip));
-    let border = smooth(1.10, 0.94, lip);
+    let tone = red.lerp(light, 0.6 * centre) * (1.0 + 0.09 * lines) * (1.0 - 0.06 * relief::depth(site));
+    let tone = tone.lerp(rgb(92, 34, 38), 0.8 * smooth(0.13, 0.0, lip));
+    let border = smooth(1.12, 0.90, lip);
     c.lerp(tone, border)
 }
 
@@ -113,7 +113,7 @@ fn ear(site: &Site) -> DVec3 {
     let own = site.node.own.x;
     let base = complexion(site.p);
     let rim = bell(own - 0.40, 0.12);
-    base.lerp(rgb(204, 116, 96), 0.35 + 0.3 * rim).lerp(rgb(120, 62, 50), 0.55 * smooth(0.70, 0.92, own))
+    base.lerp(rgb(204, 116, 96), 0.16 + 0.22 * rim).lerp(rgb(140, 76, 60), 0.5 * smooth(0.70, 0.92, own))
 }
 
 /// Ambient occlusion: light 1, shade 0. Measured on the meshes; what hair-thin parts would add is drawn.
@@ -122,12 +122,12 @@ pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
     let open = site.mix(&baked.openness);
     let drawn = match site.node.patch {
         // Bare darkness says less than a mouth that can be seen into.
-        Patch::Mouth => open.max(0.16),
+        Patch::Mouth => open.max(0.2),
         Patch::Socket | Patch::Ear => open,
         Patch::Sheet => open - 0.18 * lash_shade(site),
     };
     // The ear and the neck still see each other: full openness is rare, and should be white.
-    DVec3::splat(smooth(0.0, 1.0, lerp(0.10, 1.06, drawn)).clamp(0.05, 1.0))
+    DVec3::splat(pow(lerp(0.06, 1.06, drawn), 0.75).clamp(0.05, 1.0))
 }
 
 /// Shade of the lashes on the lids' edges.
@@ -140,15 +140,17 @@ fn lash_shade(site: &Site) -> f64 {
 pub fn gloss(site: &Site) -> DVec3 {
     let p = site.p;
     let q = DVec3::new(p.x.abs(), p.y, p.z);
-    let mut g = 0.34 + 0.05 * fbm(p * 6.0, 2);
-    g += 0.16 * bell3(q, DVec3::new(0.0, -2.4, 5.6), DVec3::new(0.7, 1.5, 1.2));
+    let mut g = 0.30 + 0.05 * fbm(p * 6.0, 2);
+    g += 0.05 * bell3(q, DVec3::new(0.0, -2.4, 5.6), DVec3::new(0.7, 1.5, 1.2));
     g += 0.10 * bell3(q, DVec3::new(0.0, 4.2, 4.0), DVec3::new(2.5, 1.8, 2.0));
     g += 0.08 * bell3(q, DVec3::new(4.6, -1.4, 2.2), DVec3::new(1.2, 0.8, 1.6));
+    // The flank of the nose is seen at grazing angles, where every gloss flares up.
+    g -= 0.26 * bell3(q, DVec3::new(1.0, -2.4, 4.3), DVec3::new(0.6, 1.1, 0.8));
     g = lerp(g, 0.18, hair::scalp(site));
     g = match site.node.patch {
         Patch::Mouth => 0.85,
-        Patch::Socket => 0.8,
-        _ if site.node.lip <= 1.08 => lerp(0.62, 0.78, smooth(1.0, 0.4, site.node.lip)),
+        Patch::Socket => 0.45,
+        _ if site.node.lip <= 1.1 => lerp(g, 0.74, smooth(1.1, 0.5, site.node.lip)),
         _ if site.node.lid <= 0.5 => g + 0.06 * smooth(0.5, 0.1, site.node.lid),
         _ => g,
     };

@@ -13,7 +13,7 @@ pub fn picture(width: usize) -> Picture {
         if uv.y < 0.49 {
             let root = smooth(0.16, 0.0, uv.y).max(smooth(0.34, 0.48, uv.y));
             let tooth = rgb(240, 232, 216).lerp(rgb(222, 204, 172), 0.7 * root);
-            return tooth * (1.0 + 0.03 * fbm(at * 30.0, 2));
+            return tooth * (1.0 + 0.02 * fbm(at * 12.0, 2));
         }
         if uv.y < 0.75 {
             return rgb(190, 104, 100) * (1.0 + 0.10 * fbm(at * 22.0, 3));

@@ -95,12 +95,12 @@ fn tooth(part: &mut Part, arch: &Arch, angle: f64, kind: usize, size: DVec3, gro
         let lat = PI * (0.5 - r as f64 / (ROWS - 1) as f64);
         let lon = if c == COLUMNS - 1 { 0.0 } else { 2.0 * PI * c as f64 / (COLUMNS - 1) as f64 };
         let at_pole = r == 0 || r == ROWS - 1;
-        let ring = if at_pole { 0.0 } else { block(cos(lat), 0.45) };
-        let up = block(sin(lat), 0.55);
+        let ring = if at_pole { 0.0 } else { block(cos(lat), 0.36) };
+        let up = block(sin(lat), 0.45);
         // Toward the biting edge front teeth thin out and widen a trace.
         let tip = 0.5 + 0.5 * up * grow;
         let thin = if kind < 3 { lerp(1.0, 0.45, tip) } else { lerp(1.0, 0.9, tip) };
-        let wide = lerp(0.80, 1.0, tip) * if kind == 2 { lerp(1.0, 0.72, tip * tip) } else { 1.0 };
+        let wide = lerp(0.86, 1.0, tip) * if kind == 2 { lerp(1.0, 0.72, tip * tip) } else { 1.0 };
         let p = centre
             + side * (0.498 * size.x * wide * ring * block(sin(lon), 0.7))
             + DVec3::Y * (0.5 * (size.y + root) * up)
@@ -134,14 +134,14 @@ fn gum(part: &mut Part, arch: &Arch, end: f64, gum_y: f64, grow: f64) {
 fn tongue(part: &mut Part) {
     const ROWS: usize = 17;
     const COLUMNS: usize = 25;
-    let centre = DVec3::new(0.0, -6.55, 0.75);
+    let centre = DVec3::new(0.0, -6.42, 0.95);
     part.add_grid(ROWS, COLUMNS, |r, c| {
         let lat = PI * r as f64 / (ROWS - 1) as f64;
         let lon = if c == COLUMNS - 1 { 0.0 } else { 2.0 * PI * c as f64 / (COLUMNS - 1) as f64 };
         let ring = if r == 0 || r == ROWS - 1 { 0.0 } else { sin(lat) };
         let (x, y) = (ring * cos(lon), ring * sin(lon));
         let furrow = 0.10 * crate::math::bell(x, 0.2) * y.max(0.0);
-        let p = centre + DVec3::new(1.32 * x, 0.46 * y - furrow, 1.95 * cos(lat));
+        let p = centre + DVec3::new(1.36 * x, 0.66 * y - furrow, 1.85 * cos(lat));
         (p, DVec2::new(c as f64 / (COLUMNS - 1) as f64, 0.76 + 0.22 * r as f64 / (ROWS - 1) as f64))
     });
 }

@@ -23,7 +23,7 @@ pub fn spacing(p: DVec3) -> f64 {
     let nose = nose.max(0.6 * brow);
     let ear = bell3(p, DVec3::new(7.0, -1.5, -5.3), DVec3::new(2.0, 3.0, 2.0));
     let throat = smooth(-5.0, -8.0, p.y) * smooth(-13.0, -11.5, p.y) * smooth(-9.0, -6.5, p.z);
-    let h = h.min(lerp(h, 0.36, throat));
+    let h = h.min(lerp(h, 0.31, throat));
     lerp(lerp(h, 0.115, nose.min(1.0)), 0.3, ear)
 }
 

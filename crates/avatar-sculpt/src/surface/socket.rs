@@ -34,7 +34,11 @@ pub fn add(half: &mut Half, loops: &Loops) {
                 let f = k as f64 / EDGE as f64;
                 let direction = rel.normalize_or_zero();
                 // The edge bulges a trace into the opening, like a real lid's rim.
-                let narrowed = polar(opening - 0.02 * sin(std::f64::consts::PI * f), turn);
+                let bulge = sin(std::f64::consts::PI * f);
+                // At the inner corner flesh fills the angle between the lids: the caruncle.
+                let flesh =
+                    0.10 * smooth(0.11, 0.02, lids::along(rel)) * sin(0.75 * std::f64::consts::PI * f);
+                let narrowed = polar(opening - 0.02 * bulge - flesh, turn);
                 let radius = lerp(rel.length(), inner_radius(direction, outer.lower), f);
                 EYE + narrowed * radius
             } else {

@@ -2,6 +2,8 @@
 
 mod eyes;
 mod files;
+mod load;
+mod pictures;
 mod rig;
 mod shapes;
 mod surface;
@@ -10,7 +12,10 @@ use std::sync::OnceLock;
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::{anatomy::EYE, pack::Pack};
+use crate::{
+    anatomy::EYE,
+    pack::{self, Pack, Sculpture},
+};
 
 /// A part as read back from its files.
 pub(super) struct Mesh {
@@ -29,13 +34,20 @@ pub(super) struct SkinData {
     pub(super) shapes: [(DVec3, DVec3); 2],
 }
 
-pub(super) fn pack() -> &'static Pack {
-    static PACK: OnceLock<Pack> = OnceLock::new();
-    PACK.get_or_init(|| crate::build().unwrap())
+/// The sculpture, made once for all tests.
+pub(super) fn sculpture() -> &'static Sculpture {
+    static SCULPTURE: OnceLock<Sculpture> = OnceLock::new();
+    SCULPTURE.get_or_init(pack::sculpt)
+}
+
+/// Its files, without the pictures.
+pub(super) fn geometry() -> &'static Pack {
+    static GEOMETRY: OnceLock<Pack> = OnceLock::new();
+    GEOMETRY.get_or_init(|| pack::geometry(sculpture()).unwrap())
 }
 
 pub(super) fn file(name: &str) -> &'static [u8] {
-    &pack().files.iter().find(|(n, _)| n == name).unwrap().1
+    &geometry().files.iter().find(|(n, _)| n == name).unwrap().1
 }
 
 pub(super) const RIGID: [&str; 6] =
@@ -99,10 +111,19 @@ pub(super) fn deformed(turns: &[Turn], shapes: [f64; 2]) -> Vec<DVec3> {
         .collect()
 }
 
-/// The left lids closed by these angles in degrees.
-pub(super) fn lids(upper: f64, lower: f64) -> [Turn; 2] {
+/// The centre of the left (1) or right (−1) eye.
+pub(super) fn eye(side: f64) -> DVec3 {
+    DVec3::new(side * EYE.x, EYE.y, EYE.z)
+}
+
+/// The lids of one side closed by these angles in degrees.
+pub(super) fn lids(side: f64, upper: f64, lower: f64) -> [Turn; 2] {
     let about_x = |degrees: f64| DMat3::from_rotation_x(degrees.to_radians());
-    [Turn { bone: 2.0, about: EYE, by: about_x(upper) }, Turn { bone: 4.0, about: EYE, by: about_x(-lower) }]
+    let next = if side > 0.0 { 0.0 } else { 1.0 };
+    [
+        Turn { bone: 2.0 + next, about: eye(side), by: about_x(upper) },
+        Turn { bone: 4.0 + next, about: eye(side), by: about_x(-lower) },
+    ]
 }
 
 /// Distance along a ray to a triangle, if it is hit from either side.
