@@ -69,7 +69,8 @@ impl Pace {
     pub const JAW: Self = Self::new(0.18, 0.4);
     /// An eye: 0.06 to 0.2 s.
     pub const EYE: Self = Self::new(0.06, 0.2);
-    /// An eyelid: 0.1 to 0.15 s, as long as a blink takes to close.
+    /// An eyelid: 0.1 to 0.15 s. This is one way, the closing of a blink; the way back is another move. Where a whole blink, there and back, is
+    /// to take as long, give its two poses durations, or play a clip.
     pub const LID: Self = Self::new(0.1, 0.15);
     /// A blend shape: 0.2 to 0.4 s.
     pub const SHAPE: Self = Self::new(0.2, 0.4);
@@ -81,18 +82,19 @@ impl Pace {
         Self { shortest_secs, longest_secs }
     }
 
-    /// The pace that suits what a control drives. A joint is known by the part of the face that its name contains.
+    /// The pace that suits what a control drives, known by the part of the face that the name of the joint or shape contains:
+    /// brow, eyelid (also: blink, squint, wide eyes), eye (also: look, gaze), jaw, head or neck.
     pub fn of(drives: &Drive) -> Self {
-        let Drive::Joint { joint, .. } = drives else { return Self::SHAPE };
-        let joint = joint.to_lowercase();
-        let parts = [
-            ("lid", Self::LID),
-            ("eye", Self::EYE),
-            ("jaw", Self::JAW),
-            ("head", Self::HEAD),
-            ("neck", Self::HEAD),
-        ];
-        parts.iter().find(|(part, _)| joint.contains(part)).map_or(Self::OTHER, |(_, pace)| *pace)
+        Self::named("", drives)
+    }
+
+    /// As [`Self::of`]; where the name of the joint or shape tells nothing, that of the control may.
+    pub fn named(control: &str, drives: &Drive) -> Self {
+        let (driven, otherwise) = match drives {
+            Drive::Joint { joint, .. } => (joint, Self::OTHER),
+            Drive::Shape { shape } => (shape, Self::SHAPE),
+        };
+        pace_by_name(driven).or_else(|| pace_by_name(control)).unwrap_or(otherwise)
     }
 
     /// Seconds of a move by `distance` in a control whose range is `range` wide.
@@ -101,6 +103,52 @@ impl Pace {
         let share = if range > 0.0 { (distance.abs() / range).min(1.0) } else { 0.0 };
         shortest + (longest - shortest) * share
     }
+}
+
+/// The pace of the part of the face that a name is about, from the more special to the more general: an eyebrow is no eye, and an eye
+/// that blinks is a lid.
+fn pace_by_name(name: &str) -> Option<Pace> {
+    let lower = name.to_lowercase();
+    // Long enough to mean nothing else wherever they stand.
+    let anywhere = [
+        ("brow", Pace::SHAPE),
+        ("forehead", Pace::SHAPE),
+        ("blink", Pace::LID),
+        ("squint", Pace::LID),
+        ("eyelid", Pace::LID),
+        ("eyewide", Pace::LID),
+        ("look", Pace::EYE),
+        ("gaze", Pace::EYE),
+    ];
+    if let Some((_, pace)) = anywhere.iter().find(|(part, _)| lower.contains(part)) {
+        return Some(*pace);
+    }
+    // At the start or end of a word: a slide is no lid.
+    let words = words(name);
+    let parts = [
+        ("lid", Pace::LID),
+        ("eye", Pace::EYE),
+        ("jaw", Pace::JAW),
+        ("head", Pace::HEAD),
+        ("neck", Pace::HEAD),
+    ];
+    let is_about = |part: &str| words.iter().any(|word| word.starts_with(part) || word.ends_with(part));
+    parts.iter().find(|(part, _)| is_about(part)).map(|(_, pace)| *pace)
+}
+
+/// The words of a name such as `LtUpperLidJoint`, `eye_L` or `lid.left`, in lower case.
+fn words(name: &str) -> Vec<String> {
+    let (mut words, mut small) = (vec![String::new()], false);
+    for letter in name.chars() {
+        if !letter.is_alphabetic() || (small && letter.is_uppercase()) {
+            words.push(String::new());
+        }
+        small = letter.is_lowercase();
+        if let (true, Some(word)) = (letter.is_alphabetic(), words.last_mut()) {
+            word.extend(letter.to_lowercase());
+        }
+    }
+    words
 }
 
 /// One control that follows another. See [`crate::Binding::couple`].

@@ -66,7 +66,7 @@ fn control(mut table: Table<'_, '_>, before: &[Control]) -> Result<Control, Toml
     };
     let pace = match table.take("seconds") {
         Some(entry) => pace(&entry)?,
-        None => Pace::of(&drives),
+        None => Pace::named(name, &drives),
     };
     table.finish(&["name", "joint", "axis", "kind", "shape", "min", "max", "default", "seconds"])?;
     Ok(Control { name: name.to_owned(), drives, min, max, default, pace })

@@ -17,6 +17,10 @@ pub struct JointTarget {
 /// The same promises as [`crate::Player`]'s: rotation, angular velocity and angular acceleration are continuous at every press,
 /// and so are the translation and its derivatives; both arrive exactly and at rest; time may be cut in any way.
 ///
+/// A rotation has two quaternions, `q` and `−q`. The one that goes on without a jump is taken, all the way. So a joint arrives at the given
+/// quaternion or its negative, to the last bit; [`Self::local`] is the same for both. While it moves, the quaternion has length 1; at
+/// the end it has the length that was given, which is 1 up to the rounding of its single precision.
+///
 /// The rotation is written relative to its target as a rotation vector, `q(t) = exp(ρ(t)/2) · q_target`. At a press, ρ and its first two
 /// derivatives follow from those of the running motion, taking the short way round, and each of its components goes to 0 by the
 /// move of least jerk. From rest this is the great arc, run through by minimum jerk.
@@ -28,7 +32,10 @@ pub struct JointTarget {
 pub struct JointPlayer {
     elapsed_secs: f64,
     duration_secs: f64,
+    /// Of length 1.
     target: DQuat,
+    /// As it was given, but for its sign.
+    end: Quat,
     /// The way that is left, as a rotation vector.
     offset: [Way; 3],
     translation: [Way; 3],
@@ -55,6 +62,13 @@ impl Way {
         Self::Braked { brake: Quintic::new(state, stop, brake_secs), end }
     }
 
+    fn end(&self) -> f64 {
+        match self {
+            Self::Direct(quintic) => quintic.target,
+            Self::Braked { end, .. } => *end,
+        }
+    }
+
     fn at(&self, age_secs: f64, duration_secs: f64) -> Jet {
         match self {
             Self::Direct(quintic) => quintic.at(age_secs),
@@ -67,20 +81,26 @@ impl Way {
 }
 
 impl JointPlayer {
-    /// At rest. A rotation without length or with numbers that are not finite counts as none; so does such a translation.
+    /// At rest. A rotation without length or with numbers that are not finite counts as none; a component of the translation that
+    /// is not finite as 0.
     pub fn new(at: JointTarget) -> Self {
-        let translation = finite(at.translation);
+        let (target, end) = unit(at.rotation).unwrap_or((DQuat::IDENTITY, Quat::IDENTITY));
+        let rest = |at: f32| Way::Direct(Quintic::rest(if at.is_finite() { at.into() } else { 0.0 }));
         Self {
             elapsed_secs: 0.0,
             duration_secs: 0.0,
-            target: unit(at.rotation),
+            target,
+            end,
             offset: [Way::Direct(Quintic::rest(0.0)); 3],
-            translation: translation.to_array().map(|at| Way::Direct(Quintic::rest(at))),
+            translation: at.translation.to_array().map(rest),
             brake_secs: 0.0,
         }
     }
 
     /// Heads for a target, from now on, to arrive after `duration_secs` (0.001 to 3600; NaN counts as 0.001).
+    ///
+    /// What is no target is passed over: a rotation without length or with numbers that are not finite, a component of the translation that
+    /// is not finite. There the former target stays, to be reached in the new time.
     pub fn press(&mut self, target: JointTarget, duration_secs: f32) {
         let secs = f64::from(duration_secs);
         let duration_secs = if secs.is_nan() { 0.001 } else { secs.clamp(0.001, 3600.0) };
@@ -94,14 +114,22 @@ impl JointPlayer {
         };
         // Moves of about the same speed may well be direct.
         let brake_secs = if duration_secs > 1.5 * old_secs { old_secs } else { duration_secs };
-        let end = unit(target.rotation);
-        self.offset = offset_from(&rotation, end).map(|jet| Way::new(jet, 0.0, duration_secs, brake_secs));
-        let ends = finite(target.translation).to_array();
-        for ((way, jet), end) in self.translation.iter_mut().zip(translation).zip(ends) {
+        let (mut goal, mut end) = unit(target.rotation).unwrap_or((self.target, self.end));
+        // Of the two quaternions of the goal, the one on the short way.
+        let here = DQuat::from_array(rotation.map(|jet| jet.value));
+        if here.dot(goal) < 0.0 {
+            (goal, end) = (-goal, -end);
+        }
+        self.offset = offset_from(&rotation, goal).map(|jet| Way::new(jet, 0.0, duration_secs, brake_secs));
+        for ((way, jet), at) in
+            self.translation.iter_mut().zip(translation).zip(target.translation.to_array())
+        {
+            let end = if at.is_finite() { at.into() } else { way.end() };
             *way = Way::new(jet, end, duration_secs, brake_secs);
         }
         self.brake_secs = brake_secs;
-        self.target = end;
+        self.target = goal;
+        self.end = end;
         self.elapsed_secs = 0.0;
         self.duration_secs = duration_secs;
     }
@@ -116,10 +144,10 @@ impl JointPlayer {
         Ok(())
     }
 
-    /// The present rotation, of length 1; at the end the target to the last bit.
+    /// The present rotation, of length 1; at the end the target or its negative, to the last bit.
     pub fn rotation(&self) -> DQuat {
         if self.is_at_rest() {
-            return self.target;
+            return self.end.as_dquat();
         }
         let [x, y, z, w] = self.rotation_jets().map(|jet| jet.value);
         DQuat::from_xyzw(x, y, z, w)
@@ -156,8 +184,7 @@ impl JointPlayer {
 
     /// The present local transform `L`.
     pub fn local(&self) -> Affine3A {
-        let rotation = self.rotation();
-        Affine3A::from_rotation_translation(rotation.as_quat(), self.translation().as_vec3())
+        Affine3A::from_rotation_translation(self.rotation().as_quat(), self.translation().as_vec3())
     }
 
     /// Sets `L` of a joint.
@@ -226,12 +253,9 @@ fn angle_by_sine(w: Jet) -> Jet {
     w.through(f)
 }
 
-/// The rotation vector from `end` to `rotation`, the short way.
+/// The rotation vector from `end` to `rotation`, which are no more than half a turn apart as they are.
 fn offset_from(rotation: &[Jet; 4], end: DQuat) -> [Jet; 3] {
-    let mut way = multiply(*rotation, end.conjugate());
-    if way[3].value < 0.0 {
-        way = way.map(|jet| Jet::rest(0.0) - jet);
-    }
+    let way = multiply(*rotation, end.conjugate());
     let scale = angle_by_sine(way[3]);
     [scale * way[0], scale * way[1], scale * way[2]]
 }
@@ -259,12 +283,14 @@ fn series([a, b, c, d]: [f64; 4], x: f64) -> Jet {
     }
 }
 
-fn unit(rotation: Quat) -> DQuat {
-    let rotation = rotation.as_dquat();
-    let length = rotation.length();
-    if length > 0.0 && length.is_finite() { rotation * (1.0 / length) } else { DQuat::IDENTITY }
-}
-
-fn finite(translation: Vec3) -> DVec3 {
-    if translation.is_finite() { translation.as_dvec3() } else { DVec3::ZERO }
+/// A rotation at length 1 in double precision, and as it is at rest: as it was given, if it has that length up to the rounding of its
+/// single precision. `None` if it is none.
+fn unit(rotation: Quat) -> Option<(DQuat, Quat)> {
+    let precise = rotation.as_dquat();
+    let length = precise.length();
+    if !(length > 0.0 && length.is_finite()) {
+        return None;
+    }
+    let end = if (length - 1.0).abs() <= 1e-6 { rotation } else { (precise * (1.0 / length)).as_quat() };
+    Some((end.as_dquat().normalize(), end))
 }

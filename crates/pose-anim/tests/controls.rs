@@ -4,7 +4,9 @@
 
 use approx::assert_abs_diff_eq;
 use glam::{DMat3, DVec3, Mat3, Mat4, Vec3};
-use pose_anim::{ApplyError, BindError, Binding, ControlTable, DEFAULT_CONTROLS_TOML, Drive, JointMotion};
+use pose_anim::{
+    ApplyError, BindError, Binding, ControlTable, DEFAULT_CONTROLS_TOML, Drive, JointMotion, Pace,
+};
 use rig_core::{RawJoint, RawRig, Rig};
 
 const SHAPES: [&str; 2] = ["SSmile", "Frown"];
@@ -284,4 +286,36 @@ fn couplings_read_raw_values() {
     // Too short a slice is no reason to panic.
     binding.couple(&[0.5], &mut out);
     binding.couple(&[0.5, 0.0, 0.0], &mut out[..1]);
+}
+
+#[test]
+fn paces_go_by_the_part_of_the_face() {
+    let shape = |name: &str| Pace::of(&Drive::Shape { shape: name.to_owned() });
+    let joint = |name: &str| {
+        Pace::of(&Drive::Joint { joint: name.to_owned(), axis: Vec3::X, kind: JointMotion::Rotation })
+    };
+    for name in ["eyeBlinkLeft", "EyeBlink_R", "eyeSquintLeft", "eyeWideRight", "eyelid_close", "blink"] {
+        assert_eq!((shape(name), joint(name)), (Pace::LID, Pace::LID), "{name}");
+    }
+    for name in ["eyeLookUpLeft", "eyeLookOutRight", "LtEyeJoint", "eye.L", "look_left", "gaze"] {
+        assert_eq!((shape(name), joint(name)), (Pace::EYE, Pace::EYE), "{name}");
+    }
+    for name in ["browInnerUp", "eyebrow", "LtEyebrowJoint", "forehead"] {
+        assert_eq!((shape(name), joint(name)), (Pace::SHAPE, Pace::SHAPE), "{name}");
+    }
+    assert_eq!(
+        (shape("jawOpen"), joint("JawJoint"), joint("LtUpperLidJoint")),
+        (Pace::JAW, Pace::JAW, Pace::LID)
+    );
+    assert_eq!((joint("HeadJoint"), joint("neck_01"), shape("head")), (Pace::HEAD, Pace::HEAD, Pace::HEAD));
+    for name in ["mouthSmileLeft", "slide", "SSmile", "cheekPuff"] {
+        assert_eq!((shape(name), joint(name)), (Pace::SHAPE, Pace::OTHER), "{name}");
+    }
+    // The name of the control helps where that of the shape tells nothing.
+    let text = "control = [{ name = 'lid.left', shape = 'Morph17' }, { name = 'head.turn', shape = 'eyeBlinkLeft' }]";
+    let table = ControlTable::from_toml(text).unwrap();
+    assert_eq!(
+        table.controls().iter().map(|control| control.pace).collect::<Vec<_>>(),
+        [Pace::LID, Pace::LID]
+    );
 }
