@@ -147,7 +147,45 @@ fn player(presses: &[Press]) -> Result<Vec<Jet>, Box<dyn std::error::Error>> {
     Ok(states)
 }
 
-/// Value, velocity and acceleration below each other. `scales`: the largest magnitude of each.
+/// A tip that touches the edge of a panel.
+fn arrow(x: f64, y: f64, up: bool) -> String {
+    let back = if up { 8.0 } else { -8.0 };
+    format!("M{x:.1} {y:.1}l-4 {back}h8z")
+}
+
+/// Where a curve is furthest beyond its panel, each time that it leaves it.
+fn cut_off(states: &[Jet], part: fn(&Jet) -> f64, least: f64, most: f64) -> Vec<(usize, f64)> {
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    let mut outside = false;
+    for (tick, value) in states.iter().map(part).enumerate() {
+        let beyond = !(1.001 * least - 1e-3..=1.001 * most).contains(&value);
+        match found.last_mut() {
+            Some(last) if beyond && outside && value.abs() > last.1.abs() => *last = (tick, value),
+            Some(_) if beyond && outside => {}
+            _ if beyond => found.push((tick, value)),
+            _ => {}
+        }
+        outside = beyond;
+    }
+    found
+}
+
+/// Where the velocity changes within one tick by more than the accelerations at both sides explain: there the acceleration is
+/// infinite, and which way it points. A move out of rest at a speed is one, too.
+fn velocity_jumps(states: &[Jet]) -> Vec<(usize, bool)> {
+    let dt = SECS / TICKS as f64;
+    let start =
+        states.first().filter(|state| state.velocity.abs() > 0.2).map(|state| (0, state.velocity > 0.0));
+    let within = states.windows(2).enumerate().filter_map(|(tick, pair)| {
+        let change = pair[1].velocity - pair[0].velocity;
+        let explained = 2.0 * dt * pair[0].acceleration.abs().max(pair[1].acceleration.abs());
+        (change.abs() > explained + 0.2).then_some((tick + 1, change > 0.0))
+    });
+    start.into_iter().chain(within).collect()
+}
+
+/// Value, velocity and acceleration below each other. `scales`: the largest magnitude of each. What is beyond is cut off and marked
+/// with a tip and its size, and where the velocity jumps, the acceleration with a dotted line and `∞`.
 fn figure(curves: &[Curve], presses: &[f64], scales: [f64; 3]) -> String {
     const WIDTH: f64 = 640.0;
     const LEFT: f64 = 64.0;
@@ -217,6 +255,31 @@ fn figure(curves: &[Curve], presses: &[f64], scales: [f64; 3]) -> String {
                 "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>",
                 curve.colour
             );
+            for (tick, value) in cut_off(&curve.states, *part, least, scale) {
+                let _ = writeln!(
+                    svg,
+                    "<path d=\"{}\" fill=\"{1}\"/><text x=\"{2:.1}\" y=\"{3:.1}\" font-size=\"9\" fill=\"{1}\">{value:.0}</text>",
+                    arrow(x(time(tick)), y(value), value > 0.0),
+                    curve.colour,
+                    x(time(tick)) + 6.0,
+                    y(value) + if value > 0.0 { 9.0 } else { -3.0 }
+                );
+            }
+            let jumps = if panel == 2 { velocity_jumps(&curve.states) } else { Vec::new() };
+            for (tick, up) in jumps {
+                let (at, end) =
+                    (x(time(tick) - 0.5 * SECS / TICKS as f64), y(if up { scale } else { -scale }));
+                let _ = writeln!(
+                    svg,
+                    "<path d=\"M{at:.1} {:.1}V{end:.1}\" stroke=\"{1}\" stroke-width=\"1.6\" stroke-dasharray=\"1 3\"/>\
+                     <path d=\"{2}\" fill=\"{1}\"/><text x=\"{3:.1}\" y=\"{4:.1}\" fill=\"{1}\">∞</text>",
+                    y(0.0),
+                    curve.colour,
+                    arrow(at, end, up),
+                    at + 6.0,
+                    end + if up { 11.0 } else { -3.0 }
+                );
+            }
         }
     }
     for (index, curve) in curves.iter().enumerate() {
