@@ -124,11 +124,7 @@ impl Channel {
         if std::mem::take(&mut self.fresh) {
             rare.forget();
         }
-        // A clip may repeat itself for days: what an addition loses is made up for in the next one (Kahan 1965).
-        let step_secs = dt_secs - rare.lost_secs;
-        let mut until_secs = self.elapsed_secs + step_secs;
-        let lost_secs = (until_secs - self.elapsed_secs) - step_secs;
-        rare.lost_secs = if lost_secs.is_finite() { lost_secs } else { 0.0 };
+        let mut until_secs = self.elapsed_secs + dt_secs;
         if self.waits && until_secs >= rare.waiting.at_secs {
             let Waiting { at_secs, goal } = rare.waiting;
             until_secs -= at_secs;
@@ -157,7 +153,6 @@ impl Channel {
         self.sleeps = false;
         if delay_secs > 0.0 {
             rare.waiting = Waiting { at_secs: self.elapsed_secs + delay_secs, goal };
-            rare.lost_secs = 0.0;
             self.waits = true;
         } else {
             self.start(goal, rare);
@@ -230,7 +225,7 @@ impl Channel {
     fn fade_into(&mut self, towards: Path, duration_secs: f64, rare: &mut Rare) {
         self.base_age_secs += self.elapsed_secs;
         rare.fades[..usize::from(self.fades)].iter_mut().for_each(|fade| fade.age_secs += self.elapsed_secs);
-        (self.elapsed_secs, rare.lost_secs, self.fresh) = (0.0, 0.0, false);
+        (self.elapsed_secs, self.fresh) = (0.0, false);
         self.drop_faded_out(rare);
         // What has begun at this very moment is replaced.
         if self.running(rare).last().is_some_and(|fade| fade.age_secs == 0.0) {

@@ -17,8 +17,6 @@ pub(crate) struct Rare {
     pub(crate) waiting: Waiting,
     /// The channel before the direct move that began at this very moment.
     pub(crate) before: Channel,
-    /// What rounding has put too much into the channel's `elapsed_secs`.
-    pub(crate) lost_secs: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -45,7 +43,6 @@ impl Rare {
             fades: std::array::from_fn(|_| fade()),
             waiting: Waiting { at_secs: 0.0, goal: Goal::NONE },
             before: Channel::rest(Range { min: 0.0, max: 0.0 }, 0.0),
-            lost_secs: 0.0,
         }
     }
 

@@ -123,6 +123,26 @@ mod tests {
             }
         }
 
+        /// An offset that goes through 0, with the base at an end of the range, near one and far from both.
+        #[test]
+        fn it_is_smooth_where_the_offset_turns(
+            base in prop_oneof![Just(-2.0f64), Just(3.0), -2.0f64..-1.8, 2.8f64..3.0, -2.0f64..=3.0],
+            speed in prop_oneof![0.2f64..2.0, -2.0f64..-0.2],
+        ) {
+            let at = |t: f64| {
+                let offset = Jet { value: speed * t, velocity: speed, acceleration: 0.0 };
+                let sum = reach(Jet::rest(base), offset, RANGE);
+                [sum.value, sum.velocity, sum.acceleration]
+            };
+            for part in 0..3 {
+                let change = (at(1e-6)[part] - at(-1e-6)[part]).abs();
+                // The gentle start is of fourth order, `10 δ⁴ / k³`: a fourth derivative of 240 / k³, and no third.
+                let snap = 240.0 / (KNEE * RANGE.width()).powi(3) * speed.abs().powi(4);
+                let slope = [speed.abs(), 1e-6, 1e-6][part];
+                prop_assert!(change < 2e-6 * slope + 1e-12 * snap + 1e-12, "{part}: {change}");
+            }
+        }
+
         #[test]
         fn stays_in_range_and_has_its_derivatives(
             base in prop_oneof![-2.0f64..=3.0, Just(-2.0), Just(3.0), -2.0f64..-1.95, 2.95f64..3.0],
