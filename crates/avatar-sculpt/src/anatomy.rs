@@ -53,7 +53,7 @@ pub fn lid_margin(s: f64, upper: bool) -> DVec2 {
 /// The line between the lips: a point for `u` from the midline (0) to the corner (1), seen from the front.
 #[must_use]
 pub fn mouth_line(u: f64) -> DVec2 {
-    let wave = curve(&[(0.0, -0.07), (0.12, -0.06), (0.42, 0.045), (0.8, -0.02), (1.0, -0.03)], u);
+    let wave = curve(&[(0.0, -0.07), (0.12, -0.06), (0.42, 0.045), (0.8, 0.005), (1.0, 0.045)], u);
     DVec2::new(u * MOUTH_HALF_WIDTH, MOUTH_Y + wave)
 }
 

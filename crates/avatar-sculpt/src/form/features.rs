@@ -13,8 +13,8 @@ pub(super) fn add_cheeks_and_brow(d: f64, q: DVec3) -> f64 {
     let bone = cone(q, DVec3::new(3.6, -1.75, 2.1), 0.95, DVec3::new(6.0, -0.9, -1.6), 0.75);
     let apple = ellipsoid(q, DVec3::new(2.9, -2.9, 2.35), DVec3::new(1.5, 1.5, 1.25));
     let d = join(join(d, bone, 1.6), apple, 1.4);
-    let inner = cone(q, DVec3::new(0.9, 1.75, 3.35), 0.55, DVec3::new(3.1, 2.35, 3.05), 0.62);
-    let outer = cone(q, DVec3::new(3.1, 2.35, 3.05), 0.62, DVec3::new(5.3, 1.85, 0.8), 0.5);
+    let inner = cone(q, DVec3::new(0.9, 1.80, 3.28), 0.52, DVec3::new(3.1, 2.38, 2.92), 0.60);
+    let outer = cone(q, DVec3::new(3.1, 2.38, 2.92), 0.60, DVec3::new(5.3, 1.85, 0.8), 0.5);
     join(d, join(inner, outer, 0.5), 1.1)
 }
 
@@ -30,7 +30,7 @@ pub(super) fn add_eyes(d: f64, q: DVec3) -> f64 {
     // Below, a tight fillet: the cheek must not rise above the lower lid, where the upper one comes to rest.
     let fillet = lerp(0.34, 0.5, smooth(-0.9, 0.2, q.y - EYE.y));
     // Toward the nose the hollow between lid and brow is filled: a deep one would be smeared over the closed lid.
-    let filled = ellipsoid(q, DVec3::new(2.25, 1.22, 2.68), DVec3::new(0.85, 0.70, 0.62));
+    let filled = ellipsoid(q, DVec3::new(2.25, 1.26, 2.74), DVec3::new(0.95, 0.78, 0.64));
     let d = join(d, filled, 0.8);
     join(d, join(lids, fold, 0.3), fillet)
 }
@@ -50,7 +50,9 @@ pub(super) fn add_nose(d: f64, q: DVec3) -> f64 {
     let ridge = join(join(join(bridge, dorsum, 0.6), wall, 0.9), join(tip, lobule, 0.5), 0.8);
     let lower = join(join(ridge, wing, 0.7), columella, 0.35);
     let nostril = ellipsoid_pitched(w, DVec3::new(0.45, -3.70, 4.70), DVec3::new(0.23, 0.50, 0.40), -0.35);
-    let d = join(d, lower, 0.9);
+    // Where the septum meets the lip, a rise instead of a pit.
+    let spine = cone(q, DVec3::new(0.0, -3.60, 4.35), 0.26, DVec3::new(0.0, -4.2, 3.98), 0.20);
+    let d = join(join(d, spine, 0.5), lower, 0.9);
     carve(d, nostril, 0.28)
 }
 

@@ -19,7 +19,7 @@ const PROFILE: [(f64, f64); 14] = [
     (-3.8, 4.15),
     (-2.0, 3.78),
     (0.4, 3.55),
-    (2.2, 4.02),
+    (2.2, 3.94),
     (4.0, 3.98),
     (6.0, 3.3),
     (9.0, 0.9),
@@ -84,6 +84,6 @@ fn neck(q: DVec3) -> f64 {
     let column = cone(q * narrow, DVec3::new(0.0, -4.0, -6.0), 3.75, DVec3::new(0.0, -17.0, -5.9), 3.55);
     let strap = cone(q, DVec3::new(4.1, -5.2, -6.2), 0.6, DVec3::new(0.65, -15.9, -2.35), 0.5);
     let nape = cone(q, DVec3::new(0.9, -6.5, -8.3), 1.9, DVec3::new(2.6, -16.5, -7.4), 2.3);
-    let base = ellipsoid(q, DVec3::new(0.0, -18.9, -6.0), DVec3::new(6.6, 3.9, 4.3));
-    join(join(join(column, nape, 1.8), base, 2.6), strap, 1.2)
+    let base = ellipsoid(q, DVec3::new(0.0, -18.65, -6.0), DVec3::new(6.8, 4.0, 4.25));
+    join(join(join(column, nape, 1.8), base, 2.6), strap, 1.4)
 }

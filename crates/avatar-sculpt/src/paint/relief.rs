@@ -66,10 +66,10 @@ fn pore(p: DVec3) -> f64 {
 fn height(kinds: Kinds, p: DVec3) -> f64 {
     let mut h = 0.0;
     if kinds.pores > 0.02 {
-        h -= 0.0065 * kinds.pores * pore(p);
+        h -= 0.0055 * kinds.pores * pore(p);
     }
     if kinds.grain > 0.0 {
-        h += 0.006 * kinds.grain * noise3(p * 9.0);
+        h += 0.0022 * kinds.grain * noise3(p * 10.0);
     }
     if kinds.grooves > 0.0 {
         // Grooves run across the lip and wander a little.
@@ -84,7 +84,7 @@ fn height(kinds: Kinds, p: DVec3) -> f64 {
 #[must_use]
 pub fn depth(site: &Site) -> f64 {
     let kinds = kinds(site);
-    (-height(kinds, site.p) / 0.0065).clamp(0.0, 1.0)
+    (-height(kinds, site.p) / 0.0055).clamp(0.0, 1.0)
 }
 
 /// The normal in the frame of the picture: x to the right, y up, z outward.

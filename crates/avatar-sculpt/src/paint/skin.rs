@@ -38,7 +38,7 @@ fn complexion(p: DVec3) -> DVec3 {
     let green = 0.75 * bell3(q, DVec3::new(6.6, 1.8, -0.8), DVec3::new(1.3, 2.6, 2.6))
         + 0.22 * smooth(-9.0, -12.5, p.y)
         + 0.35 * bell3(q, DVec3::new(2.6, -6.5, 3.7), DVec3::new(1.2, 1.3, 1.2))
-        + 0.45 * bell3(q, EYE + DVec3::new(-0.6, -1.2, 1.6), DVec3::new(1.5, 0.6, 1.2));
+        + 0.20 * bell3(q, EYE + DVec3::new(-0.6, -1.2, 1.6), DVec3::new(1.5, 0.6, 1.2));
     c = c.lerp(rgb(158, 154, 118), 0.42 * green.min(1.0));
     let mottle = fbm(p * 0.9, 3);
     let fine = fbm(p * 7.0, 2);
@@ -69,7 +69,7 @@ fn eyes(site: &Site, c: DVec3) -> DVec3 {
     let s = lids::along(rel);
     if site.node.lower {
         let line = smooth(0.075, 0.0, lid) * lerp(0.25, 0.85, smooth(0.1, 0.9, s));
-        let shade = 0.35 * smooth(0.35, 0.05, lid) * smooth(0.2, 1.0, s);
+        let shade = 0.20 * smooth(0.35, 0.05, lid) * smooth(0.2, 1.0, s);
         return c.lerp(rgb(126, 84, 70), shade).lerp(rgb(52, 32, 30), line);
     }
     let shade = 0.55 * smooth(0.62, 0.12, lid) * smooth(-0.1, 0.25, s);
@@ -124,7 +124,12 @@ pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
         // Bare darkness says less than a mouth that can be seen into.
         Patch::Mouth => open.max(0.2),
         Patch::Socket | Patch::Ear => open,
-        Patch::Sheet => open - 0.18 * lash_shade(site),
+        // The crease above the wing of the nose is finer than the mesh.
+        Patch::Sheet => {
+            let q = site.node.p - DVec3::new(1.08, -2.72, 4.15);
+            let crease = bell3(q, DVec3::ZERO, DVec3::new(0.34, 0.62, 0.6));
+            open * (1.0 - 0.36 * crease) - 0.18 * lash_shade(site)
+        }
     };
     // The ear and the neck still see each other: full openness is rare, and should be white.
     DVec3::splat(pow(lerp(0.06, 1.06, drawn), 0.75).clamp(0.05, 1.0))

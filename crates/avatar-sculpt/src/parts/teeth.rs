@@ -59,7 +59,7 @@ pub fn upper() -> Part {
 #[must_use]
 pub fn lower() -> Part {
     let arch = Arch { half_width: 2.0, front: 3.12, back: 0.6 };
-    let mut part = row(&LOWER, &arch, -6.40, 1.0);
+    let mut part = row(&LOWER, &arch, -6.54, 1.0);
     tongue(&mut part);
     part.finish();
     part
