@@ -13,9 +13,9 @@ use crate::{
 /// Turn → distance from the image's middle, in halves of its width: the face gets most of the pixels.
 const ACROSS: [(f64, f64); 5] =
     [(0.0, 0.0), (0.9, 0.48), (1.35, 0.69), (2.1, 0.86), (3.141_592_653_589_793_6, 0.998)];
-/// Elevation → height in the image.
+/// Elevation → height in the image. The crown stays off the edge: smaller versions of the image repeat across it.
 const DOWN: [(f64, f64); 7] =
-    [(-2.9, 0.89), (-1.4, 0.80), (-0.95, 0.735), (0.0, 0.40), (0.6, 0.19), (1.0, 0.09), (1.6, 0.002)];
+    [(-2.9, 0.89), (-1.4, 0.80), (-0.95, 0.735), (0.0, 0.40), (0.6, 0.19), (1.0, 0.09), (1.6, 0.012)];
 
 /// Below this height the picture holds only swept parts.
 pub const STRIP_TOP: f64 = 0.9;

@@ -60,7 +60,7 @@ impl<'a> Sites<'a> {
                 }
             }
         }
-        let spill = spill(&owner, side, 3 + side / 128);
+        let spill = spill(&owner, side, side / 16);
         Self { skin, side, owner, spill }
     }
 
@@ -117,7 +117,8 @@ fn shares(uv: &[DVec2; 3], x: usize, y: usize) -> Option<[f64; 3]> {
     (area != 0.0).then_some([1.0 - b - c, b, c])
 }
 
-/// Grows the islands ring by ring: mip levels mix neighbours, and must find the island's own colours there.
+/// Grows the islands ring by ring: small mip levels mix far neighbours, at the crown above all, and must find the
+/// island's own colours there.
 fn spill(owner: &[u32], side: usize, rings: usize) -> Vec<(u32, u32)> {
     let mut source: Vec<u32> = (0..).zip(owner).map(|(i, o)| if *o == NOBODY { NOBODY } else { i }).collect();
     let mut found = Vec::new();

@@ -41,7 +41,7 @@ fn kinds(site: &Site) -> Kinds {
     let region = (0.18 + 0.8 * nose + 0.55 * cheek + 0.4 * chin + 0.35 * forehead).min(1.0) * face;
     Kinds {
         pores: region * (1.0 - lip) * (1.0 - lid) * bald,
-        grain: (1.0 - lip) * lerp(1.0, 0.5, lid) * lerp(0.25, 1.0, bald) * smooth(-10.0, -4.0, q.z),
+        grain: (1.0 - lip) * lerp(1.0, 0.5, lid) * bald * smooth(-10.0, -4.0, q.z),
         grooves: lip * smooth(0.02, 0.25, node.lip),
     }
 }
