@@ -8,6 +8,7 @@ use common::{finish, has_adapter, viewer};
 use image::RgbImage;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat};
@@ -30,12 +31,18 @@ struct Desk {
     window: u32,
     viewer: Process,
     _server: Process,
+    /// One desk at a time: a person has one pair of hands, and the software adapter few cores.
+    _turn: MutexGuard<'static, ()>,
 }
+
+static TURN: Mutex<()> = Mutex::new(());
 
 impl Desk {
     fn open(arguments: &[&str]) -> Self {
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let mut server = Command::new("Xvfb");
-        server.args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"]);
+        // Without -noreset the display starts anew whenever its last client leaves, under the feet of the next one.
+        server.args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp", "-noreset"]);
         let mut server =
             Process(server.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb starts"));
         let mut number = String::new();
@@ -47,9 +54,11 @@ impl Desk {
         command.args(arguments).env("DISPLAY", &display);
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         let viewer = Process(command.spawn().expect("the viewer starts"));
-        let mut desk = Self { display, window: 0, viewer, _server: server };
+        let mut desk = Self { display, window: 0, viewer, _server: server, _turn: turn };
         let start = Instant::now();
         while desk.window == 0 {
+            let ended = desk.viewer.0.try_wait().expect("the viewer can be waited for");
+            assert_eq!(ended, None, "the viewer ended before its window appeared");
             assert!(start.elapsed() < PATIENCE, "no window appeared");
             let found = desk.xdotool(&["search", "--onlyvisible", "--name", "Mimik"]);
             desk.window = found.lines().next().and_then(|line| line.parse().ok()).unwrap_or(0);
@@ -80,8 +89,9 @@ impl Desk {
             |name: &[u8]| connection.intern_atom(false, name).expect("sent").reply().expect("an atom").atom;
         let message = [atom(b"WM_DELETE_WINDOW"), x11rb::CURRENT_TIME, 0, 0, 0];
         let event = ClientMessageEvent::new(32, self.window, atom(b"WM_PROTOCOLS"), message);
-        connection.send_event(false, self.window, EventMask::NO_EVENT, event).expect("sent");
-        connection.flush().expect("sent");
+        // An answer to wait for: a connection that is closed too early takes its last requests with it.
+        let sent = connection.send_event(false, self.window, EventMask::NO_EVENT, event).expect("sent");
+        sent.check().expect("the display took it");
     }
 
     /// Waits for the program's end, which is a success.
