@@ -1,0 +1,23 @@
+//! How faces look: materials, lights and environments as plain data, and the optics behind them as plain functions.
+//!
+//! ```text
+//!  materials.toml ──▶ Materials ──▶ Material per part ─┐
+//!  preset ──▶ Light { lamps, Environment, ToneMap } ───┼──▶ avatar-render
+//!  Environment ──▶ irradiance, blurred reflections ────┤
+//!  tables: split sum, scattering ──────────────────────┘
+//! ```
+//!
+//! Colours are linear, directions are in the world (right-handed, +Y up, the face looks along +Z). Radiance is measured
+//! by what a white matte surface makes of it: a lamp of radiance 1 lights one that faces it to 1, and so does an
+//! environment that is 1 everywhere. Lengths of materials are fractions of the height of the skin, so that they fit packs
+//! in any unit.
+//!
+//! This crate knows no GPU, no files and no clock.
+
+mod environment;
+mod light;
+mod material;
+
+pub use environment::{Environment, PANEL_COUNT, Panel};
+pub use light::{Lamp, Light, ToneMap};
+pub use material::{Iris, Material};

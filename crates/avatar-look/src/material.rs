@@ -1,0 +1,147 @@
+use avatar_mesh::PartKind;
+
+/// The looks of a part: plain data, with defaults per kind. Colours are linear, lengths are fractions of the height of
+/// the skin (0.01 is about 2.5 mm on a grown-up).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Colour where no texture covers it.
+    pub color: [f32; 3],
+    /// 1 hides what lies behind; read for corneas only.
+    pub opacity: f32,
+    /// Share of light reflected at normal incidence.
+    pub reflectance: f32,
+    /// Perceptual roughness where the gloss texture is black; without a texture the mean of both counts.
+    pub roughness_matte: f32,
+    /// Perceptual roughness where the gloss texture is white.
+    pub roughness_glossy: f32,
+    /// Factor on the tilt of the normal texture.
+    pub normal_strength: f32,
+    /// How far diffuse light reaches around the terminator, per channel, 0 (not at all) to 1; the quality levels plain
+    /// and low, and parts that are not skin.
+    pub wrap: [f32; 3],
+    /// Mean distance that light travels below the surface, per channel: skin from medium quality on.
+    pub scatter: [f32; 3],
+    /// Strength of the second, sharper specular lobe, 0 (one lobe) to 1.
+    pub sharp_share: f32,
+    /// Roughness of the sharp lobe as a factor on that of the first.
+    pub sharp_roughness: f32,
+    /// Strength of light that comes through thin parts from behind.
+    pub transmission: f32,
+    /// The thickness that white means in the thickness texture.
+    pub thickness: f32,
+    /// Tilt of the fine relief that no texture holds: pores.
+    pub pore_strength: f32,
+    /// How often that relief repeats over the texture's width.
+    pub pore_density: f32,
+    /// A clear wet film on top, 0 (dry) to 1: eyeballs, teeth, tongue.
+    pub wetness: f32,
+    /// Share of the ambient light that is left at the back of the part: mouths and eye sockets are dark inside.
+    pub back_light: f32,
+    /// Iris and pupil; read for eyeballs only.
+    pub iris: Iris,
+}
+
+/// What makes an eye of a ball. The iris lies behind the cornea, in its middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iris {
+    /// Refractive index of the cornea; 1 does not bend light.
+    pub refractive_index: f32,
+    /// How deep the iris lies behind the edge of the cornea, as a fraction of the cornea's radius.
+    pub depth: f32,
+    /// Radius of the pupil as a fraction of the iris's radius, 0 to 1.
+    pub pupil: f32,
+    /// The same in the texture: what is painted there is stretched to `pupil`.
+    pub painted_pupil: f32,
+    /// Radius of the iris as a fraction of the cornea's radius.
+    pub radius: f32,
+    /// Width of the dark ring around the iris, as a fraction of its radius.
+    pub limbal_width: f32,
+    /// Darkness of that ring, 0 (none) to 1 (black).
+    pub limbal_darkness: f32,
+}
+
+impl Iris {
+    /// A human eye in indoor light.
+    pub const DEFAULT: Self = Self {
+        // Cornea and aqueous humour: 1.336 (Gullstrand's schematic eye, 1909).
+        refractive_index: 1.336,
+        depth: 0.25,
+        pupil: 0.38,
+        painted_pupil: 0.38,
+        radius: 0.95,
+        limbal_width: 0.18,
+        limbal_darkness: 0.6,
+    };
+}
+
+impl Material {
+    /// The default of a kind, visible without any texture.
+    pub fn of(kind: PartKind) -> Self {
+        let matte = Self {
+            color: [0.8; 3],
+            opacity: 1.0,
+            reflectance: 0.04,
+            roughness_matte: 0.7,
+            roughness_glossy: 0.3,
+            normal_strength: 1.0,
+            wrap: [0.0; 3],
+            scatter: [0.0; 3],
+            sharp_share: 0.0,
+            sharp_roughness: 0.5,
+            transmission: 0.0,
+            thickness: 0.1,
+            pore_strength: 0.0,
+            pore_density: 0.0,
+            wetness: 0.0,
+            back_light: 1.0,
+            iris: Iris::DEFAULT,
+        };
+        match kind {
+            // Reflectance: E. d'Eon and D. Luebke, "Advanced Techniques for Realistic Real-Time Skin Rendering", 2007.
+            PartKind::Skin => Self {
+                color: [0.60, 0.36, 0.26],
+                reflectance: 0.028,
+                roughness_matte: 0.65,
+                roughness_glossy: 0.35,
+                wrap: [0.28, 0.14, 0.09],
+                // 3.7, 1.4 and 0.7 mm: H. W. Jensen et al., "A Practical Model for Subsurface Light Transport", 2001.
+                scatter: [0.0138, 0.0052, 0.0026],
+                sharp_share: 0.25,
+                sharp_roughness: 0.55,
+                transmission: 1.0,
+                thickness: 0.09,
+                pore_strength: 0.25,
+                pore_density: 48.0,
+                ..matte
+            },
+            PartKind::Teeth => Self {
+                color: [0.78, 0.70, 0.56],
+                wrap: [0.2, 0.18, 0.15],
+                roughness_matte: 0.4,
+                roughness_glossy: 0.15,
+                wetness: 0.8,
+                back_light: 0.3,
+                ..matte
+            },
+            PartKind::Eyeball => Self {
+                color: [0.82, 0.80, 0.77],
+                wrap: [0.25, 0.2, 0.2],
+                reflectance: 0.02,
+                roughness_matte: 0.6,
+                roughness_glossy: 0.4,
+                wetness: 1.0,
+                back_light: 0.4,
+                ..matte
+            },
+            // Reflectance of water, refractive index 1.33.
+            PartKind::Cornea => Self {
+                color: [0.8, 0.85, 0.9],
+                opacity: 0.03,
+                reflectance: 0.02,
+                roughness_matte: 0.3,
+                roughness_glossy: 0.2,
+                ..matte
+            },
+        }
+    }
+}
