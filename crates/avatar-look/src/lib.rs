@@ -17,7 +17,12 @@
 mod environment;
 mod light;
 mod material;
+pub mod optics;
+mod scatter;
+mod split_sum;
 
 pub use environment::{Environment, PANEL_COUNT, Panel};
-pub use light::{Lamp, Light, ToneMap};
+pub use light::{Lamp, Light, LightPreset, ToneMap};
 pub use material::{Iris, Material};
+pub use scatter::scatter_table;
+pub use split_sum::{directional_albedo, split_sum};

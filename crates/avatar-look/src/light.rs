@@ -39,6 +39,9 @@ pub enum ToneMap {
     Linear,
 }
 
+/// A name for the command line, and what it stands for.
+pub type LightPreset = (&'static str, fn() -> Light);
+
 impl Default for Light {
     fn default() -> Self {
         Self::studio()
@@ -47,7 +50,7 @@ impl Default for Light {
 
 impl Light {
     /// The presets by name, the default first.
-    pub const PRESETS: [(&str, fn() -> Self); 4] = [
+    pub const PRESETS: [LightPreset; 4] = [
         ("studio", Self::studio),
         ("daylight", Self::daylight),
         ("dramatic", Self::dramatic),
