@@ -1,4 +1,5 @@
 use glam::Vec3;
+use std::f32::consts::PI;
 
 /// Soft boxes of an environment.
 pub const PANEL_COUNT: usize = 4;
@@ -14,6 +15,9 @@ pub struct Environment {
     /// Bright patches; one with radiance 0 is off.
     pub panels: [Panel; PANEL_COUNT],
 }
+
+/// The share of a panel's radius that is as bright as its middle; from there the light fades to 0 at the edge.
+pub const PANEL_CORE: f32 = 0.5;
 
 /// A round, soft-edged patch of light on the environment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,5 +99,80 @@ impl Environment {
     /// The same from everywhere.
     pub const fn uniform(radiance: [f32; 3]) -> Self {
         Self { sky: radiance, ground: radiance, panels: [Panel::OFF; PANEL_COUNT] }
+    }
+
+    /// The light that comes from `direction_world`, of any length; zero means from above.
+    ///
+    /// A gradient with the height, and the panels on it: the middle half of a panel is even, the rest fades with a
+    /// smooth step of the angle, so that neither the light nor its slope jumps anywhere.
+    pub fn radiance(&self, direction_world: Vec3) -> Vec3 {
+        self.prepared().radiance(direction_world.normalize_or(Vec3::Y))
+    }
+
+    pub(crate) fn prepared(&self) -> Prepared {
+        let (sky, ground) = (Vec3::from(self.sky), Vec3::from(self.ground));
+        Prepared { mean: 0.5 * (sky + ground), slope: 0.5 * (sky - ground), spots: self.panels.map(Spot::of) }
+    }
+}
+
+/// An [`Environment`] for many look-ups.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prepared {
+    pub(crate) mean: Vec3,
+    /// What half the height, from the middle to the top, adds.
+    pub(crate) slope: Vec3,
+    pub(crate) spots: [Spot; PANEL_COUNT],
+}
+
+/// A [`Panel`] with a unit direction and the cosines between which it fades.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    pub(crate) direction: Vec3,
+    pub(crate) radius_rad: f32,
+    pub(crate) radiance: Vec3,
+    cos_edge: f32,
+    cos_core: f32,
+}
+
+impl Prepared {
+    /// As [`Environment::radiance`], for unit vectors.
+    pub(crate) fn radiance(&self, direction: Vec3) -> Vec3 {
+        let gradient = self.mean + self.slope * direction.y;
+        self.spots.iter().fold(gradient, |sum, spot| sum + spot.radiance * spot.share(direction))
+    }
+}
+
+impl Spot {
+    fn of(panel: Panel) -> Self {
+        let radius_rad = panel.radius_rad.clamp(0.0, PI);
+        Self {
+            direction: panel.direction_world.normalize_or(Vec3::Y),
+            radius_rad,
+            radiance: panel.radiance.into(),
+            cos_edge: radius_rad.cos(),
+            cos_core: (PANEL_CORE * radius_rad).cos(),
+        }
+    }
+
+    fn share(&self, direction: Vec3) -> f32 {
+        let cos = self.direction.dot(direction);
+        // The cosines spare nearly all of the arc cosines.
+        if cos <= self.cos_edge {
+            0.0
+        } else if cos >= self.cos_core {
+            1.0
+        } else {
+            self.share_at(cos.acos())
+        }
+    }
+
+    /// Share of the radiance at this angle from the middle.
+    pub(crate) fn share_at(&self, angle_rad: f32) -> f32 {
+        let fade = (1.0 - PANEL_CORE) * self.radius_rad;
+        if fade <= 0.0 {
+            return 0.0;
+        }
+        let t = ((self.radius_rad - angle_rad) / fade).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
     }
 }

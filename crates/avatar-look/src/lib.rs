@@ -15,14 +15,18 @@
 //! This crate knows no GPU, no files and no clock.
 
 mod environment;
+mod irradiance;
 mod light;
 mod material;
 pub mod optics;
+mod reflections;
 mod scatter;
 mod split_sum;
 
-pub use environment::{Environment, PANEL_COUNT, Panel};
+pub use environment::{Environment, PANEL_CORE, PANEL_COUNT, Panel};
+pub use irradiance::irradiance_at;
 pub use light::{Lamp, Light, LightPreset, ToneMap};
 pub use material::{Iris, Material};
+pub use reflections::{CUBE_FACES, cube_direction};
 pub use scatter::scatter_table;
 pub use split_sum::{directional_albedo, split_sum};
