@@ -22,6 +22,7 @@ pub mod optics;
 mod reflections;
 mod scatter;
 mod split_sum;
+pub mod tone;
 
 pub use environment::{Environment, PANEL_CORE, PANEL_COUNT, Panel};
 pub use irradiance::irradiance_at;
