@@ -14,20 +14,31 @@
 //!
 //! This crate knows no GPU, no files and no clock.
 
+mod material;
+mod materials;
+mod materials_fields;
+mod materials_toml;
+mod nearest;
+mod text;
+
 mod environment;
 mod irradiance;
 mod light;
-mod material;
-pub mod optics;
 mod reflections;
+
+pub mod optics;
 mod scatter;
 mod split_sum;
 pub mod tone;
 
+mod error;
+
 pub use environment::{Environment, PANEL_CORE, PANEL_COUNT, Panel};
+pub use error::LookError;
 pub use irradiance::irradiance_at;
 pub use light::{Lamp, Light, LightPreset, ToneMap};
 pub use material::{Iris, Material};
+pub use materials::Materials;
 pub use reflections::{CUBE_FACES, cube_direction};
 pub use scatter::scatter_table;
 pub use split_sum::{directional_albedo, split_sum};

@@ -1,0 +1,25 @@
+/// Why a text about looks could not be read, and where.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("line {line}, column {column}: {}expected {expected}, found {found}{}", subject(.key), hint(.nearest))]
+pub struct LookError {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// The key with its tables, such as `eyeball.iris.depth`; empty where no key is at fault.
+    pub key: String,
+    /// What would have been right there.
+    pub expected: String,
+    /// What stands there.
+    pub found: String,
+    /// The nearest valid name, if the fault is a name and one is close to it.
+    pub nearest: Option<String>,
+}
+
+fn subject(key: &str) -> String {
+    if key.is_empty() { String::new() } else { format!("{key}: ") }
+}
+
+fn hint(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
+}
