@@ -110,7 +110,7 @@ pub fn two_lobe_specular(cosines: Cosines, reflectance: f32, lobes: Lobes) -> f3
 }
 
 /// The parameter `d` of [`crate::scatter_table`], in the unit of `mean_free_path`, from the diffuse mean free path and
-/// the albedo of the surface, 0 to 1; between a quarter and a twentieth of the path.
+/// the albedo of the surface, 0 to 1; from 2/7 of the path for dark surfaces to 1/24 for white ones.
 ///
 /// P. Christensen and B. Burley, "Approximate Reflectance Profiles for Efficient Subsurface Scattering", 2015, eq. 8.
 pub fn diffusion_distance(mean_free_path: f32, albedo: f32) -> f32 {

@@ -1,6 +1,6 @@
 //! White furnaces: no surface reflects more than it receives, whatever its looks.
 
-use avatar_look::optics::{Cosines, Lobes, specular, two_lobe_specular, wrapped_diffuse};
+use avatar_look::optics::{Cosines, Lobes, diffusion_distance, specular, two_lobe_specular, wrapped_diffuse};
 use avatar_look::{directional_albedo, scatter_table, split_sum};
 use glam::Vec3;
 use std::f32::consts::TAU;
@@ -171,6 +171,13 @@ fn scattering_agrees_with_a_sum_over_the_sphere() {
             assert!((value - sum / total).abs() < 1e-3, "{value} for {} at {row}, {column}", sum / total);
         }
     }
+}
+
+#[test]
+fn diffusion_distances_are_in_the_range_of_the_fit() {
+    approx::assert_relative_eq!(diffusion_distance(7.0, 0.33), 2.0);
+    approx::assert_relative_eq!(diffusion_distance(1.0, 1.0), 1.0 / 23.651_12, max_relative = 1e-5);
+    approx::assert_relative_eq!(diffusion_distance(1.0, 0.0), 1.0 / 4.685_921, max_relative = 1e-5);
 }
 
 #[test]
