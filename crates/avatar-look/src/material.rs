@@ -19,7 +19,7 @@ pub struct Material {
     /// How far diffuse light reaches around the terminator, per channel, 0 (not at all) to 1; the quality levels plain
     /// and low, and parts that are not skin.
     pub wrap: [f32; 3],
-    /// Mean distance that light travels below the surface, per channel: skin from medium quality on.
+    /// Diffuse mean free path below the surface, per channel: skin from medium quality on.
     pub scatter: [f32; 3],
     /// Strength of the second, sharper specular lobe, 0 (one lobe) to 1.
     pub sharp_share: f32,
@@ -33,8 +33,10 @@ pub struct Material {
     pub pore_strength: f32,
     /// How often that relief repeats over the texture's width.
     pub pore_density: f32,
-    /// A clear wet film on top, 0 (dry) to 1: eyeballs, teeth, tongue.
+    /// A clear wet film on top, 0 (dry) to 1: eyeballs, corneas, teeth, tongue.
     pub wetness: f32,
+    /// Perceptual roughness of that film.
+    pub film_roughness: f32,
     /// Share of the ambient light that is left at the back of the part: mouths and eye sockets are dark inside.
     pub back_light: f32,
     /// Iris and pupil; read for eyeballs only.
@@ -46,7 +48,7 @@ pub struct Material {
 pub struct Iris {
     /// Refractive index of the cornea; 1 does not bend light.
     pub refractive_index: f32,
-    /// How deep the iris lies behind the edge of the cornea, as a fraction of the cornea's radius.
+    /// How deep the iris lies behind the surface of the eyeball, as a fraction of the cornea's radius.
     pub depth: f32,
     /// Radius of the pupil as a fraction of the iris's radius, 0 to 1.
     pub pupil: f32,
@@ -65,10 +67,10 @@ impl Iris {
     pub const DEFAULT: Self = Self {
         // Cornea and aqueous humour: 1.336 (Gullstrand's schematic eye, 1909).
         refractive_index: 1.336,
-        depth: 0.25,
+        depth: 0.12,
         pupil: 0.38,
         painted_pupil: 0.38,
-        radius: 0.95,
+        radius: 0.8,
         limbal_width: 0.18,
         limbal_darkness: 0.6,
     };
@@ -93,6 +95,7 @@ impl Material {
             pore_strength: 0.0,
             pore_density: 0.0,
             wetness: 0.0,
+            film_roughness: 0.15,
             back_light: 1.0,
             iris: Iris::DEFAULT,
         };
@@ -140,6 +143,8 @@ impl Material {
                 reflectance: 0.02,
                 roughness_matte: 0.3,
                 roughness_glossy: 0.2,
+                wetness: 1.0,
+                film_roughness: 0.09,
                 ..matte
             },
         }

@@ -1,4 +1,5 @@
 use crate::SourceError;
+use avatar_look::LookError;
 use avatar_mesh::{MeshError, MeshWarning};
 use pose_anim::{BindError, TomlError};
 use rig_core::XmlError;
@@ -46,6 +47,9 @@ pub enum PackProblem {
     /// `controls.toml` or `poses.toml` is not as its format demands.
     #[error("{0}")]
     Toml(TomlError),
+    /// `materials.toml` is not as its format demands.
+    #[error("{0}")]
+    Look(LookError),
     /// A control names a joint or shape that the pack does not have.
     #[error("{0}")]
     Bind(BindError),

@@ -1,4 +1,5 @@
 use crate::{PackError, PackProblem, Source, Warning};
+use avatar_look::Materials;
 use avatar_mesh::{
     Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartSpec, Winding, raw,
 };
@@ -26,6 +27,8 @@ pub struct Pack {
     pub binding: Binding,
     /// The poses, from `poses.toml` or the default set.
     pub poses: PoseSet,
+    /// The looks of the parts, from `materials.toml` or the defaults.
+    pub materials: Materials,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
 }
@@ -63,8 +66,9 @@ impl Pack {
             Some(text) => PoseSet::from_toml(&text, &controls)
                 .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error)))?,
         };
+        let materials = load_materials(source)?;
         let shapes = FACE_SHAPES.map(str::to_owned).into();
-        Ok(Self { rig, parts, palette, shapes, controls, binding, poses, warnings })
+        Ok(Self { rig, parts, palette, shapes, controls, binding, poses, materials, warnings })
     }
 
     /// The part of this name.
@@ -152,6 +156,19 @@ fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) 
         });
     }
     Ok(Part { spec, mesh, bytes: vertices.len() + indices.len(), bone })
+}
+
+/// Reads the looks of a pack's parts: `materials.toml`, or the defaults where there is none. [`Pack::load`] calls it;
+/// by itself it serves programs that take over a changed file while they run.
+///
+/// # Errors
+/// A file that cannot be read, or that is not as its format demands, and where in it.
+pub fn load_materials(source: &impl Source) -> Result<Materials, PackError> {
+    let file = "materials.toml";
+    match read_text(source, file)? {
+        None => Ok(Materials::default()),
+        Some(text) => Materials::from_toml(&text).map_err(|error| at(source, file, PackProblem::Look(error))),
+    }
 }
 
 fn load_controls(source: &impl Source, rig: &Rig) -> Result<(ControlTable, Binding), PackError> {

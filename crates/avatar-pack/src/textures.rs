@@ -13,6 +13,8 @@ pub enum Texture {
     SkinGloss,
     /// Relief of the skin, a tangent-space normal map, linear. The original has none.
     SkinNormal,
+    /// How thick the skin is, linear: black thin, white thick. The original has none.
+    SkinThickness,
     /// Colour of an eyeball, sRGB; there are four irises.
     Eye(u8),
     /// Colour of teeth, gums and tongue, sRGB.
@@ -23,11 +25,12 @@ pub enum Texture {
 
 impl Texture {
     /// All textures that a pack may have.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::SkinColor,
         Self::SkinOcclusion,
         Self::SkinGloss,
         Self::SkinNormal,
+        Self::SkinThickness,
         Self::Eye(0),
         Self::Eye(1),
         Self::Eye(2),
@@ -43,6 +46,7 @@ impl Texture {
             Self::SkinOcclusion => "SkinTex_AO".to_owned(),
             Self::SkinGloss => "SkinTex_Gloss".to_owned(),
             Self::SkinNormal => "SkinTex_Normal".to_owned(),
+            Self::SkinThickness => "SkinTex_Thickness".to_owned(),
             Self::Eye(iris) => format!("EyeTex_Decal{iris:02}"),
             Self::Teeth => "TeethTex_Decal".to_owned(),
             Self::HairDensity => "HairMap".to_owned(),

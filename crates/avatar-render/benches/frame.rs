@@ -7,7 +7,7 @@ use avatar_mesh::{Mesh, PartKind, Shape, Skinning};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
 use avatar_render::{
     AvatarModel, AvatarState, Camera, Deformer, Light, PartBones, PartDesc, PartTextures, Renderer,
-    RendererConfig, Scene, Targets,
+    RendererConfig, Scene, Shading, Targets,
 };
 use divan::Bencher;
 use glam::{Affine3A, Vec2, Vec3};
@@ -84,8 +84,12 @@ impl Stage {
     fn new(avatars: usize, active_shapes: usize) -> Self {
         let gpu = gpu();
         let color_format = wgpu::TextureFormat::Rgba8UnormSrgb;
-        let renderer =
-            Renderer::new(&gpu.device, RendererConfig { color_format, samples: 4 }).expect("a renderer");
+        let renderer = Renderer::new(
+            &gpu.device,
+            &gpu.queue,
+            RendererConfig { color_format, samples: 4, shading: Shading::Plain },
+        )
+        .expect("a renderer");
         let targets = Targets::new(&gpu.device, &renderer, WIDTH, HEIGHT).expect("targets");
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("bench"),

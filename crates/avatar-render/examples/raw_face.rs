@@ -5,7 +5,7 @@
 use avatar_mesh::{Bounds, FACE_BONES, FACE_PARTS, Follows, Mesh, PartKind, raw};
 use avatar_render::headless::{Canvas, GpuOptions, open_blocking};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Image, Light, PartBones, PartDesc, PartTextures, Scene,
+    AvatarModel, AvatarState, Camera, Image, Light, PartBones, PartDesc, PartTextures, Quality, Scene, Style,
 };
 use glam::Affine3A;
 use rig_core::{Axis, Elementary, JointId, Rig};
@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     color: skin_color.as_ref(),
                     occlusion: skin_occlusion.as_ref(),
                     gloss: skin_gloss.as_ref(),
-                    normal: None,
+                    ..PartTextures::default()
                 },
                 PartKind::Teeth => PartTextures { color: teeth_color.as_ref(), ..PartTextures::default() },
                 PartKind::Eyeball => PartTextures { color: eye_color.as_ref(), ..PartTextures::default() },
@@ -91,7 +91,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let single = rest.first().map(|number| number.parse::<usize>()).transpose()?;
     let size = if single.is_some() { 1000 } else { 480 };
-    let canvas = Canvas::new(&gpu, size, size, 4)?;
+    let canvas = Canvas::new(&gpu, size, size, 4, Quality::of_adapter(&gpu.info).shading(Style::Natural))?;
     let mut pose = rig.pose();
     let mut bones = [Affine3A::IDENTITY; FACE_BONES.len()];
     let mut sheet = image::RgbaImage::new(if single.is_some() { size } else { 4 * size }, 2 * size);

@@ -67,8 +67,7 @@ impl Camera {
     /// The matrix that takes points of the world to clip space. A field of view outside 0…180° and an aspect or a
     /// near plane that is not positive are replaced by the nearest usable number.
     pub fn clip_from_world(&self) -> Mat4 {
-        let zoom = 1.0 / half_fov_tan(self.vertical_fov_rad);
-        let near = if self.near > 0.0 { self.near } else { 1e-4 };
+        let (zoom, near) = (self.zoom(), self.valid_near());
         let clip_from_camera = Mat4::from_cols(
             Vec4::new(zoom / valid_aspect(self.aspect), 0.0, 0.0, 0.0),
             Vec4::new(0.0, zoom, 0.0, 0.0),
@@ -76,6 +75,28 @@ impl Camera {
             Vec4::new(0.0, 0.0, near, 0.0),
         );
         clip_from_camera * Mat4::from(self.world_from_camera.inverse())
+    }
+
+    /// The way back, in closed form: far depths have no well-conditioned inverse.
+    pub(crate) fn world_from_clip(&self) -> Mat4 {
+        let (zoom, near) = (self.zoom(), self.valid_near());
+        let camera_from_clip = Mat4::from_cols(
+            Vec4::new(valid_aspect(self.aspect) / zoom, 0.0, 0.0, 0.0),
+            Vec4::new(0.0, 1.0 / zoom, 0.0, 0.0),
+            Vec4::new(0.0, 0.0, 0.0, 1.0 / near),
+            Vec4::new(0.0, 0.0, -1.0, 0.0),
+        );
+        Mat4::from(self.world_from_camera) * camera_from_clip
+    }
+
+    /// Half the picture's height at distance 1 is 1 / zoom.
+    pub(crate) fn zoom(&self) -> f32 {
+        1.0 / half_fov_tan(self.vertical_fov_rad)
+    }
+
+    /// The near plane that is used.
+    pub(crate) fn valid_near(&self) -> f32 {
+        if self.near > 0.0 { self.near } else { 1e-4 }
     }
 }
 
@@ -141,6 +162,15 @@ mod tests {
                 reach = reach.max(p.x.abs()).max(p.y.abs());
             }
             assert!((0.8..=1.0).contains(&reach), "{reach}");
+        }
+    }
+
+    #[test]
+    fn clip_space_leads_back_to_the_world() {
+        let camera = Camera::orbit(Vec3::new(1.0, 2.0, 3.0), 30.0, 0.4, -0.3, 0.5, 1.7);
+        for point in [Vec3::ZERO, Vec3::new(3.0, -2.0, 5.0), Vec3::new(-4.0, 8.0, -20.0)] {
+            let there = camera.clip_from_world().project_point3(point);
+            assert!((camera.world_from_clip().project_point3(there) - point).length() < 1e-3);
         }
     }
 

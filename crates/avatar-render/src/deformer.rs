@@ -1,6 +1,6 @@
 use crate::part::Geometry;
 use crate::readback::{ReadbackError, mapped};
-use crate::shaders::DEFORM_PASS;
+use crate::shaders::{Constants, DEFORM_PASS};
 use crate::state::avatar_layout;
 use crate::{AvatarModel, AvatarState};
 use avatar_mesh::Deformed;
@@ -38,33 +38,36 @@ pub enum DeformerError {
     Readback(#[from] ReadbackError),
 }
 
-/// Deforms parts with the very WGSL function that draws them, and reads the result back.
+/// Layout of group 0 of the deform pass: where its results go.
+pub(crate) fn deformed_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("deformed vertices"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: false },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    })
+}
+
+/// Deforms avatars: the first pass of every frame. By itself it reads back what is drawn.
 #[derive(Debug)]
 pub struct Deformer {
-    layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
 }
 
 impl Deformer {
     /// Builds the pipeline.
     pub fn new(device: &wgpu::Device) -> Self {
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("deformed vertices"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::COMPUTE,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Storage { read_only: false },
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
-        });
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("deform"),
             bind_group_layouts: &[
-                Some(&layout),
+                Some(&deformed_layout(device)),
                 Some(&avatar_layout(device)),
                 Some(&Geometry::layout(device)),
             ],
@@ -73,15 +76,43 @@ impl Deformer {
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(DEFORM_PASS.label),
             layout: Some(&pipeline_layout),
-            module: &DEFORM_PASS.module(device),
+            module: &DEFORM_PASS.module(device, &Constants::default()),
             entry_point: Some(DEFORM_PASS.entry),
             compilation_options: Default::default(),
             cache: None,
         });
-        Self { layout, pipeline }
+        Self { pipeline }
     }
 
-    /// Deforms a part and waits for the result: one position and normal per vertex of the mesh, in its order.
+    /// Deforms all parts of avatars into the buffers of their states.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("deform"),
+            timestamp_writes: timestamps,
+        });
+        pass.set_pipeline(&self.pipeline);
+        for (model, state) in avatars {
+            pass.set_bind_group(1, &state.bind_group, &[]);
+            for (part, posed) in model.parts.iter().zip(&state.posed) {
+                if part.geometry.vertex_count > 0 {
+                    pass.set_bind_group(0, &posed.output, &[]);
+                    pass.set_bind_group(2, &part.geometry.bind_group, &[]);
+                    pass.dispatch_workgroups(
+                        part.geometry.vertex_count.div_ceil(DEFORM_WORKGROUP_SIZE),
+                        1,
+                        1,
+                    );
+                }
+            }
+        }
+    }
+
+    /// Deforms an avatar and waits for one part of it: one position and normal per vertex of the mesh, in its order.
     ///
     /// # Errors
     /// A part or state that does not belong to the model, or a lost device.
@@ -110,45 +141,27 @@ impl Deformer {
         part: usize,
     ) -> Result<Deformed, DeformerError> {
         let missing = DeformerError::NoSuchPart { parts: model.parts.len(), found: part };
-        let part = model.parts.get(part).ok_or(missing)?;
+        if part >= model.parts.len() {
+            return Err(missing);
+        }
         if !state.fits(model) {
             return Err(DeformerError::StateOfAnotherModel);
         }
-        if part.geometry.vertex_count == 0 {
+        let posed = state.posed.get(part).ok_or(missing)?;
+        if posed.vertex_count == 0 {
             return Ok(Deformed::default());
         }
-        let size = u64::from(part.geometry.vertex_count) * size_of::<GpuDeformedVertex>() as u64;
-        let buffer = |label, usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        let output = buffer("deformed vertices", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
-        let readable = buffer(
-            "deformed vertices: readable",
-            wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-        );
-        let output_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("deformed vertices"),
-            layout: &self.layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: output.as_entire_binding() }],
+        let size = posed.vertices.size();
+        let readable = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("deformed vertices: readable"),
+            size,
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
         });
         let mut encoder = device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("deform and read back") });
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("deform"),
-            timestamp_writes: None,
-        });
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &output_group, &[]);
-        pass.set_bind_group(1, &state.bind_group, &[]);
-        pass.set_bind_group(2, &part.geometry.bind_group, &[]);
-        pass.dispatch_workgroups(part.geometry.vertex_count.div_ceil(DEFORM_WORKGROUP_SIZE), 1, 1);
-        drop(pass);
-        encoder.copy_buffer_to_buffer(&output, 0, &readable, 0, size);
+        self.record(&mut encoder, None, &[(model, state)]);
+        encoder.copy_buffer_to_buffer(&posed.vertices, 0, &readable, 0, size);
         queue.submit([encoder.finish()]);
         let view = mapped(device, &readable).await?;
         let vertices: &[GpuDeformedVertex] = bytemuck::cast_slice(&view);

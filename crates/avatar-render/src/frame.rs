@@ -1,6 +1,8 @@
 //! What all avatars of a frame share, on its way to the GPU.
 
-use crate::{Lamp, Scene};
+use crate::resources::REFLECTION_LEVELS;
+use crate::shadows::ShadowViews;
+use crate::{Lamp, Scene, ToneMap};
 use bytemuck::Zeroable;
 use glam::Vec3;
 use std::num::NonZeroU64;
@@ -8,6 +10,21 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Lamps of a frame: key, fill, rim.
 pub(crate) const LAMP_COUNT: usize = 3;
+/// Place of the key lamp.
+pub(crate) const KEY_LAMP: usize = 0;
+/// Place of the rim lamp.
+pub(crate) const RIM_LAMP: usize = 2;
+/// Lamps that may cast shadows: key, rim.
+pub(crate) const SHADOW_COUNT: usize = 2;
+/// [`ToneMap::Neutral`] in WGSL.
+pub(crate) const TONE_NEUTRAL: u32 = 1;
+/// [`ToneMap::AgX`] in WGSL.
+pub(crate) const TONE_AGX: u32 = 2;
+
+/// How far away things darken one another, as a fraction of the height of the skin: lids and eyes, lips and teeth.
+const OCCLUSION_RADIUS: f32 = 0.05;
+/// How far the edges of shadows are softened, as a fraction of the height of the skin.
+const SHADOW_SOFTNESS: f32 = 0.007;
 
 /// WGSL `Lamp`.
 #[repr(C)]
@@ -24,122 +41,133 @@ pub(crate) struct GpuLamp {
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct GpuFrame {
     pub(crate) clip_from_world: [[f32; 4]; 4],
+    pub(crate) world_from_clip: [[f32; 4]; 4],
     pub(crate) eye_world: [f32; 3],
     pub(crate) exposure: f32,
     pub(crate) lamps: [GpuLamp; LAMP_COUNT],
     pub(crate) sky: [f32; 3],
-    pub(crate) pad_0: f32,
+    pub(crate) tone_map: u32,
     pub(crate) ground: [f32; 3],
-    pub(crate) pad_1: f32,
+    pub(crate) near: f32,
+    pub(crate) irradiance: [[f32; 4]; 9],
+    pub(crate) shadow_from_world: [[[f32; 4]; 4]; SHADOW_COUNT],
+    pub(crate) shadow_depth: [f32; SHADOW_COUNT],
+    pub(crate) shadow_texel: [f32; SHADOW_COUNT],
+    pub(crate) pixels: [f32; 2],
+    pub(crate) pixels_per_unit: f32,
+    pub(crate) occlusion_radius: f32,
+    pub(crate) shadow_softness: f32,
+    pub(crate) reflection_levels: f32,
+    pub(crate) pad: [f32; 2],
 }
 
 impl GpuLamp {
     fn new(lamp: &Lamp) -> Self {
-        Self {
-            direction_world: lamp.direction_world.normalize_or(Vec3::Y).to_array(),
-            radiance: lamp.radiance,
-            ..Self::zeroed()
-        }
+        Self { direction_world: direction(lamp).to_array(), radiance: lamp.radiance, ..Self::zeroed() }
     }
+}
+
+/// Toward a lamp, unit length.
+pub(crate) fn direction(lamp: &Lamp) -> Vec3 {
+    lamp.direction_world.normalize_or(Vec3::Y)
 }
 
 impl GpuFrame {
-    pub(crate) fn new(scene: &Scene) -> Self {
-        let light = &scene.light;
+    /// `size` is that of the picture in pixels, `height` that of the skin.
+    pub(crate) fn new(
+        scene: &Scene,
+        irradiance: &[Vec3; 9],
+        shadows: &ShadowViews,
+        size: (u32, u32),
+        height: f32,
+    ) -> Self {
+        let (light, camera) = (&scene.light, &scene.camera);
+        let clip_from_world = camera.clip_from_world();
+        let pixels = [size.0 as f32, size.1 as f32];
         Self {
-            clip_from_world: scene.camera.clip_from_world().to_cols_array_2d(),
-            eye_world: scene.camera.eye().to_array(),
+            clip_from_world: clip_from_world.to_cols_array_2d(),
+            world_from_clip: camera.world_from_clip().to_cols_array_2d(),
+            eye_world: camera.eye().to_array(),
             exposure: light.exposure,
             lamps: [&light.key, &light.fill, &light.rim].map(GpuLamp::new),
-            sky: light.sky,
-            ground: light.ground,
-            ..Self::zeroed()
+            sky: light.environment.sky,
+            tone_map: match light.tone_map {
+                ToneMap::Linear => 0,
+                ToneMap::Neutral => TONE_NEUTRAL,
+                ToneMap::AgX => TONE_AGX,
+            },
+            ground: light.environment.ground,
+            near: camera.valid_near(),
+            irradiance: irradiance.map(|c| c.extend(0.0).to_array()),
+            shadow_from_world: shadows.0.map(|view| view.shadow_from_world.to_cols_array_2d()),
+            shadow_depth: shadows.0.map(|view| view.depth),
+            shadow_texel: shadows.0.map(|view| view.texel),
+            pixels,
+            pixels_per_unit: camera.zoom() * pixels[1] * 0.5,
+            occlusion_radius: OCCLUSION_RADIUS * height,
+            shadow_softness: SHADOW_SOFTNESS * height,
+            reflection_levels: (REFLECTION_LEVELS - 1) as f32,
+            pad: [0.0; 2],
         }
     }
 }
 
-/// Room for several frames in one buffer. A write to a buffer takes effect before the whole submission, so two draws that
-/// are submitted together must not share a slot.
+/// Room for several values in one uniform buffer, bound with a dynamic offset. A write to a buffer takes effect before
+/// the whole submission, so two draws that are submitted together must not share a slot.
 #[derive(Debug)]
-pub(crate) struct FrameRing {
-    buffer: wgpu::Buffer,
-    pub(crate) bind_group: wgpu::BindGroup,
+pub(crate) struct Ring<T> {
+    pub(crate) buffer: wgpu::Buffer,
     next: AtomicU32,
+    of: std::marker::PhantomData<fn(T)>,
 }
 
 /// Draws per submission that are told apart.
 pub(crate) const FRAME_SLOTS: u32 = 256;
-/// WebGPU's default alignment of dynamic offsets.
-const SLOT_BYTES: u32 = (size_of::<GpuFrame>() as u32).next_multiple_of(256);
-const FRAME_BYTES: Option<NonZeroU64> = NonZeroU64::new(size_of::<GpuFrame>() as u64);
 
-impl FrameRing {
-    pub(crate) fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("frame"),
-            entries: &[
-                wgpu::BindGroupLayoutEntry {
-                    binding: 0,
-                    visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-                    ty: wgpu::BindingType::Buffer {
-                        ty: wgpu::BufferBindingType::Uniform,
-                        has_dynamic_offset: true,
-                        min_binding_size: FRAME_BYTES,
-                    },
-                    count: None,
-                },
-                wgpu::BindGroupLayoutEntry {
-                    binding: 1,
-                    visibility: wgpu::ShaderStages::FRAGMENT,
-                    ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-                    count: None,
-                },
-            ],
-        })
-    }
+impl<T: bytemuck::Pod> Ring<T> {
+    /// WebGPU's default alignment of dynamic offsets.
+    const SLOT_BYTES: u32 = (size_of::<T>() as u32).next_multiple_of(256);
+    /// Size of the binding.
+    pub(crate) const BYTES: Option<NonZeroU64> = NonZeroU64::new(size_of::<T>() as u64);
 
-    pub(crate) fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, label: &str, slots_per_frame: u32) -> Self {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("frame: camera and light"),
-            size: u64::from(SLOT_BYTES * FRAME_SLOTS),
+            label: Some(label),
+            size: u64::from(Self::SLOT_BYTES * FRAME_SLOTS * slots_per_frame),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
-        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("repeat, trilinear"),
-            address_mode_u: wgpu::AddressMode::Repeat,
-            address_mode_v: wgpu::AddressMode::Repeat,
-            address_mode_w: wgpu::AddressMode::Repeat,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            // Free in hardware, several samples per sample in software.
-            anisotropy_clamp: if software { 1 } else { 8 },
-            ..Default::default()
-        });
-        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("frame"),
-            layout,
-            entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                        buffer: &buffer,
-                        offset: 0,
-                        size: FRAME_BYTES,
-                    }),
-                },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
-            ],
-        });
-        Self { buffer, bind_group, next: AtomicU32::new(0) }
+        Self { buffer, next: AtomicU32::new(0), of: std::marker::PhantomData }
     }
 
-    /// Writes a frame into the next slot and returns its offset for the bind group.
-    pub(crate) fn push(&self, queue: &wgpu::Queue, frame: &GpuFrame) -> u32 {
-        let offset = self.next.fetch_add(1, Ordering::Relaxed) % FRAME_SLOTS * SLOT_BYTES;
-        queue.write_buffer(&self.buffer, u64::from(offset), bytemuck::bytes_of(frame));
+    /// The binding of one slot; which one, its dynamic offset says.
+    pub(crate) fn binding(&self) -> wgpu::BindingResource<'_> {
+        let buffer = &self.buffer;
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size: Self::BYTES })
+    }
+
+    /// Writes a value into the next slot and returns its offset for the bind group.
+    pub(crate) fn push(&self, queue: &wgpu::Queue, value: &T) -> u32 {
+        let slots = (self.buffer.size() / u64::from(Self::SLOT_BYTES)) as u32;
+        let offset = self.next.fetch_add(1, Ordering::Relaxed) % slots * Self::SLOT_BYTES;
+        queue.write_buffer(&self.buffer, u64::from(offset), bytemuck::bytes_of(value));
         offset
+    }
+}
+
+/// A dynamic uniform at binding 0.
+pub(crate) fn uniform_entry(
+    visibility: wgpu::ShaderStages,
+    bytes: Option<NonZeroU64>,
+) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: true,
+            min_binding_size: bytes,
+        },
+        count: None,
     }
 }

@@ -1,10 +1,13 @@
 //! Every struct that Rust writes and WGSL reads must lie in memory alike: naga's offsets against `offset_of!`.
 
+use crate::Terms;
 use crate::deformer::GpuDeformedVertex;
 use crate::frame::{GpuFrame, GpuLamp};
-use crate::material::GpuMaterial;
+use crate::material::{GpuIris, GpuMaterial};
 use crate::part::{GpuPart, GpuShapeOffset, GpuVertex, GpuVertexBones};
-use crate::shaders::tests::{ALL, parsed};
+use crate::renderer::GpuShadowView;
+use crate::shaders::Constants;
+use crate::shaders::tests::{all, parsed};
 use crate::state::{GpuActiveShape, GpuActiveShapesHead, GpuBone};
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 use std::collections::BTreeSet;
@@ -31,7 +34,7 @@ fn layouts() -> Vec<Layout> {
     let (position, normal) = (offset_of!(GpuShapeOffset, position), offset_of!(GpuShapeOffset, normal));
     let shapes = size_of::<GpuActiveShapesHead>();
     vec![
-        layout!("Part", GpuPart, vertex_count, shape_count, rigid_bone, has_vertex_bones, front_z, per_depth),
+        layout!("Part", GpuPart, vertex_count, shape_count, rigid_bone, has_vertex_bones),
         layout!("Vertex", GpuVertex, position, u, normal, v),
         layout!("VertexBones", GpuVertexBones, indices, weights),
         Layout {
@@ -55,7 +58,47 @@ fn layouts() -> Vec<Layout> {
         },
         layout!("DeformedVertex", GpuDeformedVertex, position, normal),
         layout!("Lamp", GpuLamp, direction_world, radiance),
-        layout!("Frame", GpuFrame, clip_from_world, eye_world, exposure, lamps, sky, ground),
+        layout!("ShadowView", GpuShadowView, shadow_from_world),
+        layout!(
+            "Frame",
+            GpuFrame,
+            clip_from_world,
+            world_from_clip,
+            eye_world,
+            exposure,
+            lamps,
+            sky,
+            tone_map,
+            ground,
+            near,
+            irradiance,
+            shadow_from_world,
+            shadow_depth,
+            shadow_texel,
+            pixels,
+            pixels_per_unit,
+            occlusion_radius,
+            shadow_softness,
+            reflection_levels
+        ),
+        layout!(
+            "Iris",
+            GpuIris,
+            cornea_center,
+            cornea_radius,
+            uv_center,
+            uv_from_x,
+            uv_from_y,
+            profile_reach,
+            plane_z,
+            profile,
+            radius,
+            refractive_index,
+            pupil,
+            painted_pupil,
+            limbal_width,
+            limbal_darkness
+        ),
         layout!(
             "Material",
             GpuMaterial,
@@ -63,10 +106,23 @@ fn layouts() -> Vec<Layout> {
             opacity,
             wrap,
             reflectance,
+            scatter,
             roughness_matte,
             roughness_glossy,
             normal_strength,
-            textures
+            sharp_share,
+            sharp_roughness,
+            transmission,
+            thickness,
+            pore_strength,
+            pore_density,
+            wetness,
+            film_roughness,
+            back_light,
+            front_z,
+            per_depth,
+            textures,
+            iris
         ),
     ]
 }
@@ -95,8 +151,8 @@ fn buffer_types(module: &Module) -> Vec<Handle<Type>> {
 fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
     let layouts = layouts();
     let mut seen = BTreeSet::new();
-    for program in ALL {
-        let module = parsed(&program);
+    for program in all() {
+        let module = parsed(&program, &Constants { terms: Terms::HIGH, encode_srgb: false });
         for handle in buffer_types(&module) {
             let ty = &module.types[handle];
             let TypeInner::Struct { members, span } = &ty.inner else { continue };
@@ -125,8 +181,8 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("deformed", size_of::<GpuDeformedVertex>()),
     ];
     let mut seen = BTreeSet::new();
-    for program in ALL {
-        let module = parsed(&program);
+    for program in all() {
+        let module = parsed(&program, &Constants { terms: Terms::HIGH, encode_srgb: false });
         for (_, variable) in module.global_variables.iter() {
             let TypeInner::Array { stride, .. } = module.types[variable.ty].inner else { continue };
             let name = variable.name.as_deref().expect("variables have names");

@@ -21,18 +21,27 @@
 //! # One frame
 //!
 //! ```text
-//!  pass "avatars"       clear, then for all avatars:
+//!  deform               compute: shapes and bones, every part once
+//!  shadows              depth that the key and rim lamps see
+//!  depth and normals    one sample a pixel ┐ medium and high
+//!  ambient occlusion    from both          ┘
+//!  light on skin        before its colour  ┐ high
+//!  scatter across       spread sideways    ┘
+//!  avatars              clear, then for all avatars:
 //!    skin               front sides
 //!    teeth              both sides
 //!    eyeball            front sides
 //!    skin back          what shows at the rim of the neck, lids and lips: a hollow in ambient light
+//!    outlines           toon only
 //!    cornea             front sides, blended, far to near, depth tested but not written
 //! ```
 //!
-//! Bind groups change rarely in front and often behind: 0 frame (camera, light, sampler), 1 avatar (bones, active
-//! shapes), 2 part geometry (vertices, bones per vertex, shape offsets), 3 part looks (material, textures). Vertices are
-//! deformed in the vertex stage by one WGSL function, which the compute pass of [`Deformer`] calls as well; its twin on
-//! the CPU is [`avatar_mesh::deform()`].
+//! Which passes run and which terms programs have, [`Shading`] says; [`Quality`] and [`Style`] choose one.
+//!
+//! Bind groups of passes that draw change rarely in front and often behind: 0 frame (camera, light, tables), 1 view (what
+//! earlier passes left), 2 part looks (material, textures). The vertices are buffers that the deform pass has written;
+//! its twin on the CPU is [`avatar_mesh::deform()`]. Materials, lights and their mathematics are those of
+//! [`avatar_look`], whose types are reexported here.
 //!
 //! # Example
 //!
@@ -50,7 +59,7 @@
 //! let mut state = AvatarState::new(&gpu.device, &model);
 //! state.set(&gpu.queue, &[Affine3A::from_rotation_y(0.3)], &[])?;
 //! let camera = Camera::orbit(Vec3::ZERO, 4.0, 0.0, 0.1, 0.5, 4.0 / 3.0);
-//! let scene = Scene { camera, background: [0.0; 4], light: Light::default() };
+//! let scene = Scene { camera, background: [0.0; 4], light: Light::studio() };
 //! let picture = render_image(&gpu, 640, 480, 4, &scene, &[(&model, &state)])?;
 //! assert_eq!(picture.rgba.len(), 4 * 640 * 480);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -58,8 +67,9 @@
 
 mod camera;
 mod color;
+mod curvature;
 mod deformer;
-mod drawable;
+mod eye;
 mod frame;
 pub mod headless;
 mod image;
@@ -69,22 +79,32 @@ mod material;
 mod mips;
 mod model;
 mod part;
+mod passes;
+mod pipelines;
+mod pores;
 mod readback;
+mod record;
 mod renderer;
+mod resources;
 mod scene;
 mod shaders;
+mod shading;
+mod shadows;
 mod state;
 mod targets;
 mod texture;
+mod timer;
 
+pub use avatar_look::{Environment, Iris, Lamp, Light, Material, Panel, ToneMap};
 pub use camera::Camera;
 pub use color::linear_from_srgb8;
 pub use deformer::{Deformer, DeformerError};
 pub use image::{Image, ImageSizeError};
-pub use material::Material;
 pub use model::{AvatarModel, ModelError, PartBones, PartDesc, PartProblem, PartTextures};
 pub use readback::ReadbackError;
 pub use renderer::{DrawError, Renderer, RendererConfig, RendererError};
-pub use scene::{Lamp, Light, Scene};
+pub use scene::Scene;
+pub use shading::{Quality, Scattering, Shading, Shadows, Style, Terms};
 pub use state::{AvatarState, StateError};
 pub use targets::{SizeError, Targets};
+pub use timer::PassTimer;

@@ -1,73 +1,13 @@
-use avatar_mesh::PartKind;
+//! Materials on their way to the GPU.
 
-/// The looks of a part: plain data, with defaults per kind. Colours are linear.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
-    /// Colour where no texture covers it.
-    pub color: [f32; 3],
-    /// 1 hides what lies behind; read for corneas only.
-    pub opacity: f32,
-    /// How far diffuse light reaches around the terminator, per channel, 0 (not at all) to 1.
-    pub wrap: [f32; 3],
-    /// Share of light reflected at normal incidence.
-    pub reflectance: f32,
-    /// Perceptual roughness where the gloss texture is black; without a texture the mean of both counts.
-    pub roughness_matte: f32,
-    /// Perceptual roughness where the gloss texture is white.
-    pub roughness_glossy: f32,
-    /// Factor on the tilt of the normal texture.
-    pub normal_strength: f32,
-}
+use crate::eye::{EyeShape, PROFILE_LEN};
+use crate::part::Geometry;
+use avatar_look::optics::diffusion_distance;
+use avatar_look::{Iris, Material};
 
-impl Material {
-    /// The default of a kind, visible without any texture.
-    pub fn of(kind: PartKind) -> Self {
-        let matte = Self {
-            color: [0.8; 3],
-            opacity: 1.0,
-            wrap: [0.0; 3],
-            reflectance: 0.04,
-            roughness_matte: 0.7,
-            roughness_glossy: 0.3,
-            normal_strength: 1.0,
-        };
-        match kind {
-            // Reflectance: E. d'Eon and D. Luebke, "Advanced Techniques for Realistic Real-Time Skin Rendering", 2007.
-            PartKind::Skin => Self {
-                color: [0.60, 0.36, 0.26],
-                wrap: [0.28, 0.14, 0.09],
-                reflectance: 0.028,
-                roughness_matte: 0.65,
-                roughness_glossy: 0.35,
-                ..matte
-            },
-            PartKind::Teeth => Self {
-                color: [0.78, 0.70, 0.56],
-                wrap: [0.2, 0.18, 0.15],
-                roughness_matte: 0.4,
-                roughness_glossy: 0.15,
-                ..matte
-            },
-            PartKind::Eyeball => Self {
-                color: [0.82, 0.80, 0.77],
-                wrap: [0.25, 0.2, 0.2],
-                reflectance: 0.02,
-                roughness_matte: 0.6,
-                roughness_glossy: 0.4,
-                ..matte
-            },
-            // Reflectance of water, refractive index 1.33.
-            PartKind::Cornea => Self {
-                color: [0.8, 0.85, 0.9],
-                opacity: 0.03,
-                reflectance: 0.02,
-                roughness_matte: 0.3,
-                roughness_glossy: 0.2,
-                ..matte
-            },
-        }
-    }
-}
+/// Albedo that the mean free path of skin is turned into the width of its profile with. One for all: the profile is not
+/// to change from freckle to freckle.
+pub(crate) const SKIN_ALBEDO: f32 = 0.6;
 
 /// Bit of `GpuMaterial::textures`.
 pub(crate) const COLOR_TEXTURE: u32 = 1;
@@ -77,6 +17,29 @@ pub(crate) const OCCLUSION_TEXTURE: u32 = 2;
 pub(crate) const GLOSS_TEXTURE: u32 = 4;
 /// Bit of `GpuMaterial::textures`.
 pub(crate) const NORMAL_TEXTURE: u32 = 8;
+/// Bit of `GpuMaterial::textures`.
+pub(crate) const THICKNESS_TEXTURE: u32 = 16;
+
+/// WGSL `Iris`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct GpuIris {
+    pub(crate) cornea_center: [f32; 3],
+    pub(crate) cornea_radius: f32,
+    pub(crate) uv_center: [f32; 2],
+    pub(crate) uv_from_x: [f32; 2],
+    pub(crate) uv_from_y: [f32; 2],
+    pub(crate) profile_reach: f32,
+    pub(crate) plane_z: f32,
+    pub(crate) profile: [[f32; 4]; PROFILE_LEN / 4],
+    pub(crate) radius: f32,
+    pub(crate) refractive_index: f32,
+    pub(crate) pupil: f32,
+    pub(crate) painted_pupil: f32,
+    pub(crate) limbal_width: f32,
+    pub(crate) limbal_darkness: f32,
+    pub(crate) pad: [f32; 2],
+}
 
 /// WGSL `Material`.
 #[repr(C)]
@@ -86,23 +49,83 @@ pub(crate) struct GpuMaterial {
     pub(crate) opacity: f32,
     pub(crate) wrap: [f32; 3],
     pub(crate) reflectance: f32,
+    pub(crate) scatter: [f32; 3],
     pub(crate) roughness_matte: f32,
     pub(crate) roughness_glossy: f32,
     pub(crate) normal_strength: f32,
+    pub(crate) sharp_share: f32,
+    pub(crate) sharp_roughness: f32,
+    pub(crate) transmission: f32,
+    pub(crate) thickness: f32,
+    pub(crate) pore_strength: f32,
+    pub(crate) pore_density: f32,
+    pub(crate) wetness: f32,
+    pub(crate) film_roughness: f32,
+    pub(crate) back_light: f32,
+    pub(crate) front_z: f32,
+    pub(crate) per_depth: f32,
     pub(crate) textures: u32,
+    pub(crate) pad: [u32; 2],
+    pub(crate) iris: GpuIris,
 }
 
 impl GpuMaterial {
-    pub(crate) fn new(material: &Material, textures: u32) -> Self {
+    /// `height` is that of the skin: what materials measure lengths by.
+    pub(crate) fn new(
+        material: &Material,
+        geometry: &Geometry,
+        eye: Option<&EyeShape>,
+        height: f32,
+        textures: u32,
+    ) -> Self {
         Self {
             color: material.color,
             opacity: material.opacity,
             wrap: material.wrap,
             reflectance: material.reflectance,
+            scatter: material.scatter.map(|path| diffusion_distance(path * height, SKIN_ALBEDO)),
             roughness_matte: material.roughness_matte,
             roughness_glossy: material.roughness_glossy,
             normal_strength: material.normal_strength,
+            sharp_share: material.sharp_share,
+            sharp_roughness: material.sharp_roughness,
+            transmission: material.transmission,
+            thickness: material.thickness * height,
+            pore_strength: material.pore_strength,
+            pore_density: material.pore_density,
+            wetness: material.wetness,
+            film_roughness: material.film_roughness,
+            back_light: material.back_light,
+            front_z: geometry.front_z,
+            per_depth: geometry.per_depth,
             textures,
+            pad: [0; 2],
+            iris: eye.map_or_else(bytemuck::Zeroable::zeroed, |eye| GpuIris::new(&material.iris, eye)),
+        }
+    }
+}
+
+impl GpuIris {
+    fn new(iris: &Iris, eye: &EyeShape) -> Self {
+        let (rows, _) = eye.profile.as_chunks::<4>();
+        let mut profile = [[0.0; 4]; PROFILE_LEN / 4];
+        profile.iter_mut().zip(rows).for_each(|(to, from)| *to = *from);
+        Self {
+            cornea_center: eye.center.to_array(),
+            cornea_radius: eye.radius,
+            uv_center: eye.uv_center.to_array(),
+            uv_from_x: eye.uv_from_x.to_array(),
+            uv_from_y: eye.uv_from_y.to_array(),
+            profile_reach: eye.profile_reach,
+            plane_z: eye.surface_z - iris.depth * eye.edge_radius,
+            profile,
+            radius: iris.radius * eye.edge_radius,
+            refractive_index: iris.refractive_index.max(1.0),
+            pupil: iris.pupil.clamp(0.02, 0.98),
+            painted_pupil: iris.painted_pupil.clamp(0.02, 0.98),
+            limbal_width: iris.limbal_width,
+            limbal_darkness: iris.limbal_darkness,
+            pad: [0.0; 2],
         }
     }
 }

@@ -1,9 +1,13 @@
-use crate::material::{COLOR_TEXTURE, GLOSS_TEXTURE, GpuMaterial, NORMAL_TEXTURE, OCCLUSION_TEXTURE};
+use crate::eye::{EyeShape, eye_shape};
+use crate::material::{
+    COLOR_TEXTURE, GLOSS_TEXTURE, GpuMaterial, NORMAL_TEXTURE, OCCLUSION_TEXTURE, THICKNESS_TEXTURE,
+};
 use crate::part::Geometry;
 use crate::state;
 use crate::texture::{TextureUse, upload};
-use crate::{Image, ImageSizeError, Material};
-use avatar_mesh::{Mesh, PartKind};
+use crate::{Image, ImageSizeError};
+use avatar_look::Material;
+use avatar_mesh::{Bounds, Mesh, PartKind};
 use wgpu::util::DeviceExt;
 
 /// A part to be drawn.
@@ -41,6 +45,8 @@ pub struct PartTextures<'a> {
     pub gloss: Option<&'a Image>,
     /// Normals in tangent space, green up, linear.
     pub normal: Option<&'a Image>,
+    /// How thick the part is behind each point, black thin, white as thick as the material says: the red channel, linear.
+    pub thickness: Option<&'a Image>,
 }
 
 /// Why a model could not be built.
@@ -136,6 +142,8 @@ pub struct AvatarModel {
     pub(crate) parts: Vec<ModelPart>,
     palette_len: usize,
     shape_count: usize,
+    /// Height of the skin at bind pose: what materials and the reach of occlusion are measured by.
+    pub(crate) height: f32,
 }
 
 /// A part on the GPU.
@@ -147,6 +155,7 @@ pub(crate) struct ModelPart {
     pub(crate) look: wgpu::BindGroup,
     material: wgpu::Buffer,
     textures: u32,
+    eye: Option<EyeShape>,
 }
 
 impl AvatarModel {
@@ -168,10 +177,12 @@ impl AvatarModel {
         }
         let geometry_layout = Geometry::layout(device);
         let look_layout = look_layout(device);
+        let height = height(parts);
         let upload_part = |desc: &PartDesc<'_>| {
             let geometry =
                 Geometry::new(device, &geometry_layout, desc.label, desc.mesh, desc.bones, palette_len)?;
-            ModelPart::new(device, queue, &look_layout, desc, geometry)
+            let eye = cornea_of(desc, parts).and_then(|cornea| eye_shape(cornea.mesh, desc.mesh));
+            ModelPart::new(device, queue, &look_layout, desc, geometry, eye, height)
         };
         let shape_count = parts.iter().map(|desc| desc.mesh.shapes.len()).max().unwrap_or(0);
         let parts: Result<Vec<_>, _> = parts
@@ -181,7 +192,7 @@ impl AvatarModel {
                     .map_err(|problem| ModelError::Part { label: desc.label.to_owned(), problem })
             })
             .collect();
-        Ok(Self { parts: parts?, palette_len, shape_count })
+        Ok(Self { parts: parts?, palette_len, shape_count, height })
     }
 
     /// Number of bone matrices that an avatar of this model needs.
@@ -199,26 +210,58 @@ impl AvatarModel {
         self.parts.iter().map(|part| part.label.as_str())
     }
 
-    /// The parts of a kind that have triangles.
-    pub(crate) fn parts_of(&self, kind: PartKind) -> impl Iterator<Item = &ModelPart> {
-        self.parts.iter().filter(move |part| part.kind == kind && part.geometry.index_count > 0)
+    /// The parts of a kind that have triangles, with their places.
+    pub(crate) fn parts_of(&self, kind: PartKind) -> impl Iterator<Item = (usize, &ModelPart)> {
+        let seen = move |part: &ModelPart| part.kind == kind && part.geometry.index_count > 0;
+        self.parts.iter().enumerate().filter(move |(_, part)| seen(part))
     }
 
     /// Replaces the looks of a part in all avatars of this model, from the next submission on. Returns whether there
     /// is such a part.
     pub fn set_material(&self, queue: &wgpu::Queue, part: usize, material: &Material) -> bool {
         let Some(part) = self.parts.get(part) else { return false };
-        let gpu = GpuMaterial::new(material, part.textures);
+        let gpu = GpuMaterial::new(material, &part.geometry, part.eye.as_ref(), self.height, part.textures);
         queue.write_buffer(&part.material, 0, bytemuck::bytes_of(&gpu));
         true
     }
 }
 
-/// Layout of group 3, the looks of a part.
+/// The cornea that moves with an eyeball.
+fn cornea_of<'a, 'b>(ball: &PartDesc<'b>, parts: &'a [PartDesc<'b>]) -> Option<&'a PartDesc<'b>> {
+    let is_its_cornea = |part: &&PartDesc<'_>| part.kind == PartKind::Cornea && part.bones == ball.bones;
+    let center = ball.mesh.bounds()?.center();
+    let distance = |part: &PartDesc<'_>| {
+        part.mesh.bounds().map_or(f32::INFINITY, |bounds| bounds.center().distance(center))
+    };
+    match ball.kind {
+        PartKind::Eyeball => {
+            parts.iter().filter(is_its_cornea).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        }
+        _ => None,
+    }
+}
+
+/// The height of the skin, or of everything where there is no skin; never 0.
+fn height(parts: &[PartDesc<'_>]) -> f32 {
+    let bounds = |skin_only: bool| {
+        parts
+            .iter()
+            .filter(|part| !skin_only || part.kind == PartKind::Skin)
+            .filter_map(|part| part.mesh.bounds())
+            .reduce(Bounds::union)
+    };
+    let height = bounds(true).or_else(|| bounds(false)).map_or(0.0, |bounds| bounds.size().y);
+    if height > 0.0 { height } else { 1.0 }
+}
+
+/// Layout of group 2, the looks of a part.
 pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
+        visibility: match binding {
+            0 => wgpu::ShaderStages::VERTEX_FRAGMENT,
+            _ => wgpu::ShaderStages::FRAGMENT,
+        },
         ty,
         count: None,
     };
@@ -240,6 +283,7 @@ pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             entry(2, texture),
             entry(3, texture),
             entry(4, texture),
+            entry(5, texture),
         ],
     })
 }
@@ -251,6 +295,8 @@ impl ModelPart {
         layout: &wgpu::BindGroupLayout,
         desc: &PartDesc<'_>,
         geometry: Geometry,
+        eye: Option<EyeShape>,
+        height: f32,
     ) -> Result<Self, PartProblem> {
         let label = desc.label;
         // Bound where there is no texture, and never sampled there.
@@ -267,10 +313,13 @@ impl ModelPart {
             view(OCCLUSION_TEXTURE, "occlusion", desc.textures.occlusion, TextureUse::Value)?,
             view(GLOSS_TEXTURE, "gloss", desc.textures.gloss, TextureUse::Value)?,
             view(NORMAL_TEXTURE, "normal", desc.textures.normal, TextureUse::Normal)?,
+            view(THICKNESS_TEXTURE, "thickness", desc.textures.thickness, TextureUse::Value)?,
         ];
+        let gpu_material =
+            GpuMaterial::new(&Material::of(desc.kind), &geometry, eye.as_ref(), height, textures);
         let material = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(&format!("{label}: material")),
-            contents: bytemuck::bytes_of(&GpuMaterial::new(&Material::of(desc.kind), textures)),
+            contents: bytemuck::bytes_of(&gpu_material),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         });
         let texture = |binding: u32, view| wgpu::BindGroupEntry {
@@ -286,8 +335,9 @@ impl ModelPart {
                 texture(2, &views[1]),
                 texture(3, &views[2]),
                 texture(4, &views[3]),
+                texture(5, &views[4]),
             ],
         });
-        Ok(Self { label: label.to_owned(), kind: desc.kind, geometry, look, material, textures })
+        Ok(Self { label: label.to_owned(), kind: desc.kind, geometry, look, material, textures, eye })
     }
 }

@@ -1,8 +1,9 @@
 //! The geometry of one part on the GPU, shared by all avatars of a model.
 
 use crate::PartBones;
+use crate::curvature::curvatures;
 use crate::model::PartProblem;
-use avatar_mesh::{Mesh, Winding};
+use avatar_mesh::{Bounds, Mesh, Skinning, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use wgpu::util::DeviceExt;
@@ -15,8 +16,6 @@ pub(crate) struct GpuPart {
     pub(crate) shape_count: u32,
     pub(crate) rigid_bone: u32,
     pub(crate) has_vertex_bones: u32,
-    pub(crate) front_z: f32,
-    pub(crate) per_depth: f32,
 }
 
 /// WGSL `Vertex`.
@@ -51,7 +50,19 @@ pub(crate) struct Geometry {
     pub(crate) vertex_count: u32,
     pub(crate) index_count: u32,
     pub(crate) indices: wgpu::Buffer,
+    /// [`GpuVertex`] per vertex: vertices of the deform pass, and texture coordinates of the passes that draw.
+    pub(crate) vertices: wgpu::Buffer,
+    /// 1 / radius of the surface, one f32 per vertex.
+    pub(crate) curvatures: wgpu::Buffer,
+    /// For the deform pass.
     pub(crate) bind_group: wgpu::BindGroup,
+    /// The bone that a rigid part follows; 0 for others.
+    pub(crate) rigid_bone: u32,
+    /// Largest z at bind pose, and 1 / (largest - smallest).
+    pub(crate) front_z: f32,
+    pub(crate) per_depth: f32,
+    /// Boxes at bind pose around all that a bone moves, with all shapes in reach.
+    pub(crate) bone_boxes: Vec<(usize, Bounds)>,
     /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by distance.
     pub(crate) center: Vec3,
     pub(crate) center_bone: usize,
@@ -62,7 +73,7 @@ impl Geometry {
         let storage = wgpu::BufferBindingType::Storage { read_only: true };
         let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
             binding,
-            visibility: wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE,
+            visibility: wgpu::ShaderStages::COMPUTE,
             ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
             count: None,
         };
@@ -98,11 +109,10 @@ impl Geometry {
             shape_count: mesh.shapes.len() as u32,
             rigid_bone: rigid_bone as u32,
             has_vertex_bones: skinning.is_some().into(),
-            front_z: bounds.map_or(0.0, |bounds| bounds.max.z),
-            per_depth: if depth > 0.0 { depth.recip() } else { 0.0 },
         };
         let part = buffer(device, &[head], label, "part", wgpu::BufferUsages::UNIFORM);
-        let vertices = storage(device, &vertices(mesh), label, "vertices");
+        let vertices = storage_and_vertices(device, &vertices(mesh), label, "vertices");
+        let curvatures = storage_and_vertices(device, &curvatures(mesh), label, "curvatures");
         let vertex_bones: Vec<GpuVertexBones> = skinning.map_or_else(Vec::new, |skinning| {
             let both = skinning.bones.iter().zip(&skinning.weights);
             both.map(|(b, w)| GpuVertexBones { indices: b.map(u32::from), weights: *w }).collect()
@@ -127,6 +137,12 @@ impl Geometry {
                     wgpu::BindGroupEntry { binding: 3, resource: shapes.as_entire_binding() },
                 ],
             }),
+            vertices,
+            curvatures,
+            rigid_bone: head.rigid_bone,
+            front_z: bounds.map_or(0.0, |bounds| bounds.max.z),
+            per_depth: if depth > 0.0 { depth.recip() } else { 0.0 },
+            bone_boxes: bone_boxes(mesh, skinning, rigid_bone),
             center: bounds.map_or(Vec3::ZERO, |bounds| bounds.center()),
             center_bone,
         })
@@ -142,6 +158,33 @@ fn vertices(mesh: &Mesh) -> Vec<GpuVertex> {
         v: uv.y,
     })
     .collect()
+}
+
+/// A deformed vertex is a mean of what its bones make of it: it lies within the boxes of its bones, each moved by its
+/// bone, as long as weights of shapes stay within 0…1.
+fn bone_boxes(mesh: &Mesh, skinning: Option<&Skinning>, rigid_bone: usize) -> Vec<(usize, Bounds)> {
+    let mut boxes: Vec<Option<Bounds>> = Vec::new();
+    for (vertex, &position) in mesh.positions.iter().enumerate() {
+        let reach: Vec3 = (mesh.shapes.iter())
+            .filter_map(|shape| shape.positions.get(vertex))
+            .map(|offset| offset.abs())
+            .sum();
+        let around = Bounds { min: position - reach, max: position + reach };
+        let mut add = |bone: usize| {
+            if boxes.len() <= bone {
+                boxes.resize(bone + 1, None);
+            }
+            boxes[bone] = Some(boxes[bone].map_or(around, |b| b.union(around)));
+        };
+        match skinning.and_then(|s| s.bones.get(vertex).zip(s.weights.get(vertex))) {
+            Some((bones, weights)) => {
+                let moving = bones.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
+                moving.for_each(|(bone, _)| add((*bone).into()));
+            }
+            None => add(rigid_bone),
+        }
+    }
+    boxes.into_iter().enumerate().filter_map(|(bone, b)| Some((bone, b?))).collect()
 }
 
 fn shape_offsets(mesh: &Mesh) -> Vec<GpuShapeOffset> {
@@ -160,7 +203,26 @@ fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
 
 /// A storage buffer. WebGPU binds no empty buffers: an empty one gets a zero element that no shader reads.
 fn storage<T: Pod>(device: &wgpu::Device, values: &[T], label: &str, what: &str) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::STORAGE;
+    filled(device, values, label, what, wgpu::BufferUsages::STORAGE)
+}
+
+/// The same, for passes that draw from it as well.
+fn storage_and_vertices<T: Pod>(
+    device: &wgpu::Device,
+    values: &[T],
+    label: &str,
+    what: &str,
+) -> wgpu::Buffer {
+    filled(device, values, label, what, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX)
+}
+
+fn filled<T: Pod>(
+    device: &wgpu::Device,
+    values: &[T],
+    label: &str,
+    what: &str,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
     match values {
         [] => buffer(device, &[T::zeroed()], label, what, usage),
         values => buffer(device, values, label, what, usage),

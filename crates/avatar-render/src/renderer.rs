@@ -1,8 +1,14 @@
 use crate::color::srgb_from_linear;
-use crate::drawable::{DRAW_ORDER, Drawable, Layouts, pipeline};
-use crate::frame::{FrameRing, GpuFrame};
-use crate::model::ModelPart;
-use crate::{AvatarModel, AvatarState, Scene, Targets};
+use crate::deformer::Deformer;
+use crate::frame::{GpuFrame, Ring, SHADOW_COUNT};
+use crate::passes::{Drawable, FRAME_PASSES, draw_order};
+use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, view_group};
+use crate::record::Frame;
+use crate::resources::Resources;
+use crate::shadows::ShadowViews;
+use crate::{AvatarModel, AvatarState, PassTimer, Scene, Shading, Targets};
+use avatar_mesh::Bounds;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a renderer draws into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +18,8 @@ pub struct RendererConfig {
     pub color_format: wgpu::TextureFormat,
     /// Samples per pixel: 1 or 4.
     pub samples: u32,
+    /// How parts are shaded; see [`Quality::shading`](crate::Quality::shading).
+    pub shading: Shading,
 }
 
 impl RendererConfig {
@@ -52,8 +60,8 @@ pub enum DrawError {
         /// Position in the slice of avatars.
         avatar: usize,
     },
-    /// Targets that were made for another configuration.
-    #[error("expected targets made for this renderer, found those of another configuration")]
+    /// Targets that were made for another renderer.
+    #[error("expected targets made for this renderer, found those of another one")]
     TargetsOfAnotherRenderer,
     /// A view that cannot be drawn into with these targets.
     #[error(
@@ -75,27 +83,60 @@ pub enum DrawError {
     },
 }
 
+/// WGSL `ShadowView`: what the shadow pass of one lamp needs.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct GpuShadowView {
+    pub(crate) shadow_from_world: [[f32; 4]; 4],
+}
+
 /// Draws avatars into texture views of one format.
 #[derive(Debug)]
 pub struct Renderer {
+    id: u64,
     config: RendererConfig,
-    frames: FrameRing,
-    /// In the order of [`DRAW_ORDER`].
-    pipelines: [wgpu::RenderPipeline; DRAW_ORDER.len()],
+    pub(crate) resources: Resources,
+    layouts: Layouts,
+    pub(crate) deformer: Deformer,
+    pub(crate) passes: PassPipelines,
+    /// In the order of drawing.
+    pub(crate) picture: Vec<(Drawable, wgpu::RenderPipeline)>,
+    pub(crate) shadow_views: Ring<GpuShadowView>,
+    pub(crate) shadow_group: wgpu::BindGroup,
 }
 
 impl Renderer {
-    /// Builds the pipelines.
+    /// Builds the pipelines, tables and shadow maps.
     ///
     /// # Errors
     /// A number of samples or a format that not every device draws.
-    pub fn new(device: &wgpu::Device, config: RendererConfig) -> Result<Self, RendererError> {
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        config: RendererConfig,
+    ) -> Result<Self, RendererError> {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
         check_config(device, config)?;
-        let layouts = Layouts::new(device);
+        let resources = Resources::new(device, queue, config.shading.terms());
+        let layouts = Layouts::new(device, &resources.layout);
+        let shadow_views = Ring::new(device, "shadow views", SHADOW_COUNT as u32);
+        let shadow_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("shadow view"),
+            layout: &layouts.shadow,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: shadow_views.binding() }],
+        });
         Ok(Self {
+            id: NEXT.fetch_add(1, Ordering::Relaxed),
             config,
-            frames: FrameRing::new(device, &layouts.frame),
-            pipelines: DRAW_ORDER.map(|drawable| pipeline(device, &layouts, &drawable, config)),
+            deformer: Deformer::new(device),
+            passes: PassPipelines::new(device, &layouts, config),
+            picture: (draw_order(config.shading).into_iter())
+                .map(|drawable| (drawable, picture_pipeline(device, &layouts, &drawable, config)))
+                .collect(),
+            resources,
+            layouts,
+            shadow_views,
+            shadow_group,
         })
     }
 
@@ -104,10 +145,24 @@ impl Renderer {
         self.config
     }
 
+    /// Tells renderers apart.
+    pub(crate) fn id(&self) -> u64 {
+        self.id
+    }
+
+    pub(crate) fn view_group(
+        &self,
+        device: &wgpu::Device,
+        label: &str,
+        views: [&wgpu::TextureView; 4],
+    ) -> wgpu::BindGroup {
+        view_group(device, &self.layouts, &self.resources, label, views)
+    }
+
     /// Records one frame: clears `view`, then draws all avatars. Colours are premultiplied by alpha in the view.
     ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be recorded before a
-    /// submission.
+    /// submission; they share one environment, the last one's. A change of the environment takes some milliseconds.
     ///
     /// # Errors
     /// A view, targets or states that do not belong together; nothing is recorded then.
@@ -120,18 +175,50 @@ impl Renderer {
         scene: &Scene,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Result<(), DrawError> {
+        self.draw_timed(encoder, view, targets, queue, scene, avatars, None)
+    }
+
+    /// [`Renderer::draw`] that notes when each pass starts and ends.
+    ///
+    /// # Errors
+    /// As above.
+    #[allow(clippy::too_many_arguments, reason = "those of `draw` and one more")]
+    pub fn draw_timed(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &wgpu::TextureView,
+        targets: &Targets,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        timer: Option<&PassTimer>,
+    ) -> Result<(), DrawError> {
         self.check(view, targets, avatars)?;
-        let frame_offset = self.frames.push(queue, &GpuFrame::new(scene));
-        let mut pass = begin_pass(encoder, view, targets, self.clear_color(scene.background));
-        pass.set_bind_group(0, &self.frames.bind_group, &[frame_offset]);
-        for (drawable, pipeline) in DRAW_ORDER.iter().zip(&self.pipelines) {
-            pass.push_debug_group(drawable.label);
-            pass.set_pipeline(pipeline);
-            match drawable.is_transparent() {
-                false => draw_opaque(&mut pass, drawable, avatars),
-                true => draw_far_to_near(&mut pass, drawable, scene, avatars),
-            }
-            pass.pop_debug_group();
+        let terms = self.config.shading.terms();
+        let bounds = avatars.iter().filter_map(|(model, state)| state.bounds(model)).reduce(Bounds::union);
+        let height = avatars.first().map_or(1.0, |(model, _)| model.height);
+        let shadows = ShadowViews::new(&scene.light, bounds, terms.shadows);
+        let irradiance = self.resources.irradiance(queue, &scene.light.environment, terms);
+        let gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), height);
+        let frame = Frame {
+            renderer: self,
+            view,
+            targets,
+            scene,
+            avatars,
+            clear: self.clear_color(scene.background),
+            frame_offset: self.resources.frames.push(queue, &gpu_frame),
+            shadow_offsets: shadows.0.map(|view| {
+                let shadow_from_world = view.shadow_from_world.to_cols_array_2d();
+                self.shadow_views.push(queue, &GpuShadowView { shadow_from_world })
+            }),
+            timer,
+        };
+        for pass in FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms)) {
+            frame.record(encoder, pass);
+        }
+        if let Some(timer) = timer {
+            timer.finish(encoder);
         }
         Ok(())
     }
@@ -150,9 +237,7 @@ impl Renderer {
         targets: &Targets,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Result<(), DrawError> {
-        if targets.format != self.config.color_format
-            || targets.multisampled.is_some() != (self.config.samples > 1)
-        {
+        if targets.renderer != self.id {
             return Err(DrawError::TargetsOfAnotherRenderer);
         }
         let texture = view.texture();
@@ -160,13 +245,14 @@ impl Renderer {
         let size_fits = texture.mip_level_count() > 1
             || (texture.width() == targets.width && texture.height() == targets.height);
         // A view may differ from its texture in being sRGB.
-        let format_fits = texture.format().remove_srgb_suffix() == targets.format.remove_srgb_suffix();
+        let format_fits =
+            texture.format().remove_srgb_suffix() == self.config.color_format.remove_srgb_suffix();
         let drawable = texture.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
         if !(size_fits && format_fits && drawable && texture.sample_count() == 1) {
             return Err(DrawError::View {
                 width: targets.width,
                 height: targets.height,
-                format: targets.format,
+                format: self.config.color_format,
                 found_width: texture.width(),
                 found_height: texture.height(),
                 found_format: texture.format(),
@@ -193,82 +279,4 @@ fn check_config(device: &wgpu::Device, config: RendererConfig) -> Result<(), Ren
         true => Ok(()),
         false => Err(RendererError::Format { found: config.color_format, samples: config.samples }),
     }
-}
-
-fn begin_pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    view: &wgpu::TextureView,
-    targets: &Targets,
-    clear: wgpu::Color,
-) -> wgpu::RenderPass<'a> {
-    let (color, resolve, store) = match &targets.multisampled {
-        Some(multisampled) => (multisampled, Some(view), wgpu::StoreOp::Discard),
-        None => (view, None, wgpu::StoreOp::Store),
-    };
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("avatars"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: color,
-            depth_slice: None,
-            resolve_target: resolve,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store },
-        })],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &targets.depth,
-            // Depth is reversed: 0 is far.
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(0.0),
-                store: wgpu::StoreOp::Discard,
-            }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
-    })
-}
-
-fn draw_opaque(
-    pass: &mut wgpu::RenderPass<'_>,
-    drawable: &Drawable,
-    avatars: &[(&AvatarModel, &AvatarState)],
-) {
-    for group in avatars.chunk_by(|(a, _), (b, _)| std::ptr::eq(*a, *b)) {
-        let Some((model, _)) = group.first() else { continue };
-        for part in model.parts_of(drawable.kind) {
-            bind_part(pass, part);
-            for (_, state) in group {
-                draw_part(pass, part, state);
-            }
-        }
-    }
-}
-
-fn draw_far_to_near(
-    pass: &mut wgpu::RenderPass<'_>,
-    drawable: &Drawable,
-    scene: &Scene,
-    avatars: &[(&AvatarModel, &AvatarState)],
-) {
-    let eye = scene.camera.eye();
-    let mut parts: Vec<(f32, &ModelPart, &AvatarState)> = avatars
-        .iter()
-        .flat_map(|(model, state)| model.parts_of(drawable.kind).map(move |part| (part, *state)))
-        .map(|(part, state)| (state.center_of(&part.geometry).distance_squared(eye), part, state))
-        .collect();
-    parts.sort_by(|(a, ..), (b, ..)| b.total_cmp(a));
-    for (_, part, state) in parts {
-        bind_part(pass, part);
-        draw_part(pass, part, state);
-    }
-}
-
-fn bind_part(pass: &mut wgpu::RenderPass<'_>, part: &ModelPart) {
-    pass.set_bind_group(2, &part.geometry.bind_group, &[]);
-    pass.set_bind_group(3, &part.look, &[]);
-    pass.set_index_buffer(part.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-}
-
-fn draw_part(pass: &mut wgpu::RenderPass<'_>, part: &ModelPart, state: &AvatarState) {
-    pass.set_bind_group(1, &state.bind_group, &[]);
-    pass.insert_debug_marker(&part.label);
-    pass.draw_indexed(0..part.geometry.index_count, 0, 0..1);
 }

@@ -1,7 +1,10 @@
 use crate::AvatarModel;
+use crate::deformer::{GpuDeformedVertex, deformed_layout};
+use crate::model::ModelPart;
 use crate::part::Geometry;
+use avatar_mesh::Bounds;
 use bytemuck::Zeroable;
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 /// WGSL `Bone`: the rows of a bone matrix.
@@ -32,9 +35,40 @@ pub struct AvatarState {
     bones: Vec<GpuBone>,
     active_shapes: Vec<GpuActiveShape>,
     shape_count: usize,
-    bone_buffer: wgpu::Buffer,
+    /// Also read by eyeballs, which turn the view back to bind pose.
+    pub(crate) bone_buffer: wgpu::Buffer,
     shape_buffer: wgpu::Buffer,
     pub(crate) bind_group: wgpu::BindGroup,
+    /// What the deform pass makes of each part of the model.
+    pub(crate) posed: Vec<PosedPart>,
+}
+
+/// A part in its pose of now, on the GPU.
+#[derive(Debug)]
+pub(crate) struct PosedPart {
+    pub(crate) vertex_count: u32,
+    /// [`GpuDeformedVertex`](crate::deformer::GpuDeformedVertex) per vertex.
+    pub(crate) vertices: wgpu::Buffer,
+    pub(crate) output: wgpu::BindGroup,
+}
+
+impl PosedPart {
+    fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, part: &ModelPart) -> Self {
+        let vertex_count = part.geometry.vertex_count;
+        let vertices = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(&format!("{}: deformed vertices", part.label)),
+            // WebGPU binds no empty buffers.
+            size: u64::from(vertex_count.max(1)) * size_of::<GpuDeformedVertex>() as u64,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        let output = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&format!("{}: deformed vertices", part.label)),
+            layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: vertices.as_entire_binding() }],
+        });
+        Self { vertex_count, vertices, output }
+    }
 }
 
 /// Why a state could not be set.
@@ -62,7 +96,7 @@ pub enum StateError {
 pub(crate) fn avatar_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let entry = |binding| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE,
+        visibility: wgpu::ShaderStages::COMPUTE,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: true },
             has_dynamic_offset: false,
@@ -86,8 +120,10 @@ impl AvatarState {
         let bone_buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("avatar: bones"),
             contents: bytemuck::cast_slice(initial),
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
         });
+        let output_layout = deformed_layout(device);
+        let posed = model.parts.iter().map(|part| PosedPart::new(device, &output_layout, part)).collect();
         let room = model.shape_count().max(1) * size_of::<GpuActiveShape>();
         let shape_buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("avatar: active shapes"),
@@ -111,6 +147,7 @@ impl AvatarState {
             bone_buffer,
             shape_buffer,
             bind_group,
+            posed,
         }
     }
 
@@ -150,7 +187,19 @@ impl AvatarState {
 
     /// Whether this state was made for a model of the same size.
     pub(crate) fn fits(&self, model: &AvatarModel) -> bool {
-        self.bones.len() == model.palette_len() && self.shape_count == model.shape_count()
+        let of_state = self.posed.iter().map(|part| part.vertex_count);
+        let of_model = model.parts.iter().map(|part| part.geometry.vertex_count);
+        self.bones.len() == model.palette_len()
+            && self.shape_count == model.shape_count()
+            && of_state.eq(of_model)
+    }
+
+    /// A box around the avatar as it is now.
+    pub(crate) fn bounds(&self, model: &AvatarModel) -> Option<Bounds> {
+        let boxes = model.parts.iter().flat_map(|part| &part.geometry.bone_boxes);
+        boxes
+            .filter_map(|(bone, bounds)| self.bones.get(*bone).map(|bone| bone.moved(*bounds)))
+            .reduce(Bounds::union)
     }
 
     /// Where the middle of a part is now, roughly.
@@ -162,6 +211,14 @@ impl AvatarState {
 }
 
 impl GpuBone {
+    /// The box around a box that this bone moves.
+    fn moved(&self, bounds: Bounds) -> Bounds {
+        let (center, half) = (bounds.center().extend(1.0), (bounds.size() * 0.5).extend(0.0));
+        let center = Vec3::from_array(self.rows.map(|row| center.dot(row.into())));
+        let half = Vec3::from_array(self.rows.map(|row| half.dot(Vec4::from(row).abs())));
+        Bounds { min: center - half, max: center + half }
+    }
+
     fn new(posed_from_bind: &Affine3A) -> Self {
         let columns = posed_from_bind.matrix3.transpose();
         let t = posed_from_bind.translation;

@@ -2,15 +2,34 @@ use crate::Renderer;
 
 /// The depth buffer's format; nothing beyond WebGPU's core.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Normals of the picture, 0…1.
+pub(crate) const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// How much ambient light arrives.
+pub(crate) const OCCLUSION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+/// Light under the skin.
+pub(crate) const SKIN_LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
-/// Depth, and multisampled colour where there are several samples, for pictures of one size.
+/// Depth, multisampled colour where there are several samples, and what earlier passes of a frame leave for later ones,
+/// for pictures of one size by one renderer.
 #[derive(Debug)]
 pub struct Targets {
+    pub(crate) renderer: u64,
     pub(crate) width: u32,
     pub(crate) height: u32,
-    pub(crate) format: wgpu::TextureFormat,
     pub(crate) depth: wgpu::TextureView,
     pub(crate) multisampled: Option<wgpu::TextureView>,
+    /// One sample a pixel; a single pixel where no pass needs them.
+    pub(crate) single_depth: wgpu::TextureView,
+    pub(crate) normals: wgpu::TextureView,
+    pub(crate) occlusion: wgpu::TextureView,
+    pub(crate) skin_light: wgpu::TextureView,
+    pub(crate) scattered: wgpu::TextureView,
+    /// What passes read, each without what it writes.
+    pub(crate) for_prepass: wgpu::BindGroup,
+    pub(crate) for_occlusion: wgpu::BindGroup,
+    pub(crate) for_skin_light: wgpu::BindGroup,
+    pub(crate) for_scattering: wgpu::BindGroup,
+    pub(crate) for_picture: wgpu::BindGroup,
 }
 
 /// A picture size that the device cannot draw.
@@ -41,7 +60,11 @@ impl Targets {
             return Err(SizeError { width, height, limit });
         }
         let config = renderer.config();
-        let attachment = |label, format, sample_count| {
+        let terms = config.shading.terms();
+        let attachment = |label, format, sample_count, needed: bool, is_read: bool| {
+            let (width, height) = if needed { (width, height) } else { (1, 1) };
+            let read =
+                if is_read { wgpu::TextureUsages::TEXTURE_BINDING } else { wgpu::TextureUsages::empty() };
             let texture = device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
                 size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -49,19 +72,43 @@ impl Targets {
                 sample_count,
                 dimension: wgpu::TextureDimension::D2,
                 format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | read,
                 view_formats: &[],
             });
             texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() })
         };
         let several = config.samples > 1;
+        let (prepass, separable) = (terms.prepass(), terms.separable());
+        let single_depth = attachment("depth, one sample", DEPTH_FORMAT, 1, prepass, true);
+        let normals = attachment("normals", NORMAL_FORMAT, 1, prepass, true);
+        let occlusion = attachment("ambient occlusion", OCCLUSION_FORMAT, 1, terms.occlusion, true);
+        let skin_light = attachment("light on skin", SKIN_LIGHT_FORMAT, 1, separable, true);
+        let scattered = attachment("light on skin, scattered", SKIN_LIGHT_FORMAT, 1, separable, true);
+        // Bound in the place of what the pass itself writes.
+        let no_occlusion = attachment("nothing", OCCLUSION_FORMAT, 1, false, true);
+        let no_light = attachment("nothing", SKIN_LIGHT_FORMAT, 1, false, true);
+        let no_depth = attachment("nothing", DEPTH_FORMAT, 1, false, true);
+        let group = |label, occlusion, light| {
+            renderer.view_group(device, label, [&single_depth, &normals, occlusion, light])
+        };
+        let nothing = [&no_depth, &no_light, &no_occlusion, &no_light];
         Ok(Self {
+            renderer: renderer.id(),
             width,
             height,
-            format: config.color_format,
-            depth: attachment("depth", DEPTH_FORMAT, config.samples),
+            depth: attachment("depth", DEPTH_FORMAT, config.samples, true, false),
             multisampled: several
-                .then(|| attachment("multisampled color", config.color_format, config.samples)),
+                .then(|| attachment("multisampled color", config.color_format, config.samples, true, false)),
+            for_prepass: renderer.view_group(device, "view: for depth and normals", nothing),
+            for_occlusion: group("view: for occlusion", &no_occlusion, &no_light),
+            for_skin_light: group("view: for light on skin", &occlusion, &no_light),
+            for_scattering: group("view: for scattering", &occlusion, &skin_light),
+            for_picture: group("view: for the picture", &occlusion, &scattered),
+            single_depth,
+            normals,
+            occlusion,
+            skin_light,
+            scattered,
         })
     }
 

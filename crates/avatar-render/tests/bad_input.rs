@@ -7,7 +7,7 @@ use avatar_mesh::{Mesh, PartKind};
 use avatar_render::headless::{Canvas, GpuOptions, NoAdapter, open_blocking};
 use avatar_render::{
     AvatarModel, AvatarState, DrawError, Image, ModelError, PartBones, PartDesc, PartProblem, PartTextures,
-    Renderer, RendererConfig, RendererError, Targets,
+    Renderer, RendererConfig, RendererError, Shading, Targets,
 };
 use common::{Random, ball, gpu, part, random_mesh, scene, square};
 use glam::{Affine3A, Vec3};
@@ -100,7 +100,7 @@ fn a_texture_beyond_the_limit_is_shrunk() {
     let parts = [part(&mesh, PartKind::Skin, textures)];
     let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, 1).expect("a model");
     let state = AvatarState::new(&gpu.device, &model);
-    let canvas = Canvas::new(gpu, 16, 16, 1).expect("a canvas");
+    let canvas = Canvas::new(gpu, 16, 16, 1, Shading::Plain).expect("a canvas");
     let [r, g, ..] = canvas.render(gpu, &scene(4.0), &[(&model, &state)]).expect("a picture").pixel(8, 8);
     assert!(g > 2 * r);
 }
@@ -119,7 +119,7 @@ fn a_model_without_parts_or_bones_draws_nothing() {
     let model = AvatarModel::new(&gpu.device, &gpu.queue, &[], 0).expect("a model");
     let mut state = AvatarState::new(&gpu.device, &model);
     state.set(&gpu.queue, &[], &[]).expect("lengths fit");
-    let canvas = Canvas::new(gpu, 4, 4, 1).expect("a canvas");
+    let canvas = Canvas::new(gpu, 4, 4, 1, Shading::Plain).expect("a canvas");
     assert!(canvas.render(gpu, &scene(4.0), &[(&model, &state)]).is_ok());
 }
 
@@ -127,8 +127,12 @@ fn a_model_without_parts_or_bones_draws_nothing() {
 fn formats_that_cannot_be_drawn_are_errors() {
     let Some(gpu) = gpu() else { return };
     let build = |color_format, samples| {
-        Renderer::new(&gpu.device, RendererConfig { color_format, samples })
-            .map(|renderer| renderer.config().samples)
+        Renderer::new(
+            &gpu.device,
+            &gpu.queue,
+            RendererConfig { color_format, samples, shading: Shading::Plain },
+        )
+        .map(|renderer| renderer.config().samples)
     };
     for format in [
         TextureFormat::Depth32Float,
@@ -153,7 +157,12 @@ fn things_that_do_not_belong_together_are_refused() {
     let Some(gpu) = gpu() else { return };
     let format = TextureFormat::Rgba8UnormSrgb;
     let renderer = |samples| {
-        Renderer::new(&gpu.device, RendererConfig { color_format: format, samples }).expect("a renderer")
+        Renderer::new(
+            &gpu.device,
+            &gpu.queue,
+            RendererConfig { color_format: format, samples, shading: Shading::Plain },
+        )
+        .expect("a renderer")
     };
     let (one, four) = (renderer(1), renderer(4));
     let targets = Targets::new(&gpu.device, &one, 8, 8).expect("targets");
@@ -200,7 +209,7 @@ fn numbers_that_are_not_finite_draw_something_or_nothing_but_never_fail() {
     let parts = [PartKind::Skin, PartKind::Cornea].map(|kind| part(&mesh, kind, PartTextures::default()));
     let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, 1).expect("a model");
     let mut state = AvatarState::new(&gpu.device, &model);
-    let canvas = Canvas::new(gpu, 8, 8, 1).expect("a canvas");
+    let canvas = Canvas::new(gpu, 8, 8, 1, Shading::Plain).expect("a canvas");
     for bad in [f32::NAN, f32::INFINITY, 1e38] {
         state.set(&gpu.queue, &[Affine3A::from_translation(Vec3::splat(bad))], &[]).expect("lengths fit");
         let mut scene = scene(bad);

@@ -7,7 +7,7 @@ use avatar_mesh::{Mesh, PartKind};
 use avatar_render::headless::{Canvas, RenderImageError, render_image};
 use avatar_render::{
     AvatarModel, AvatarState, Camera, Image, Lamp, Material, PartBones, PartDesc, PartTextures, Renderer,
-    RendererConfig, RendererError, Scene, Targets,
+    RendererConfig, RendererError, Scene, Shading, Targets,
 };
 use common::{ball, flat_light, gpu, largest_difference, model, part, plain, scene, square};
 use glam::{Affine3A, Vec3};
@@ -251,7 +251,7 @@ fn two_avatars_of_one_model_have_their_own_states() {
     let at = |x: f32| [Affine3A::from_translation(Vec3::new(x, 0.0, 0.0))];
     small.set(&gpu.queue, &at(-1.2), &[0.0]).expect("lengths fit");
     large.set(&gpu.queue, &at(1.2), &[1.0]).expect("lengths fit");
-    let canvas = Canvas::new(gpu, 128, 64, 1).expect("a canvas");
+    let canvas = Canvas::new(gpu, 128, 64, 1, Shading::Plain).expect("a canvas");
     let scene = Scene { camera: Camera::orbit(Vec3::ZERO, 8.0, 0.0, 0.0, 0.5, 2.0), ..scene(8.0) };
     let both = canvas.render(gpu, &scene, &[(&model, &small), (&model, &large)]).expect("a picture");
     let covered = |columns: std::ops::Range<u32>| {
@@ -273,7 +273,7 @@ fn the_order_of_avatars_and_parts_does_not_matter() {
     let place = |x: f32, z: f32| [Affine3A::from_translation(Vec3::new(x, 0.0, z))];
     near.set(&gpu.queue, &place(-0.3, 1.0), &[]).expect("lengths fit");
     far.set(&gpu.queue, &place(0.4, -1.0), &[]).expect("lengths fit");
-    let canvas = Canvas::new(gpu, SIZE, SIZE, 4).expect("a canvas");
+    let canvas = Canvas::new(gpu, SIZE, SIZE, 4, Shading::Plain).expect("a canvas");
     let draw = |avatars: &[(&AvatarModel, &AvatarState)]| {
         canvas.render(gpu, &scene(6.0), avatars).expect("a picture")
     };
@@ -298,8 +298,8 @@ fn targets_without_srgb_get_encoded_colours() {
     let scene = Scene { background: [0.1, 0.3, 0.6, 1.0], ..scene(4.0) };
     let expected = render_image(gpu, SIZE, SIZE, 1, &scene, &[(&model, &state)]).expect("a picture");
     let format = wgpu::TextureFormat::Rgba8Unorm;
-    let config = RendererConfig { color_format: format, samples: 1 };
-    let renderer = Renderer::new(&gpu.device, config).expect("a renderer");
+    let config = RendererConfig { color_format: format, samples: 1, shading: Shading::Plain };
+    let renderer = Renderer::new(&gpu.device, &gpu.queue, config).expect("a renderer");
     let targets = Targets::new(&gpu.device, &renderer, SIZE, SIZE).expect("targets");
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: None,

@@ -1,4 +1,5 @@
 use crate::face_args::FaceArgs;
+use crate::look_args::LookArgs;
 use crate::scene::{BACKGROUND, SAMPLES, View};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::fmt;
@@ -8,7 +9,7 @@ use std::str::FromStr;
 /// Shows a rigged face in a window, and does the same without one.
 ///
 /// PACK is a folder in the raw format: Transformations.xml, a vertex and an index buffer for each of the seven parts,
-/// textures, and optionally controls.toml and poses.toml. Without PACK the built-in avatar is used. Without a verb a
+/// textures, and optionally controls.toml, poses.toml and materials.toml. Without PACK the built-in avatar is used. Without a verb a
 /// window opens; a folder whose name is that of a verb is given as ./NAME.
 ///
 /// Exit status: 0 on success, 2 on wrong usage, 1 on any other failure.
@@ -27,6 +28,8 @@ pub(crate) struct WindowArgs {
     pub(crate) pack: PackArg,
     #[command(flatten)]
     pub(crate) face: FaceArgs,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
     /// Size of the window's picture in pixels
     #[arg(long, default_value = "1280x720", value_name = "WIDTHxHEIGHT")]
     pub(crate) size: Size,
@@ -62,6 +65,8 @@ pub(crate) struct RenderArgs {
     pub(crate) pack: PackArg,
     #[command(flatten)]
     pub(crate) face: FaceArgs,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
     /// The picture, a PNG
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
@@ -89,6 +94,8 @@ pub(crate) struct RenderArgs {
 pub(crate) struct SheetArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
     /// The picture, a PNG
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,

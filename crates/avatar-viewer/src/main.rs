@@ -7,6 +7,7 @@ mod cli;
 mod face_args;
 mod files;
 mod label;
+mod look_args;
 mod offscreen;
 mod output;
 mod scene;

@@ -1,5 +1,6 @@
 use crate::cli::Size;
 use crate::face_args::FaceChoice;
+use crate::look_args::LookArgs;
 use crate::scene::{self, View};
 use anyhow::{Context, Result, bail};
 use avatar_mesh::Deformed;
@@ -23,17 +24,18 @@ pub(crate) struct Offscreen {
     avatar: AvatarState,
     state: FaceState,
     samples: u32,
+    look: LookArgs,
     canvas: Option<(Size, Canvas)>,
 }
 
 impl Offscreen {
     /// Opens the best adapter and uploads the avatar.
-    pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32) -> Result<Self> {
+    pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let gpu = open_blocking(GpuOptions::default())?;
         let model = scene::upload(pack, textures, &gpu.device, &gpu.queue)?;
         let avatar = AvatarState::new(&gpu.device, &model);
         check(&gpu)?;
-        Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, canvas: None })
+        Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, look, canvas: None })
     }
 
     /// The adapter, for people.
@@ -60,9 +62,12 @@ impl Offscreen {
         self.pose(pack, face)?;
         let canvas = match self.canvas.take_if(|(old, _)| *old == size) {
             Some((_, canvas)) => canvas,
-            None => Canvas::new(&self.gpu, size.width, size.height, self.samples)?,
+            None => {
+                let shading = self.look.shading(&self.gpu.info);
+                Canvas::new(&self.gpu, size.width, size.height, self.samples, shading)?
+            }
         };
-        let scene = scene::scene(pack, view, size.width, size.height, background);
+        let scene = scene::scene(pack, view, size.width, size.height, background, self.look.light());
         let picture = canvas.render(&self.gpu, &scene, &[(&self.model, &self.avatar)])?;
         self.canvas = Some((size, canvas));
         RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")

@@ -1,6 +1,7 @@
 //! From a pack to what the renderer takes, the same for pictures and for the window.
 
 use anyhow::Result;
+use avatar_look::Materials;
 use avatar_mesh::{Bounds, PartKind};
 use avatar_pack::{Pack, Texture, Textures};
 use avatar_render::{
@@ -34,7 +35,14 @@ impl View {
 }
 
 /// The picture's camera, light and background. `background` is sRGB with straight alpha.
-pub(crate) fn scene(pack: &Pack, view: View, width: u32, height: u32, background: [u8; 4]) -> Scene {
+pub(crate) fn scene(
+    pack: &Pack,
+    view: View,
+    width: u32,
+    height: u32,
+    background: [u8; 4],
+    light: Light,
+) -> Scene {
     let bounds = pack.bounds().unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
     let aspect = width.max(1) as f32 / height.max(1) as f32;
     let fov = VERTICAL_FOV_DEGREES.to_radians();
@@ -46,7 +54,7 @@ pub(crate) fn scene(pack: &Pack, view: View, width: u32, height: u32, background
     let whole_head = Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
     let (yaw, pitch) = (view.yaw_degrees.to_radians(), view.pitch_degrees.to_radians());
     let camera = Camera::orbit(bounds.center(), whole_head * view.distance, yaw, pitch, fov, aspect);
-    Scene { camera, background: linear_from_srgb8(background), light: Light::default() }
+    Scene { camera, background: linear_from_srgb8(background), light }
 }
 
 /// Uploads the pack's meshes and textures.
@@ -63,8 +71,14 @@ pub(crate) fn upload(
             rgba: image.as_raw().clone(),
         })
     };
-    let skin =
-        [Texture::SkinColor, Texture::SkinOcclusion, Texture::SkinGloss, Texture::SkinNormal].map(image);
+    let skin = [
+        Texture::SkinColor,
+        Texture::SkinOcclusion,
+        Texture::SkinGloss,
+        Texture::SkinNormal,
+        Texture::SkinThickness,
+    ]
+    .map(image);
     let (eye, teeth) = (image(Texture::Eye(0)), image(Texture::Teeth));
     let textures_of = |kind| match kind {
         PartKind::Skin => PartTextures {
@@ -72,6 +86,7 @@ pub(crate) fn upload(
             occlusion: skin[1].as_ref(),
             gloss: skin[2].as_ref(),
             normal: skin[3].as_ref(),
+            thickness: skin[4].as_ref(),
         },
         PartKind::Teeth => PartTextures { color: teeth.as_ref(), ..PartTextures::default() },
         PartKind::Eyeball => PartTextures { color: eye.as_ref(), ..PartTextures::default() },
@@ -86,5 +101,14 @@ pub(crate) fn upload(
             textures: textures_of(part.spec.kind),
         })
         .collect();
-    Ok(AvatarModel::new(device, queue, &parts, pack.palette.len())?)
+    let model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
+    set_materials(pack, &pack.materials, &model, queue);
+    Ok(model)
+}
+
+/// Gives the parts their looks.
+pub(crate) fn set_materials(pack: &Pack, materials: &Materials, model: &AvatarModel, queue: &wgpu::Queue) {
+    for (index, part) in pack.parts.iter().enumerate() {
+        model.set_material(queue, index, &materials.of(part.spec.name, part.spec.kind));
+    }
 }

@@ -2,8 +2,8 @@ use super::Gpu;
 use crate::color::{linear_table, srgb8_from_linear};
 use crate::readback::{ReadbackError, mapped};
 use crate::{
-    AvatarModel, AvatarState, DrawError, Image, Renderer, RendererConfig, RendererError, Scene, SizeError,
-    Targets,
+    AvatarModel, AvatarState, DrawError, Image, Quality, Renderer, RendererConfig, RendererError, Scene,
+    Shading, SizeError, Style, Targets,
 };
 
 /// Why there is no picture.
@@ -48,9 +48,16 @@ impl Canvas {
     ///
     /// # Errors
     /// A size or number of samples that the device cannot draw.
-    pub fn new(gpu: &Gpu, width: u32, height: u32, samples: u32) -> Result<Self, RenderImageError> {
+    pub fn new(
+        gpu: &Gpu,
+        width: u32,
+        height: u32,
+        samples: u32,
+        shading: Shading,
+    ) -> Result<Self, RenderImageError> {
         let device = &gpu.device;
-        let renderer = Renderer::new(device, RendererConfig { color_format: FORMAT, samples })?;
+        let config = RendererConfig { color_format: FORMAT, samples, shading };
+        let renderer = Renderer::new(device, &gpu.queue, config)?;
         let targets = Targets::new(device, &renderer, width, height)?;
         let color = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
@@ -127,7 +134,7 @@ impl Canvas {
     }
 }
 
-/// Draws one picture: straight alpha, sRGB. Two calls with equal arguments give equal bytes on one machine.
+/// Draws one picture: straight alpha, sRGB, in the quality that the adapter draws fluently. Two calls with equal arguments give equal bytes on one machine.
 ///
 /// # Errors
 /// A size, samples or avatars that cannot be drawn, or a lost device.
@@ -140,7 +147,8 @@ pub fn render_image(
     scene: &Scene,
     avatars: &[(&AvatarModel, &AvatarState)],
 ) -> Result<Image, RenderImageError> {
-    Canvas::new(gpu, width, height, samples)?.render(gpu, scene, avatars)
+    let shading = Quality::of_adapter(&gpu.info).shading(Style::Natural);
+    Canvas::new(gpu, width, height, samples, shading)?.render(gpu, scene, avatars)
 }
 
 /// The target holds colours times alpha, encoded after the product.

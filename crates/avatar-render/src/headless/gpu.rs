@@ -172,7 +172,10 @@ async fn open_with(
     if let Some(missing) = missing {
         return Err(missing);
     }
-    let descriptor = wgpu::DeviceDescriptor { label: Some("avatars"), ..Default::default() };
+    // Nothing needs timestamps, but where there are some, passes can be measured.
+    let required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+    let descriptor =
+        wgpu::DeviceDescriptor { label: Some("avatars"), required_features, ..Default::default() };
     let (device, queue) = adapter
         .request_device(&descriptor)
         .await

@@ -5,7 +5,8 @@
 use avatar_mesh::{Mesh, PartKind, Shape, Skinning};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Image, Lamp, Light, PartBones, PartDesc, PartTextures, Scene,
+    AvatarModel, AvatarState, Camera, Environment, Image, Lamp, Light, PartBones, PartDesc, PartTextures,
+    Quality, Scene, Shading, Style, ToneMap,
 };
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use std::io::Write as _;
@@ -151,7 +152,8 @@ pub(crate) fn scene(distance: f32) -> Scene {
 /// White light from everywhere, alike: colours come out as the textures have them (but for tone mapping).
 pub(crate) fn flat_light() -> Light {
     let off = Lamp { direction_world: Vec3::Z, radiance: [0.0; 3] };
-    Light { key: off, fill: off, rim: off, sky: [0.7; 3], ground: [0.7; 3], exposure: 1.0 }
+    let environment = Environment::uniform([0.7; 3]);
+    Light { key: off, fill: off, rim: off, environment, exposure: 1.0, tone_map: ToneMap::Neutral }
 }
 
 /// A picture of one colour.
@@ -163,4 +165,16 @@ pub(crate) fn plain(rgba: [u8; 4]) -> Image {
 pub(crate) fn largest_difference(a: &Image, b: &Image) -> u8 {
     assert_eq!((a.width, a.height), (b.width, b.height));
     a.rgba.iter().zip(&b.rgba).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+}
+
+/// Every shading that users choose, by name.
+pub(crate) fn shadings() -> [(&'static str, Shading); 5] {
+    let natural = |quality: Quality| quality.shading(Style::Natural);
+    [
+        ("plain", natural(Quality::Plain)),
+        ("low", natural(Quality::Low)),
+        ("medium", natural(Quality::Medium)),
+        ("high", natural(Quality::High)),
+        ("toon", Quality::High.shading(Style::Toon)),
+    ]
 }

@@ -1,4 +1,5 @@
 use crate::cli::DeformArgs;
+use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
 use crate::usage::unknown;
@@ -17,7 +18,7 @@ pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     let face = args.face.resolve(&pack, matches)?;
 
     let deformed = if args.gpu {
-        let mut offscreen = Offscreen::open(&pack, &Textures::default(), 1)?;
+        let mut offscreen = Offscreen::open(&pack, &Textures::default(), 1, LookArgs::default())?;
         eprintln!("adapter: {}", offscreen.adapter());
         offscreen.deform(&pack, &face, index)?
     } else {

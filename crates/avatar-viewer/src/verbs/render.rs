@@ -12,7 +12,7 @@ pub(super) fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<()> {
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
     let textures = files.load_textures();
-    let mut offscreen = Offscreen::open(&pack, &textures, args.samples)?;
+    let mut offscreen = Offscreen::open(&pack, &textures, args.samples, args.look)?;
 
     let mut view = args.view.view();
     view.yaw_degrees = args.yaw.unwrap_or(view.yaw_degrees);

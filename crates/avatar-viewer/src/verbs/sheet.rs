@@ -20,7 +20,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let textures = files.load_textures();
-    let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES)?;
+    let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, args.look)?;
 
     let poses: Vec<_> = pack.poses.iter().collect();
     if poses.is_empty() {

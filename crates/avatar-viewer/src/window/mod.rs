@@ -6,6 +6,7 @@ mod stage;
 use crate::cli::WindowArgs;
 use crate::face_args::FaceChoice;
 use crate::files::Files;
+use crate::look_args::LookArgs;
 use crate::scene::View;
 use anyhow::{Context, Result, anyhow};
 use avatar_pack::{FaceState, Pack, Textures};
@@ -48,6 +49,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         state: FaceState::new(&pack),
         pack,
         textures,
+        look: args.look,
         player,
         start: Some(start),
         view: View::FRONT,
@@ -76,6 +78,7 @@ struct App {
     size: PhysicalSize<u32>,
     pack: Pack,
     textures: Textures,
+    look: LookArgs,
     player: Player,
     state: FaceState,
     /// The face of the command line, with its single controls and joints; until a pose is pressed.
@@ -136,8 +139,13 @@ impl App {
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         let attributes = Window::default_attributes().with_title(&self.title).with_inner_size(self.size);
         let window = event_loop.create_window(attributes).context("expected a window, found none")?;
-        let stage =
-            Stage::open(Arc::new(window), event_loop.owned_display_handle(), &self.pack, &self.textures)?;
+        let stage = Stage::open(
+            Arc::new(window),
+            event_loop.owned_display_handle(),
+            &self.pack,
+            &self.textures,
+            self.look,
+        )?;
         self.stage = Some(stage);
         self.redraw();
         Ok(())

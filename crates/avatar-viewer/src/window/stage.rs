@@ -1,3 +1,4 @@
+use crate::look_args::LookArgs;
 use crate::scene::{self, BACKGROUND, SAMPLES, View};
 use anyhow::{Context, Result, bail};
 use avatar_pack::{FaceState, Pack, Textures};
@@ -20,6 +21,7 @@ pub(super) struct Stage {
     targets: Option<Targets>,
     model: AvatarModel,
     avatar: AvatarState,
+    look: LookArgs,
 }
 
 impl Stage {
@@ -28,6 +30,7 @@ impl Stage {
         display: OwnedDisplayHandle,
         pack: &Pack,
         textures: &Textures,
+        look: LookArgs,
     ) -> Result<Self> {
         let instance =
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
@@ -45,11 +48,12 @@ impl Stage {
         config.present_mode = wgpu::PresentMode::Fifo;
 
         let device = &gpu.device;
-        let renderer =
-            Renderer::new(device, RendererConfig { color_format: config.format, samples: SAMPLES })?;
+        let shading = look.shading(&gpu.info);
+        let renderer_config = RendererConfig { color_format: config.format, samples: SAMPLES, shading };
+        let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
         let model = scene::upload(pack, textures, device, &gpu.queue)?;
         let avatar = AvatarState::new(device, &model);
-        let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar };
+        let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar, look };
         stage.resize(size)?;
         Ok(stage)
     }
@@ -107,7 +111,7 @@ impl Stage {
         let Some(targets) = &self.targets else { return Ok(()) };
         let (width, height) = (self.config.width, self.config.height);
         self.avatar.set(&self.gpu.queue, state.bones(), state.weights())?;
-        let scene = scene::scene(pack, view, width, height, BACKGROUND);
+        let scene = scene::scene(pack, view, width, height, BACKGROUND, self.look.light());
         let label = Some("frame");
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
         let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());

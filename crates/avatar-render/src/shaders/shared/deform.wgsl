@@ -1,4 +1,4 @@
-// Blend shapes, then bones: the one place where vertices move. Vertex stages and compute passes call `deform_vertex`;
+// Blend shapes, then bones: the one place where vertices move. The deform pass calls `deform_vertex`;
 // its twin on the CPU is avatar_mesh::deform.
 //
 //   v_blend = v + sum_k b_k d_k         v_out = sum_i w_i X_i v_blend

@@ -1,4 +1,4 @@
-// Group 2: the geometry of one part, shared by all avatars of a model.
+// The geometry of one part for the deform pass, shared by all avatars of a model.
 
 struct Part {
     vertex_count: u32,
@@ -6,9 +6,6 @@ struct Part {
     // The bone of a part that is rigid; not read where vertices have bones of their own.
     rigid_bone: u32,
     has_vertex_bones: u32,
-    // Largest z at bind pose (the face looks along +Z), and 1 / (largest - smallest).
-    front_z: f32,
-    per_depth: f32,
 }
 
 struct Vertex {

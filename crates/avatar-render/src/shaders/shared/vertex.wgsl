@@ -1,22 +1,37 @@
-// The vertex stage of every kind of part.
+// The vertex stage of every pass: vertices come deformed.
+
+struct VertexIn {
+    @location(0) bind_position_u: vec4f,
+    @location(1) bind_normal_v: vec4f,
+    @location(2) position_world: vec3f,
+    @location(3) normal_world: vec3f,
+    // 1 / radius of the surface at bind pose.
+    @location(4) curvature: f32,
+}
 
 struct VertexOut {
-    @builtin(position) position_clip: vec4f,
+    // Several passes compare depths of the same vertex.
+    @invariant @builtin(position) position_clip: vec4f,
     @location(0) position_world: vec3f,
     @location(1) normal_world: vec3f,
     @location(2) uv: vec2f,
     // Where the vertex lies in its part at bind pose: 0 at the front of the face, 1 at the back.
     @location(3) depth: f32,
+    @location(4) curvature: f32,
+}
+
+fn vertex_out(in: VertexIn) -> VertexOut {
+    var out: VertexOut;
+    out.position_clip = frame.clip_from_world * vec4f(in.position_world, 1.0);
+    out.position_world = in.position_world;
+    out.normal_world = in.normal_world;
+    out.uv = vec2f(in.bind_position_u.w, in.bind_normal_v.w);
+    out.depth = (material.front_z - in.bind_position_u.z) * material.per_depth;
+    out.curvature = in.curvature;
+    return out;
 }
 
 @vertex
-fn vertex_main(@builtin(vertex_index) vertex: u32) -> VertexOut {
-    let posed = deform_vertex(vertex);
-    var out: VertexOut;
-    out.position_clip = frame.clip_from_world * vec4f(posed.position_world, 1.0);
-    out.position_world = posed.position_world;
-    out.normal_world = posed.normal_world;
-    out.uv = vec2f(vertices[vertex].u, vertices[vertex].v);
-    out.depth = (part.front_z - vertices[vertex].position.z) * part.per_depth;
-    return out;
+fn vertex_main(in: VertexIn) -> VertexOut {
+    return vertex_out(in);
 }

@@ -3,7 +3,7 @@
 
 @fragment
 fn cornea_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    let surface = surface_at(in, is_front);
+    let surface = surface_at(in, in.uv, is_front);
     let lit = lit_surface(surface);
     let body = surface.color * lit.diffuse * surface.opacity;
     let brightest = max(lit.specular.r, max(lit.specular.g, lit.specular.b)) * frame.exposure;

@@ -1,4 +1,4 @@
-// Deforms every vertex of a part into a buffer: for reading back, and for whatever grows on the posed skin.
+// Deforms every vertex of a part into a buffer, once a frame: every later pass draws from it, and it can be read back.
 
 struct DeformedVertex {
     position: vec3f,

@@ -1,0 +1,12 @@
+// The inner side of the skin, seen through the rim of the neck or behind a lid: a hollow that lamps do not reach.
+// Some ambient light is enough, and keeps hidden insides cheap where hidden pixels are shaded all the same.
+
+const HOLLOW: f32 = 0.3;
+
+@fragment
+fn skin_back_main(in: VertexOut) -> @location(0) vec4f {
+    let texel = textureSample(color_texture, repeat_sampler, in.uv);
+    let covered = select(0.0, texel.a, (material.textures & COLOR_TEXTURE) != 0u);
+    let color = mix(material.color, texel.rgb, covered);
+    return target_color(color * irradiance_at(-normalize(in.normal_world)) * HOLLOW, 1.0);
+}

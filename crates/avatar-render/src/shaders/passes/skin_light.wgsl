@@ -1,0 +1,8 @@
+// Diffuse light that arrives at the skin, before its colour, one sample a pixel; alpha tells where skin is.
+
+@fragment
+fn skin_light_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    var surface = surface_at(in, in.uv, is_front);
+    surface.occlusion = min(surface.occlusion, view_occlusion(in.position_clip));
+    return vec4f(lit_surface(surface).diffuse, 1.0);
+}

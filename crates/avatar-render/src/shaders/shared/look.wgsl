@@ -1,0 +1,58 @@
+// Group 2: the looks of one part, shared by all avatars of a model.
+
+struct Iris {
+    // The sphere that the cornea is a part of, at bind pose.
+    cornea_center: vec3f,
+    cornea_radius: f32,
+    // How the ball is painted around its axis: the middle, directions in the texture for x and y, and the distance in the
+    // texture over the root of the distance at bind pose, up to a reach.
+    uv_center: vec2f,
+    uv_from_x: vec2f,
+    uv_from_y: vec2f,
+    profile_reach: f32,
+    // Where the plane of the iris lies at bind pose.
+    plane_z: f32,
+    profile: array<vec4f, PROFILE_ROWS>,
+    // 0 where there is no iris to refract.
+    radius: f32,
+    refractive_index: f32,
+    pupil: f32,
+    painted_pupil: f32,
+    limbal_width: f32,
+    limbal_darkness: f32,
+}
+
+// Lengths are in the world's units here.
+struct Material {
+    color: vec3f,
+    opacity: f32,
+    wrap: vec3f,
+    reflectance: f32,
+    // The parameter d of Burley's profile.
+    scatter: vec3f,
+    roughness_matte: f32,
+    roughness_glossy: f32,
+    normal_strength: f32,
+    sharp_share: f32,
+    sharp_roughness: f32,
+    transmission: f32,
+    thickness: f32,
+    pore_strength: f32,
+    pore_density: f32,
+    wetness: f32,
+    film_roughness: f32,
+    back_light: f32,
+    // Largest z at bind pose (the face looks along +Z), and 1 / (largest - smallest).
+    front_z: f32,
+    per_depth: f32,
+    // Which textures are there; the others are not sampled.
+    textures: u32,
+    iris: Iris,
+}
+
+@group(2) @binding(0) var<uniform> material: Material;
+@group(2) @binding(1) var color_texture: texture_2d<f32>;
+@group(2) @binding(2) var occlusion_texture: texture_2d<f32>;
+@group(2) @binding(3) var gloss_texture: texture_2d<f32>;
+@group(2) @binding(4) var normal_texture: texture_2d<f32>;
+@group(2) @binding(5) var thickness_texture: texture_2d<f32>;

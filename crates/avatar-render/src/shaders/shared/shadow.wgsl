@@ -1,0 +1,66 @@
+// Shadows of the key (0) and rim (1) lamps from depth maps: L. Williams, "Casting Curved Shadows on Curved Surfaces",
+// 1978, softened by W. Reeves et al., "Rendering Antialiased Shadows with Depth Maps", 1987.
+
+// Shadow of each lamp; the fill casts none.
+const NO_SHADOW: i32 = -1;
+
+fn shadow_of(lamp: u32) -> i32 {
+    if lamp == KEY_LAMP {
+        return 0;
+    }
+    return select(NO_SHADOW, 1, lamp == RIM_LAMP && SHADOW_COUNT_USED > 1);
+}
+
+// Where a point lies in a shadow map: texture coordinates and depth. The point is lifted off its surface by what one
+// texel may hide: D. Holbert, "Saying Goodbye to Shadow Acne", 2011.
+fn shadow_place(layer: i32, position: vec3f, normal: vec3f) -> vec3f {
+    let lifted = position + normal * frame.shadow_texel[layer] * 1.5;
+    let p = (frame.shadow_from_world[layer] * vec4f(lifted, 1.0)).xyz;
+    return vec3f(p.x * 0.5 + 0.5, 0.5 - p.y * 0.5, p.z);
+}
+
+// Share of the lamp that is seen, over a square of samples with Gaussian weights. The pattern is its own mirror image,
+// so that a mirrored face under mirrored light is a mirrored picture.
+fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
+    let layer = shadow_of(lamp);
+    if SHADOW_REACH < 0 || layer == NO_SHADOW {
+        return 1.0;
+    }
+    let place = shadow_place(layer, position, normal);
+    let reach = f32(max(SHADOW_REACH, 1));
+    let spread = frame.shadow_softness / (frame.shadow_texel[layer] * SHADOW_SIZE);
+    let bias = 0.5 * frame.shadow_texel[layer] / frame.shadow_depth[layer];
+    var seen = 0.0;
+    var total = 0.0;
+    for (var y = -SHADOW_REACH; y <= SHADOW_REACH; y++) {
+        for (var x = -SHADOW_REACH; x <= SHADOW_REACH; x++) {
+            let offset = vec2f(f32(x), f32(y)) / reach;
+            let weight = exp(-1.5 * dot(offset, offset));
+            let at = place.xy + offset * spread;
+            // Wider kernels reach surfaces that tilt away: more bias further out.
+            let depth = place.z - bias * (1.0 + 2.0 * length(offset) * reach);
+            seen += weight * textureSampleCompareLevel(shadow_map, shadow_sampler, at, layer, depth);
+            total += weight;
+        }
+    }
+    return seen / total;
+}
+
+// How far the lamp's light has travelled inside before it reaches this point from behind: the depth of the point below
+// the first surface that the lamp sees. J. Jimenez et al., "Real-Time Realistic Skin Translucency", 2010.
+fn thickness_toward(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
+    let layer = shadow_of(lamp);
+    if SHADOW_REACH < 0 || layer == NO_SHADOW {
+        return 0.0;
+    }
+    // Sunk instead of lifted: at a silhouette the neighbour's depth would pass for a hole.
+    let place = shadow_place(layer, position - normal * frame.shadow_texel[layer] * 3.0, normal);
+    let size = vec2f(SHADOW_SIZE);
+    let texel = vec2i(clamp(place.xy * size, vec2f(1.0), size - 2.0));
+    var thickness = 0.0;
+    for (var i = 0; i < 4; i++) {
+        let depth = textureLoad(shadow_map, texel + vec2i((i & 1) * 2 - 1, (i >> 1) * 2 - 1), layer, 0);
+        thickness += 0.25 * max(place.z - depth, 0.0);
+    }
+    return thickness * frame.shadow_depth[layer];
+}

@@ -1,0 +1,54 @@
+// How skin scatters light below its surface.
+
+// Light that leaves skin which curves as much as this, per channel: E. Penner, "Pre-Integrated Skin Shading", 2011.
+// Red light travels farthest, so that it sees the relief of the surface least.
+fn pre_integrated(surface: Surface, direction: vec3f) -> vec3f {
+    let smooth_n_dot_l = dot(surface.smooth_normal, direction);
+    let n_dot_l = mix(vec3f(dot(surface.normal, direction)), vec3f(smooth_n_dot_l), vec3f(0.7, 0.4, 0.25));
+    let x = n_dot_l * 0.5 + 0.5;
+    let y = saturate(material.scatter * surface.curvature);
+    return vec3f(
+        textureSampleLevel(scatter_table, clamp_sampler, vec2f(x.r, y.r), 0.0).r,
+        textureSampleLevel(scatter_table, clamp_sampler, vec2f(x.g, y.g), 0.0).r,
+        textureSampleLevel(scatter_table, clamp_sampler, vec2f(x.b, y.b), 0.0).r);
+}
+
+// The edge of a shadow, bled into by light from beside it: red reaches farthest. Penner tabulates this over the width
+// of the penumbra; a power per channel stands in for his table.
+fn bled(visibility: f32) -> vec3f {
+    return pow(vec3f(visibility), vec3f(0.55, 0.85, 1.0));
+}
+
+// Share of the light that gets through a slab of this thickness, per channel, over the mean free path.
+fn transmittance(thickness: f32) -> vec3f {
+    return exp(-vec3f(thickness) / max(material.scatter * PATH_PER_DISTANCE, vec3f(1e-6)));
+}
+
+// What thin parts let through from behind. The slab splits light into what it reflects and what it lets through, so
+// that both together are no more than arrived; the wrap is that of J. Jimenez et al., 2010.
+fn with_transmission(surface: Surface, lamp: u32, reflected: vec3f) -> vec3f {
+    let direction = frame.lamps[lamp].direction_world;
+    let has_map = (material.textures & THICKNESS_TEXTURE) != 0u;
+    let known = has_map || shadow_of(lamp) != NO_SHADOW;
+    if !TRANSMISSION || material.transmission <= 0.0 || !known {
+        return reflected;
+    }
+    let through = thickness_toward(lamp, surface.position, surface.smooth_normal);
+    let share = 0.5 * material.transmission * transmittance(max(surface.thickness, through));
+    let behind = wrapped_diffuse(-dot(surface.smooth_normal, direction), vec3f(0.3));
+    return reflected * (1.0 - share) + behind * share;
+}
+
+fn diffuse_of(surface: Surface, lamp: u32, visibility: f32) -> vec3f {
+    let direction = frame.lamps[lamp].direction_world;
+    var reflected = vec3f(0.0);
+    if SCATTERING == WRAPPED {
+        reflected = visibility * wrapped_diffuse(dot(surface.normal, direction), material.wrap);
+    } else if SCATTERING == PRE_INTEGRATED {
+        reflected = bled(visibility) * pre_integrated(surface, direction);
+    } else {
+        // What arrives; later passes spread it over the skin.
+        reflected = vec3f(visibility * max(dot(surface.normal, direction), 0.0));
+    }
+    return with_transmission(surface, lamp, reflected);
+}

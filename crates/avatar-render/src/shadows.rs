@@ -1,0 +1,93 @@
+//! What lamps see of the avatars.
+
+use crate::frame::{SHADOW_COUNT, direction};
+use crate::{Light, Shadows};
+use avatar_mesh::Bounds;
+use glam::{Mat4, Quat, Vec3};
+
+/// One lamp's view: parallel light, fitted around the avatars.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ShadowView {
+    /// To −1…1 across and up, 0…1 away from the lamp.
+    pub(crate) shadow_from_world: Mat4,
+    /// Length in the world of depth 0…1.
+    pub(crate) depth: f32,
+    /// Length in the world of a texel.
+    pub(crate) texel: f32,
+}
+
+/// The views of the key and rim lamps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ShadowViews(pub(crate) [ShadowView; SHADOW_COUNT]);
+
+/// Room around the avatars, as a share of their size: samples of soft edges stay inside the map.
+const MARGIN: f32 = 1.06;
+
+impl ShadowViews {
+    pub(crate) fn new(light: &Light, bounds: Option<Bounds>, shadows: Shadows) -> Self {
+        let bounds = bounds.unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
+        Self([&light.key, &light.rim].map(|lamp| view(direction(lamp), bounds, shadows.map_size())))
+    }
+}
+
+fn view(toward_lamp: Vec3, bounds: Bounds, map_size: u32) -> ShadowView {
+    // "Up" of the map stays in the plane of the lamp and the vertical: a mirrored lamp has the mirrored map.
+    let rotation = if toward_lamp.x.hypot(toward_lamp.z) > 1e-4 {
+        let yaw = toward_lamp.x.atan2(toward_lamp.z);
+        Quat::from_rotation_y(yaw) * Quat::from_rotation_x(-toward_lamp.y.clamp(-1.0, 1.0).asin())
+    } else {
+        Quat::from_rotation_x(-toward_lamp.y.signum() * std::f32::consts::FRAC_PI_2)
+    };
+    let to_lamp_space = rotation.inverse();
+    // The box's extent along the axes of the lamp.
+    let half = bounds.size() * 0.5;
+    let extent = |axis: Vec3| (rotation * axis).abs().dot(half).max(1e-3) * MARGIN;
+    let half = Vec3::new(extent(Vec3::X), extent(Vec3::Y), extent(Vec3::Z));
+    // Square texels: softness is the same across and up.
+    let side = half.x.max(half.y);
+    let scale = Mat4::from_scale(Vec3::new(1.0 / side, 1.0 / side, -0.5 / half.z));
+    let toward_center = Mat4::from_translation(-bounds.center());
+    let shadow_from_world =
+        Mat4::from_translation(Vec3::Z * 0.5) * scale * Mat4::from_quat(to_lamp_space) * toward_center;
+    ShadowView { shadow_from_world, depth: 2.0 * half.z, texel: 2.0 * side / map_size as f32 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn every_point_of_the_box_is_in_the_view_and_nearer_ones_have_less_depth(
+            x in -1.0f32..1.0, y in -1.0f32..1.0, z in -1.0f32..1.0,
+            corner in 0u8..8, size in 0.1f32..50.0,
+        ) {
+            let toward_lamp = Vec3::new(x, y, z).normalize_or(Vec3::Y);
+            let min = Vec3::new(-size, -2.0 * size, -0.5 * size) + Vec3::splat(3.0);
+            let bounds = Bounds { min, max: Vec3::new(size, size, size) + Vec3::splat(3.0) };
+            let view = view(toward_lamp, bounds, 1024);
+            let sign = |bit: u8| f32::from(corner >> bit & 1);
+            let p = bounds.min + bounds.size() * Vec3::new(sign(0), sign(1), sign(2));
+            let seen = view.shadow_from_world.project_point3(p);
+            prop_assert!(seen.x.abs() <= 1.0 && seen.y.abs() <= 1.0 && (0.0..=1.0).contains(&seen.z), "{seen}");
+            let nearer = view.shadow_from_world.project_point3(p + toward_lamp);
+            prop_assert!(((seen.z - nearer.z) * view.depth - 1.0).abs() < 1e-2, "{} {}", seen.z, nearer.z);
+            prop_assert!((seen.truncate() - nearer.truncate()).length() < 1e-3);
+        }
+
+        #[test]
+        fn a_mirrored_lamp_has_the_mirrored_view(x in 0.05f32..1.0, y in -1.0f32..1.0, z in -1.0f32..1.0) {
+            let bounds = Bounds { min: Vec3::new(-2.0, -3.0, -1.0), max: Vec3::new(2.0, 1.0, 4.0) };
+            let mirror = Vec3::new(-1.0, 1.0, 1.0);
+            let toward = Vec3::new(x, y, z).normalize_or(Vec3::Y);
+            let (one, other) = (view(toward, bounds, 64), view(toward * mirror, bounds, 64));
+            let p = Vec3::new(0.7, -1.2, 2.0);
+            let (a, b) = (
+                one.shadow_from_world.project_point3(p),
+                other.shadow_from_world.project_point3(p * mirror),
+            );
+            prop_assert!((a * mirror - b).length() < 1e-5, "{a} {b}");
+        }
+    }
+}

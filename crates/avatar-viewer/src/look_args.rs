@@ -1,0 +1,104 @@
+//! How the picture is to look, as the command line says it.
+
+use avatar_render::{Light, Quality, Shading, Style, ToneMap};
+use clap::{Args, ValueEnum};
+
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct LookArgs {
+    /// How much care is taken; auto follows the adapter
+    #[arg(long, value_enum, default_value = "auto")]
+    quality: QualityName,
+    /// After nature, or as drawn
+    #[arg(long, value_enum, default_value = "natural")]
+    style: StyleName,
+    /// What lights the face
+    #[arg(long, value_enum, default_value = "studio")]
+    light: LightName,
+    /// How light becomes colours of a screen
+    #[arg(long, value_enum, default_value = "neutral")]
+    tone_map: ToneMapName,
+    /// Brighter (above 0) or darker, in stops
+    #[arg(long, default_value = "0", allow_negative_numbers = true, value_parser = stops, value_name = "STOPS")]
+    exposure: f32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum QualityName {
+    Auto,
+    Plain,
+    Low,
+    Medium,
+    High,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum StyleName {
+    Natural,
+    Toon,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum LightName {
+    Studio,
+    Daylight,
+    Dramatic,
+    Flat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ToneMapName {
+    Neutral,
+    Agx,
+}
+
+/// Beyond this every picture is black or white.
+const LARGEST_EXPOSURE: f32 = 10.0;
+
+fn stops(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|stops: &f32| stops.abs() <= LARGEST_EXPOSURE);
+    number.ok_or_else(|| format!("expected a number from -{LARGEST_EXPOSURE} to {LARGEST_EXPOSURE}"))
+}
+
+impl Default for LookArgs {
+    fn default() -> Self {
+        Self {
+            quality: QualityName::Auto,
+            style: StyleName::Natural,
+            light: LightName::Studio,
+            tone_map: ToneMapName::Neutral,
+            exposure: 0.0,
+        }
+    }
+}
+
+impl LookArgs {
+    /// The shading on this adapter.
+    pub(crate) fn shading(&self, adapter: &wgpu::AdapterInfo) -> Shading {
+        let quality = match self.quality {
+            QualityName::Auto => Quality::of_adapter(adapter),
+            QualityName::Plain => Quality::Plain,
+            QualityName::Low => Quality::Low,
+            QualityName::Medium => Quality::Medium,
+            QualityName::High => Quality::High,
+        };
+        quality.shading(match self.style {
+            StyleName::Natural => Style::Natural,
+            StyleName::Toon => Style::Toon,
+        })
+    }
+
+    /// The light.
+    pub(crate) fn light(&self) -> Light {
+        let light = match self.light {
+            LightName::Studio => Light::studio(),
+            LightName::Daylight => Light::daylight(),
+            LightName::Dramatic => Light::dramatic(),
+            LightName::Flat => Light::flat(),
+        };
+        let tone_map = match self.tone_map {
+            ToneMapName::Neutral => ToneMap::Neutral,
+            ToneMapName::Agx => ToneMap::AgX,
+        };
+        Light { exposure: light.exposure * self.exposure.exp2(), tone_map, ..light }
+    }
+}
