@@ -19,6 +19,17 @@ fn lamp_specular(surface: Surface, direction: vec3f) -> f32 {
     return broad;
 }
 
+// Share of the light from everywhere that the lobes reflect.
+fn lobes_albedo(roughness: f32, n_dot_v: f32) -> f32 {
+    let broad = directional_albedo(material.reflectance, roughness, n_dot_v);
+    if SHARP_LOBE && material.sharp_share > 0.0 {
+        let sharp =
+            directional_albedo(material.reflectance, roughness * material.sharp_roughness, n_dot_v);
+        return mix(broad, sharp, material.sharp_share);
+    }
+    return broad;
+}
+
 fn environment_specular(surface: Surface, n_dot_v: f32) -> vec3f {
     let roughness = sqrt(surface.alpha);
     let direction = reflect(-surface.view, surface.normal);
@@ -34,8 +45,8 @@ fn environment_specular(surface: Surface, n_dot_v: f32) -> vec3f {
     return light * seen;
 }
 
-// Everything that leaves the surface, the diffuse share before its colour.
-fn lit_surface(surface: Surface) -> Lit {
+// What arrives below the surface and what its lobes reflect.
+fn arriving_light(surface: Surface) -> Lit {
     let n_dot_v = clamp(dot(surface.normal, surface.view), 1e-3, 1.0);
     var lit: Lit;
     lit.diffuse = irradiance_at(surface.normal) * colored_occlusion(surface.occlusion, surface.color);
@@ -46,9 +57,19 @@ fn lit_surface(surface: Surface) -> Lit {
         lit.diffuse += lamp.radiance * diffuse_of(surface, i, visibility);
         lit.specular += lamp.radiance * visibility * lamp_specular(surface, lamp.direction_world);
     }
-    // What is reflected does not enter.
-    lit.diffuse *= 1.0 - directional_albedo(material.reflectance, sqrt(surface.alpha), n_dot_v);
     return lit;
+}
+
+// What is reflected does not enter, and as much is held back on the way out.
+fn below_lobes(surface: Surface) -> f32 {
+    let n_dot_v = clamp(dot(surface.normal, surface.view), 1e-3, 1.0);
+    return 1.0 - lobes_albedo(sqrt(surface.alpha), n_dot_v);
+}
+
+// Everything that leaves the surface, the diffuse share before its colour.
+fn lit_surface(surface: Surface) -> Lit {
+    let arriving = arriving_light(surface);
+    return Lit(arriving.diffuse * below_lobes(surface), arriving.specular);
 }
 
 // Water: refractive index 1.33.
