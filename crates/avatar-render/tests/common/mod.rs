@@ -118,6 +118,16 @@ pub(crate) fn ball(center: Vec3, radius: f32, steps: u32) -> Mesh {
     mesh
 }
 
+/// The mesh mirrored at x = 0 with the indices of the original: every triangle contradicts its normals.
+pub(crate) fn mirrored(mesh: &Mesh) -> Mesh {
+    let flip = |v: &Vec3| Vec3::new(-v.x, v.y, v.z);
+    Mesh {
+        positions: mesh.positions.iter().map(flip).collect(),
+        normals: mesh.normals.iter().map(flip).collect(),
+        ..mesh.clone()
+    }
+}
+
 /// A square that looks along +Z.
 pub(crate) fn square(center: Vec3, half: f32) -> Mesh {
     let corner = |x: f32, y: f32| center + half * Vec3::new(x, y, 0.0);
@@ -156,6 +166,24 @@ pub(crate) fn flat_light() -> Light {
     let off = Lamp { direction_world: Vec3::Z, radiance: [0.0; 3] };
     let environment = Environment::uniform([0.7; 3]);
     Light { key: off, fill: off, rim: off, environment, exposure: 1.0, tone_map: ToneMap::Neutral }
+}
+
+/// A checkered plate as an iris, and a cornea in front of it.
+pub(crate) fn checkered_eye(gpu: &Gpu, with_cornea: bool) -> (AvatarModel, AvatarState) {
+    let iris = square(Vec3::new(0.0, 0.0, -0.2), 1.5);
+    let cornea = ball(Vec3::new(0.0, 0.0, -0.9), 1.2, 24);
+    let checker = Image {
+        width: 2,
+        height: 2,
+        rgba: [[200, 30, 30, 255], [20, 40, 200, 255], [20, 40, 200, 255], [200, 30, 30, 255]].concat(),
+    };
+    let textures = PartTextures { color: Some(&checker), ..PartTextures::default() };
+    let mut parts = vec![part(&iris, PartKind::Eyeball, textures)];
+    if with_cornea {
+        // Given first: the order of the parts does not decide about the order of drawing.
+        parts.insert(0, part(&cornea, PartKind::Cornea, PartTextures::default()));
+    }
+    model(gpu, &parts)
 }
 
 /// A picture of one colour.

@@ -100,12 +100,7 @@ impl Stage {
     }
 
     /// The light of a frame; the target must be a float one.
-    pub(crate) fn draw(
-        &self,
-        gpu: &Gpu,
-        scene: &Scene,
-        avatars: &[(&AvatarModel, &AvatarState)],
-    ) -> Picture {
+    pub(crate) fn draw(&self, gpu: &Gpu, scene: &Scene, avatars: &[(&AvatarModel, &AvatarState)]) -> Picture {
         let bytes = self.bytes(gpu, scene, avatars);
         let half = |b: &[u8]| f16::from_le_bytes([b[0], b[1]]).to_f32();
         let light = bytes.chunks_exact(8).map(|p| Vec3::new(half(&p[0..]), half(&p[2..]), half(&p[4..])));
@@ -154,6 +149,20 @@ impl Picture {
         (0..size * size).map(middle).zip(self.light.iter().copied())
     }
 
+    /// Left and right exchanged.
+    pub(crate) fn flipped(&self) -> Self {
+        let rows = self.light.chunks_exact(self.size as usize);
+        Self { light: rows.flat_map(|row| row.iter().rev().copied()).collect(), ..*self }
+    }
+
+    /// The share of pixels that differ by more than this in a channel.
+    pub(crate) fn difference_share(&self, other: &Self, tolerance: f32) -> f32 {
+        assert_eq!(self.size, other.size);
+        let pairs = self.light.iter().zip(&other.light);
+        let differing = pairs.filter(|(a, b)| (**a - **b).abs().max_element() > tolerance).count();
+        differing as f32 / self.light.len() as f32
+    }
+
     /// The mean place of the light, weighted.
     pub(crate) fn centroid(&self, weight: impl Fn(Vec3) -> f32) -> Vec2 {
         let weighted = || self.pixels().map(|(at, light)| (at, weight(light)));
@@ -189,14 +198,7 @@ pub(crate) const NO_LAMP: Lamp = Lamp { direction_world: Vec3::Z, radiance: [0.0
 
 /// Light for measuring: no lamps, `environment`, no tone mapping.
 pub(crate) fn bare_light(environment: Environment) -> Light {
-    Light {
-        key: NO_LAMP,
-        fill: NO_LAMP,
-        rim: NO_LAMP,
-        environment,
-        exposure: 1.0,
-        tone_map: ToneMap::Linear,
-    }
+    Light { key: NO_LAMP, fill: NO_LAMP, rim: NO_LAMP, environment, exposure: 1.0, tone_map: ToneMap::Linear }
 }
 
 /// A white lamp alone, for measuring.
