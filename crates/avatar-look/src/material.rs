@@ -31,7 +31,7 @@ pub struct Material {
     pub thickness: f32,
     /// Tilt of the fine relief that no texture holds: pores.
     pub pore_strength: f32,
-    /// How often that relief repeats over the texture's width.
+    /// How often that relief repeats over the height of the skin.
     pub pore_density: f32,
     /// A clear wet film on top, 0 (dry) to 1: eyeballs, corneas, teeth, tongue.
     pub wetness: f32,
@@ -114,7 +114,7 @@ impl Material {
                 transmission: 1.0,
                 thickness: 0.09,
                 pore_strength: 0.25,
-                pore_density: 48.0,
+                pore_density: 50.0,
                 ..matte
             },
             PartKind::Teeth => Self {

@@ -116,6 +116,7 @@ fn layouts() -> Vec<Layout> {
             thickness,
             pore_strength,
             pore_density,
+            pores_per_length,
             wetness,
             film_roughness,
             back_light,

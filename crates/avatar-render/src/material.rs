@@ -59,13 +59,14 @@ pub(crate) struct GpuMaterial {
     pub(crate) thickness: f32,
     pub(crate) pore_strength: f32,
     pub(crate) pore_density: f32,
+    pub(crate) pores_per_length: f32,
     pub(crate) wetness: f32,
     pub(crate) film_roughness: f32,
     pub(crate) back_light: f32,
     pub(crate) front_z: f32,
     pub(crate) per_depth: f32,
     pub(crate) textures: u32,
-    pub(crate) pad: [u32; 2],
+    pub(crate) pad: u32,
     pub(crate) iris: GpuIris,
 }
 
@@ -92,14 +93,15 @@ impl GpuMaterial {
             transmission: material.transmission,
             thickness: material.thickness * height,
             pore_strength: material.pore_strength,
-            pore_density: material.pore_density,
+            pore_density: material.pore_density * geometry.length_per_uv / height,
+            pores_per_length: material.pore_density / height,
             wetness: material.wetness,
             film_roughness: material.film_roughness,
             back_light: material.back_light,
             front_z: geometry.front_z,
             per_depth: geometry.per_depth,
             textures,
-            pad: [0; 2],
+            pad: 0,
             iris: eye.map_or_else(bytemuck::Zeroable::zeroed, |eye| GpuIris::new(&material.iris, eye)),
         }
     }

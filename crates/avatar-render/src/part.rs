@@ -61,6 +61,8 @@ pub(crate) struct Geometry {
     /// Largest z at bind pose, and 1 / (largest - smallest).
     pub(crate) front_z: f32,
     pub(crate) per_depth: f32,
+    /// Length at bind pose that the texture's width covers, on average over the part; 0 without texture coordinates.
+    pub(crate) length_per_uv: f32,
     /// Boxes at bind pose around all that a bone moves, with all shapes in reach.
     pub(crate) bone_boxes: Vec<(usize, Bounds)>,
     /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by distance.
@@ -142,6 +144,7 @@ impl Geometry {
             rigid_bone: head.rigid_bone,
             front_z: bounds.map_or(0.0, |bounds| bounds.max.z),
             per_depth: if depth > 0.0 { depth.recip() } else { 0.0 },
+            length_per_uv: length_per_uv(mesh),
             bone_boxes: bone_boxes(mesh, skinning, rigid_bone),
             center: bounds.map_or(Vec3::ZERO, |bounds| bounds.center()),
             center_bone,
@@ -158,6 +161,17 @@ fn vertices(mesh: &Mesh) -> Vec<GpuVertex> {
         v: uv.y,
     })
     .collect()
+}
+
+/// The root of the part's area by the area of its texture coordinates.
+fn length_per_uv(mesh: &Mesh) -> f32 {
+    let (mut area, mut painted) = (0.0f64, 0.0f64);
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|i| (mesh.positions[i as usize], mesh.uvs[i as usize]));
+        area += f64::from((b.0 - a.0).cross(c.0 - a.0).length());
+        painted += f64::from((b.1 - a.1).perp_dot(c.1 - a.1).abs());
+    }
+    if painted > 0.0 { (area / painted).sqrt() as f32 } else { 0.0 }
 }
 
 /// A deformed vertex is a mean of what its bones make of it: it lies within the boxes of its bones, each moved by its

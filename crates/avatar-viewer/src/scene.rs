@@ -1,7 +1,6 @@
 //! From a pack to what the renderer takes, the same for pictures and for the window.
 
 use anyhow::Result;
-use avatar_look::Materials;
 use avatar_mesh::{Bounds, PartKind};
 use avatar_pack::{Pack, Texture, Textures};
 use avatar_render::{
@@ -102,13 +101,13 @@ pub(crate) fn upload(
         })
         .collect();
     let model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
-    set_materials(pack, &pack.materials, &model, queue);
+    set_materials(pack, &model, queue);
     Ok(model)
 }
 
 /// Gives the parts their looks.
-pub(crate) fn set_materials(pack: &Pack, materials: &Materials, model: &AvatarModel, queue: &wgpu::Queue) {
+pub(crate) fn set_materials(pack: &Pack, model: &AvatarModel, queue: &wgpu::Queue) {
     for (index, part) in pack.parts.iter().enumerate() {
-        model.set_material(queue, index, &materials.of(part.spec.name, part.spec.kind));
+        model.set_material(queue, index, &pack.materials.of(part.spec.name, part.spec.kind));
     }
 }

@@ -48,17 +48,43 @@ fn looks_like(name: &str, options: &[&str]) {
 
 #[test]
 fn front() {
-    looks_like("front", &[]);
+    looks_like("front", &["--quality", "plain"]);
 }
 
 #[test]
 fn three_quarter_smile() {
-    looks_like("three-quarter-smile", &["--view", "three-quarter", "--set", "smile=1", "--pitch", "15"]);
+    let options = ["--view", "three-quarter", "--set", "smile=1", "--pitch", "15", "--quality", "plain"];
+    looks_like("three-quarter-smile", &options);
+}
+
+#[test]
+fn every_quality_and_style() {
+    for quality in ["low", "medium", "high"] {
+        looks_like(&format!("quality-{quality}"), &["--quality", quality, "--view", "three-quarter"]);
+    }
+    looks_like("style-toon", &["--style", "toon", "--view", "three-quarter"]);
+}
+
+#[test]
+fn other_light() {
+    looks_like("light-dramatic-agx", &["--quality", "medium", "--light", "dramatic", "--tone-map", "agx"]);
+    looks_like("light-daylight", &["--quality", "medium", "--light", "daylight", "--exposure", "-0.5"]);
 }
 
 #[test]
 fn transparent_side() {
-    let options = ["--view", "left", "--background", "transparent", "--samples", "1", "--set", "jaw.open=20"];
+    let options = [
+        "--view",
+        "left",
+        "--background",
+        "transparent",
+        "--samples",
+        "1",
+        "--set",
+        "jaw.open=20",
+        "--quality",
+        "plain",
+    ];
     looks_like("transparent-side", &options);
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod keys;
 mod stage;
+mod watch;
 
 use crate::cli::WindowArgs;
 use crate::face_args::FaceChoice;
@@ -9,13 +10,14 @@ use crate::files::Files;
 use crate::look_args::LookArgs;
 use crate::scene::View;
 use anyhow::{Context, Result, anyhow};
-use avatar_pack::{FaceState, Pack, Textures};
+use avatar_pack::{FaceState, Pack, Textures, load_materials};
 use clap::ArgMatches;
 use keys::Action;
 use pose_anim::{Player, Pose};
 use stage::Stage;
 use std::sync::Arc;
 use std::time::Instant;
+use watch::{Wake, watch};
 use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
@@ -40,11 +42,14 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let textures = files.load_textures();
     let start = args.face.resolve(&pack, matches)?;
     keys::dead(&pack).for_each(|warning| eprintln!("warning: {warning}"));
-    let event_loop = EventLoop::new().map_err(|_| no_display())?;
+    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|_| no_display())?;
+    // Watches as long as it lives.
+    let _watcher = watch(&files, event_loop.create_proxy());
     let mut player = Player::new(&pack.controls);
     player.jump_to(&start.start_values())?;
     let mut app = App {
         title: format!("Mimik: {}", files.name()),
+        files,
         size: PhysicalSize::new(args.size.width, args.size.height),
         state: FaceState::new(&pack),
         pack,
@@ -75,6 +80,7 @@ fn no_display() -> anyhow::Error {
 
 struct App {
     title: String,
+    files: Files,
     size: PhysicalSize<u32>,
     pack: Pack,
     textures: Textures,
@@ -93,7 +99,13 @@ struct App {
     failure: Option<anyhow::Error>,
 }
 
-impl ApplicationHandler for App {
+impl ApplicationHandler<Wake> for App {
+    fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
+        match wake {
+            Wake::Materials => self.reload_materials(),
+        }
+    }
+
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         event_loop.set_control_flow(ControlFlow::Wait);
         if self.stage.is_none()
@@ -136,6 +148,20 @@ impl ApplicationHandler for App {
 }
 
 impl App {
+    /// Takes over changed materials; with a mistake in them the old ones stay.
+    fn reload_materials(&mut self) {
+        match load_materials(&self.files) {
+            Ok(materials) => {
+                self.pack.materials = materials;
+                if let Some(stage) = &self.stage {
+                    stage.set_materials(&self.pack);
+                }
+                self.redraw();
+            }
+            Err(error) => eprintln!("error: {error}: the materials stay as they were"),
+        }
+    }
+
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         let attributes = Window::default_attributes().with_title(&self.title).with_inner_size(self.size);
         let window = event_loop.create_window(attributes).context("expected a window, found none")?;

@@ -79,6 +79,11 @@ impl Stage {
         Ok(())
     }
 
+    /// Gives the parts the looks that the pack has now.
+    pub(super) fn set_materials(&self, pack: &Pack) {
+        scene::set_materials(pack, &self.model, &self.gpu.queue);
+    }
+
     /// Draws one frame. A surface that is not ready loses this frame, not the window.
     pub(super) fn draw(&mut self, pack: &Pack, state: &FaceState, view: View) -> Result<()> {
         if self.targets.is_none() {

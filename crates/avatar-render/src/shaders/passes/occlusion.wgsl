@@ -5,8 +5,8 @@
 const DIRECTIONS: i32 = 8;
 const STEPS: i32 = 4;
 // Lower angles are the surface's own curve.
-const LOWEST_SINE: f32 = 0.12;
-const STRENGTH: f32 = 1.25;
+const LOWEST_SINE: f32 = 0.18;
+const STRENGTH: f32 = 1.1;
 
 @vertex
 fn picture_main(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {

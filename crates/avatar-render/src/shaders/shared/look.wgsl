@@ -38,7 +38,10 @@ struct Material {
     transmission: f32,
     thickness: f32,
     pore_strength: f32,
+    // Tiles over the texture's width.
     pore_density: f32,
+    // Tiles over a unit of length.
+    pores_per_length: f32,
     wetness: f32,
     film_roughness: f32,
     back_light: f32,

@@ -1,4 +1,5 @@
-// Light on a surface: the environment, and three lamps with shadows. A part says with `diffuse_of` how it scatters.
+// Light on a surface: the environment, and three lamps with shadows. A part says with `diffuse_of` how it scatters, and
+// with `shadow_point` where a lamp must be seen from to light it.
 
 struct Lit {
     diffuse: vec3f,
@@ -53,7 +54,7 @@ fn arriving_light(surface: Surface) -> Lit {
     lit.specular = environment_specular(surface, n_dot_v);
     for (var i = 0u; i < LAMP_COUNT; i++) {
         let lamp = frame.lamps[i];
-        let visibility = lamp_visibility(i, surface.position, surface.smooth_normal);
+        let visibility = lamp_visibility(i, shadow_point(surface, i), surface.smooth_normal);
         lit.diffuse += lamp.radiance * diffuse_of(surface, i, visibility);
         lit.specular += lamp.radiance * visibility * lamp_specular(surface, lamp.direction_world);
     }

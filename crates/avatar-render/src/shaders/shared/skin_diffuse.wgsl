@@ -24,23 +24,47 @@ fn transmittance(thickness: f32) -> vec3f {
     return exp(-vec3f(thickness) / max(material.scatter * PATH_PER_DISTANCE, vec3f(1e-6)));
 }
 
-// What thin parts let through from behind. The slab splits light into what it reflects and what it lets through, so
-// that both together are no more than arrived; the wrap is that of J. Jimenez et al., 2010.
+// What thin parts let through from behind; the wrap is that of J. Jimenez et al., 2010. A slab of known thickness splits
+// light into what it reflects and what it lets through, so that both together are no more than arrived. Without a
+// texture only the shadow map tells how thick the part is, and only on its dark side: there light is added which the
+// lit side does not miss.
 fn with_transmission(surface: Surface, lamp: u32, reflected: vec3f) -> vec3f {
-    let direction = frame.lamps[lamp].direction_world;
     let has_map = (material.textures & THICKNESS_TEXTURE) != 0u;
-    let known = has_map || shadow_of(lamp) != NO_SHADOW;
-    if !TRANSMISSION || material.transmission <= 0.0 || !known {
+    let has_shadow = SHADOW_REACH >= 0 && shadow_of(lamp) != NO_SHADOW;
+    if !TRANSMISSION || material.transmission <= 0.0 || !(has_map || has_shadow) {
         return reflected;
     }
+    let strength = 0.5 * min(material.transmission, 2.0);
+    let n_dot_l = dot(surface.smooth_normal, frame.lamps[lamp].direction_world);
+    var split = vec3f(0.0);
+    if has_map {
+        split = strength * transmittance(surface.thickness);
+    }
+    // Near the edge of light the map shows the surface itself: no wrap without a texture.
+    let behind = wrapped_diffuse(-n_dot_l, vec3f(select(0.0, 0.3, has_map)));
+    if behind.r <= 0.0 {
+        return reflected * (1.0 - split);
+    }
     let through = thickness_toward(lamp, surface.position, surface.smooth_normal);
-    let share = 0.5 * material.transmission * transmittance(max(surface.thickness, through));
-    let behind = wrapped_diffuse(-dot(surface.smooth_normal, direction), vec3f(0.3));
-    return reflected * (1.0 - share) + behind * share;
+    let share = strength * transmittance(max(surface.thickness, through));
+    return reflected * (1.0 - split) + behind * share;
 }
 
-fn diffuse_of(surface: Surface, lamp: u32, visibility: f32) -> vec3f {
+// Light that enters before the edge of a body's own shade leaves behind it. A shadow map hides that edge sharply: near it
+// the lamp is looked for from above the skin, as high as light travels below it.
+fn shadow_point(surface: Surface, lamp: u32) -> vec3f {
+    if SCATTERING != PRE_INTEGRATED {
+        return surface.position;
+    }
+    let n_dot_l = dot(surface.smooth_normal, frame.lamps[lamp].direction_world);
+    let lift = material.scatter.r * PATH_PER_DISTANCE * smoothstep(0.35, -0.1, n_dot_l);
+    return surface.position + surface.smooth_normal * lift;
+}
+
+fn diffuse_of(surface: Surface, lamp: u32, seen: f32) -> vec3f {
     let direction = frame.lamps[lamp].direction_world;
+    // Far beyond the edge the lamp is seen through openings of the mesh only: that light falls on the inside.
+    let visibility = seen * smoothstep(-0.65, -0.3, dot(surface.smooth_normal, direction));
     var reflected = vec3f(0.0);
     if SCATTERING == WRAPPED {
         reflected = visibility * wrapped_diffuse(dot(surface.normal, direction), material.wrap);

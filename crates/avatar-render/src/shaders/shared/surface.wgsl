@@ -57,8 +57,13 @@ fn relief_normal(position: vec3f, uv: vec2f, normal: vec3f) -> vec3f {
         let at = uv * material.pore_density;
         let footprint = max(length(dpdx(at)), length(dpdy(at))) * PORE_CELLS;
         let near = 1.0 - smoothstep(0.15, 0.5, footprint);
+        // Where the texture is stretched far beyond its mean, pores would be as large as dents.
+        let stretch = length(dpdx(at)) + length(dpdy(at));
+        let here = (length(dpdx(position)) + length(dpdy(position))) * material.pores_per_length;
+        let ratio = stretch / max(here, 1e-9);
+        let even = smoothstep(0.25, 0.6, ratio) * (1.0 - smoothstep(1.7, 4.0, ratio));
         let texel = textureSample(pores, repeat_sampler, at).xy * 2.0 - 1.0;
-        tilt += texel * material.pore_strength * near;
+        tilt += texel * material.pore_strength * near * even;
     }
     return tilted(tangents, normal, tilt, height);
 }

@@ -5,7 +5,7 @@ fn cornea_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @locatio
     let surface = surface_at(in, in.uv, is_front);
     let key = frame.lamps[KEY_LAMP];
     let half_way = normalize(key.direction_world + surface.view);
-    let spot = band(dot(surface.smooth_normal, half_way), 0.975);
+    let spot = band(dot(surface.smooth_normal, half_way), 0.988);
     let opacity = max(surface.opacity, spot);
     return target_color(mix(surface.color * surface.opacity, key.radiance, spot), opacity);
 }
