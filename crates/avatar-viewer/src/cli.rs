@@ -82,6 +82,9 @@ pub(crate) struct RenderArgs {
     /// Camera's angle above the horizon in degrees [default: 0]
     #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
     pub(crate) pitch: Option<f32>,
+    /// Name of the part that fills the picture, where it is at rest [default: the whole head]
+    #[arg(long, value_name = "PART")]
+    pub(crate) frame: Option<String>,
     /// Samples per pixel, 1 or 4
     #[arg(long, default_value_t = SAMPLES, value_parser = samples)]
     pub(crate) samples: u32,

@@ -24,12 +24,14 @@ pub(crate) struct View {
     pub(crate) yaw_degrees: f32,
     /// Above the horizon.
     pub(crate) pitch_degrees: f32,
-    /// Distance as a multiple of the one that shows the whole head.
+    /// Distance as a multiple of the one that shows the whole head, or the part.
     pub(crate) distance: f32,
+    /// The part that fills the picture, where it is at bind pose; `None` for the whole head.
+    pub(crate) part: Option<usize>,
 }
 
 impl View {
-    pub(crate) const FRONT: Self = Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0 };
+    pub(crate) const FRONT: Self = Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0, part: None };
     pub(crate) const THREE_QUARTER: Self = Self { yaw_degrees: 35.0, ..Self::FRONT };
 }
 
@@ -42,7 +44,10 @@ pub(crate) fn scene(
     background: [u8; 4],
     light: Light,
 ) -> Scene {
-    let bounds = pack.bounds().unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
+    let of_part = view.part.and_then(|part| pack.parts.get(part)?.mesh.bounds());
+    let bounds = of_part
+        .or_else(|| pack.bounds())
+        .unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
     let aspect = width.max(1) as f32 / height.max(1) as f32;
     let fov = VERTICAL_FOV_DEGREES.to_radians();
     // The distance is that of the front view, so that the head does not grow and shrink as the camera goes round.

@@ -18,6 +18,12 @@ pub(crate) fn unknown<'a>(what: &str, found: &str, names: impl Iterator<Item = &
     usage(format!("expected the name of a {what}, found {found:?}; there are: {names}"))
 }
 
+/// The place of the part of this name.
+pub(crate) fn part(pack: &Pack, name: &str) -> anyhow::Result<usize> {
+    let names = || pack.parts.iter().map(|part| part.spec.name);
+    names().position(|other| other == name).ok_or_else(|| unknown("part", name, names()))
+}
+
 /// The pose of this name, or a mixture such as `smile:0.5 wink-left`.
 pub(crate) fn pose(pack: &Pack, text: &str) -> anyhow::Result<Pose> {
     // A name in a file may hold what separates a mixture's parts.

@@ -2,7 +2,7 @@ use crate::cli::DeformArgs;
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
-use crate::usage::unknown;
+use crate::usage;
 use anyhow::Result;
 use avatar_mesh::{Deformed, obj};
 use avatar_pack::{FaceState, Pack, Part, Textures};
@@ -11,9 +11,7 @@ use clap::ArgMatches;
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     let out = OutputFile::check(&args.out)?;
     let pack = super::open(&args.pack)?.load_pack()?;
-    let names = || pack.parts.iter().map(|part| part.spec.name);
-    let index = names().position(|name| name == args.part);
-    let index = index.ok_or_else(|| unknown("part", &args.part, names()))?;
+    let index = usage::part(&pack, &args.part)?;
     let part = &pack.parts[index];
     let face = args.face.resolve(&pack, matches)?;
 

@@ -1,6 +1,8 @@
 use crate::cli::RenderArgs;
 use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
+use crate::scene::View;
+use crate::usage;
 use anyhow::{Context, Result};
 use clap::ArgMatches;
 use image::{ImageFormat, RgbaImage};
@@ -11,10 +13,11 @@ pub(super) fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<()> {
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
+    let part = args.frame.as_deref().map(|name| usage::part(&pack, name)).transpose()?;
     let textures = files.load_textures();
     let mut offscreen = Offscreen::open(&pack, &textures, args.samples, args.look)?;
 
-    let mut view = args.view.view();
+    let mut view = View { part, ..args.view.view() };
     view.yaw_degrees = args.yaw.unwrap_or(view.yaw_degrees);
     view.pitch_degrees = args.pitch.unwrap_or(view.pitch_degrees);
     let picture = offscreen.picture(&pack, &face, view, args.size, args.background.0)?;

@@ -28,7 +28,9 @@ fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     }
     let place = shadow_place(layer, position, normal);
     let reach = f32(max(SHADOW_REACH, 1));
-    let spread = frame.shadow_softness / (frame.shadow_texel[layer] * SHADOW_SIZE);
+    // No wider than the samples can fill: gaps between them would show as steps.
+    let texels = min(frame.shadow_softness / frame.shadow_texel[layer], 3.0 * reach);
+    let spread = texels / SHADOW_SIZE;
     let bias = 0.5 * frame.shadow_texel[layer] / frame.shadow_depth[layer];
     var seen = 0.0;
     var total = 0.0;
