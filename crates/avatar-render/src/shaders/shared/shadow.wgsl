@@ -19,6 +19,18 @@ fn shadow_place(layer: i32, position: vec3f, normal: vec3f) -> vec3f {
     return vec3f(p.x * 0.5 + 0.5, 0.5 - p.y * 0.5, p.z);
 }
 
+// How the depth of a surface changes across the map, per width and height of the map: samples follow its tilt, lest it
+// shadow itself. J. Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", 2006. Where a lamp grazes there is no end to
+// it; what is missing there, the surface's own shade hides.
+fn depth_slope(layer: i32, normal: vec3f) -> vec2f {
+    let width = frame.shadow_texel[layer] * SHADOW_SIZE;
+    let depth = frame.shadow_depth[layer];
+    let scaled = (frame.shadow_from_world[layer] * vec4f(normal, 0.0)).xyz;
+    // The normal with the lamp's axes, its z toward the lamp.
+    let n = scaled * vec3f(0.5 * width, 0.5 * width, -depth);
+    return vec2f(n.x, -n.y) * width / (depth * max(n.z, 0.2));
+}
+
 // Share of the lamp that is seen, over a square of samples with Gaussian weights. The pattern is its own mirror image,
 // so that a mirrored face under mirrored light is a mirrored picture.
 fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
@@ -31,6 +43,7 @@ fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     // No wider than the samples can fill: gaps between them would show as steps.
     let texels = min(frame.shadow_softness / frame.shadow_texel[layer], 3.0 * reach);
     let spread = texels / SHADOW_SIZE;
+    let slope = depth_slope(layer, normal) * spread;
     let bias = 0.5 * frame.shadow_texel[layer] / frame.shadow_depth[layer];
     var seen = 0.0;
     var total = 0.0;
@@ -39,8 +52,8 @@ fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
             let offset = vec2f(f32(x), f32(y)) / reach;
             let weight = exp(-1.5 * dot(offset, offset));
             let at = place.xy + offset * spread;
-            // Wider kernels reach surfaces that tilt away: more bias further out.
-            let depth = place.z - bias * (1.0 + 2.0 * length(offset) * reach);
+            // Surfaces curve as well as tilt: more bias further out.
+            let depth = place.z + dot(slope, offset) - bias * (1.0 + 2.0 * length(offset) * reach);
             seen += weight * textureSampleCompareLevel(shadow_map, shadow_sampler, at, layer, depth);
             total += weight;
         }
