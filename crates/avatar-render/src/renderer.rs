@@ -214,11 +214,12 @@ impl Renderer {
             }),
             timer,
         };
-        for pass in FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms)) {
+        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms));
+        for pass in passes() {
             frame.record(encoder, pass);
         }
         if let Some(timer) = timer {
-            timer.finish(encoder);
+            timer.finish(encoder, passes());
         }
         Ok(())
     }

@@ -11,6 +11,8 @@ pub struct PassTimer {
 }
 
 const QUERIES: u32 = 2 * FRAME_PASSES.len() as u32;
+/// The times of a pass lie where a resolution may start.
+const PASS_BYTES: u64 = wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
 
 impl PassTimer {
     /// A timer, or `None` where the device has no timestamps.
@@ -21,7 +23,7 @@ impl PassTimer {
         let buffer = |label, usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
-                size: u64::from(QUERIES) * size_of::<u64>() as u64,
+                size: FRAME_PASSES.len() as u64 * PASS_BYTES,
                 usage,
                 mapped_at_creation: false,
             })
@@ -34,7 +36,9 @@ impl PassTimer {
             }),
             resolved: buffer(
                 "times of passes",
-                wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+                wgpu::BufferUsages::QUERY_RESOLVE
+                    | wgpu::BufferUsages::COPY_SRC
+                    | wgpu::BufferUsages::COPY_DST,
             ),
             readable: buffer(
                 "times of passes: readable",
@@ -77,8 +81,13 @@ impl PassTimer {
         })
     }
 
-    pub(crate) fn finish(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.resolve_query_set(&self.queries, 0..QUERIES, &self.resolved, 0);
+    /// Keeps the times of the passes that ran and forgets those of other frames.
+    pub(crate) fn finish(&self, encoder: &mut wgpu::CommandEncoder, passes: impl Iterator<Item = Pass>) {
+        encoder.clear_buffer(&self.resolved, 0, None);
+        for (start, end) in passes.map(Self::slots) {
+            let offset = u64::from(start / 2) * PASS_BYTES;
+            encoder.resolve_query_set(&self.queries, start..end + 1, &self.resolved, offset);
+        }
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, self.readable.size());
     }
 
@@ -100,8 +109,9 @@ impl PassTimer {
         let view = mapped(device, &self.readable).await?;
         let ticks: &[u64] = bytemuck::cast_slice(&view);
         let period = f64::from(self.nanoseconds_per_tick);
-        let times = FRAME_PASSES.iter().zip(ticks.chunks_exact(2)).filter_map(|(pass, pair)| {
-            // Passes that did not run never wrote theirs.
+        let per_pass = ticks.chunks_exact(PASS_BYTES as usize / size_of::<u64>());
+        let times = FRAME_PASSES.iter().zip(per_pass).filter_map(|(pass, pair)| {
+            // Those of passes that did not run are cleared.
             (pair[1] != 0).then(|| (pass.label(), pair[1].saturating_sub(pair[0]) as f64 * period))
         });
         let times = times.collect();
