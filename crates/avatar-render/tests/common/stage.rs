@@ -15,7 +15,7 @@ pub(crate) struct Stage {
     pub(crate) renderer: Renderer,
     pub(crate) targets: Targets,
     pub(crate) texture: wgpu::Texture,
-    /// Locked for a whole frame: tests that run at once share stages.
+    /// Locked while a frame is submitted and read: tests that run at once share stages.
     readable: Mutex<wgpu::Buffer>,
     size: u32,
 }
@@ -74,12 +74,17 @@ impl Stage {
         scene: &Scene,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Vec<u8> {
-        let readable = self.readable.lock().unwrap_or_else(PoisonError::into_inner);
         let view = self.texture.create_view(&Default::default());
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         self.renderer
             .draw(&mut encoder, &view, &self.targets, &gpu.queue, scene, avatars)
             .expect("what belongs together");
+        self.read(gpu, encoder)
+    }
+
+    /// Submits what is recorded and returns the bytes of the target, rows without padding.
+    pub(crate) fn read(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Vec<u8> {
+        let readable = self.readable.lock().unwrap_or_else(PoisonError::into_inner);
         let row = row_bytes(self.texture.format(), self.size);
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
@@ -96,6 +101,7 @@ impl Stage {
         let bytes = mapped.chunks_exact(row as usize).flat_map(|row| row[..used].to_vec()).collect();
         drop(mapped);
         readable.unmap();
+        assert_eq!(gpu.errors.take(), None, "the device has nothing to complain of");
         bytes
     }
 
