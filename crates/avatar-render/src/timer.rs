@@ -110,10 +110,9 @@ impl PassTimer {
         let ticks: &[u64] = bytemuck::cast_slice(&view);
         let period = f64::from(self.nanoseconds_per_tick);
         let per_pass = ticks.chunks_exact(PASS_BYTES as usize / size_of::<u64>());
-        let times = FRAME_PASSES.iter().zip(per_pass).filter_map(|(pass, pair)| {
-            // Those of passes that did not run are cleared.
-            (pair[1] != 0).then(|| (pass.label(), pair[1].saturating_sub(pair[0]) as f64 * period))
-        });
+        // Those of passes that did not run are cleared.
+        let ran = FRAME_PASSES.iter().zip(per_pass).filter(|(_, pair)| pair[1] != 0);
+        let times = ran.map(|(pass, pair)| (pass.label(), pair[1].saturating_sub(pair[0]) as f64 * period));
         let times = times.collect();
         drop(view);
         self.readable.unmap();
