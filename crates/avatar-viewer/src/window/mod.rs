@@ -16,7 +16,7 @@ use keys::Action;
 use pose_anim::{Player, Pose};
 use stage::Stage;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use watch::{Wake, watch};
 use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
@@ -34,6 +34,9 @@ const DISTANCES: std::ops::RangeInclusive<f32> = 0.35..=4.0;
 const WHEEL_ZOOM: f32 = 0.92;
 /// A frame that takes longer (a suspended laptop) does not let the motion jump.
 const MAX_FRAME_SECS: f64 = 0.25;
+/// How long a changed file has to be left alone before it is read. Saving is several changes: who reads after the first
+/// one finds an empty file, or none, and who reads after each tells of one mistake several times.
+const SETTLED: Duration = Duration::from_millis(100);
 
 /// Opens the window and runs until it is closed.
 pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
@@ -60,6 +63,8 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         view: View::FRONT,
         stage: None,
         last_frame: None,
+        // Nobody told of changes since the pack was loaded.
+        reload_at: Some(Instant::now() + SETTLED),
         pointer: PhysicalPosition::default(),
         dragging: false,
         failure: None,
@@ -93,6 +98,8 @@ struct App {
     stage: Option<Stage>,
     /// When the last frame of a running motion was drawn; `None` while nothing moves.
     last_frame: Option<Instant>,
+    /// When the materials are read again, unless they change once more before.
+    reload_at: Option<Instant>,
     /// The pointer's last place in the window.
     pointer: PhysicalPosition<f64>,
     dragging: bool,
@@ -102,12 +109,18 @@ struct App {
 impl ApplicationHandler<Wake> for App {
     fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
         match wake {
-            Wake::Materials => self.reload_materials(),
+            Wake::Materials => self.reload_at = Some(Instant::now() + SETTLED),
         }
     }
 
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        if self.reload_at.take_if(|at| *at <= Instant::now()).is_some() {
+            self.reload_materials();
+        }
+        event_loop.set_control_flow(self.reload_at.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        event_loop.set_control_flow(ControlFlow::Wait);
         if self.stage.is_none()
             && let Err(error) = self.open(event_loop)
         {
@@ -151,6 +164,7 @@ impl App {
     /// Takes over changed materials; with a mistake in them the old ones stay.
     fn reload_materials(&mut self) {
         match load_materials(&self.files) {
+            Ok(materials) if materials == self.pack.materials => {}
             Ok(materials) => {
                 self.pack.materials = materials;
                 if let Some(stage) = &self.stage {
