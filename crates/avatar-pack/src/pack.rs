@@ -96,9 +96,8 @@ fn read_needed<'a>(source: &'a impl Source, name: &str) -> Result<Cow<'a, [u8]>,
 
 fn read_text(source: &impl Source, name: &str) -> Result<Option<String>, PackError> {
     let Some(bytes) = read(source, name)? else { return Ok(None) };
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
-    match std::str::from_utf8(bytes) {
-        Ok(text) => Ok(Some(text.to_owned())),
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => Ok(Some(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned())),
         Err(error) => Err(at(source, name, PackProblem::NotText { offset: error.valid_up_to() })),
     }
 }
