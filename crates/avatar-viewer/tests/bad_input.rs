@@ -238,6 +238,38 @@ fn poses_and_controls() {
 }
 
 #[test]
+fn materials() {
+    const FILE: &str = "materials.toml";
+    let of = |text: &'static str| move |pack: &Path| fs::write(pack.join(FILE), text).expect("written");
+    let at = |line: usize, column: usize| format!("/{FILE}: line {line}, column {column}: ");
+    refuses(of("[skin\n"), &[&at(1, 6), "expected valid TOML"]);
+    refuses(of("[skin]\nwetness = 1\nwetness = 1\n"), &[&at(3, 1), "expected valid TOML", "duplicate key"]);
+    let table =
+        ["expected one of the tables skin, teeth,", "found \"left_eyeball\"; did you mean \"left-eyeball\"?"];
+    refuses(of("# eyes\n[left_eyeball]\n"), &[&at(2, 2), table[0], table[1]]);
+    let key = ["skin.colour: expected one of the keys color,", "found \"colour\"; did you mean \"color\"?"];
+    refuses(of("[skin]\ncolour = [1, 1, 1]\n"), &[&at(2, 1), key[0], key[1]]);
+    let three = "teeth.color: expected an array of three numbers from 0 to 1, found \"white\"";
+    refuses(of("[teeth]\ncolor = \"white\"\n"), &[&at(2, 9), three]);
+    refuses(of("cornea = 1\n"), &[&at(1, 10), "cornea: expected a table, found 1"]);
+    let one = "cornea.opacity: expected a number from 0 to 1, found 1.5";
+    refuses(of("[cornea]\nopacity = 1.5\n"), &[&at(2, 11), one]);
+    let index = "eyeball.iris.refractive_index: expected a number from 1 to 3, found 0.9";
+    refuses(of("[eyeball.iris]\nrefractive_index = 0.9\n"), &[&at(2, 20), index]);
+    for (bad, text) in
+        [("nan", "[skin]\nscatter = [0, nan, 0]\n"), ("-inf", "[skin]\nscatter = [0, -inf, 0]\n")]
+    {
+        let number = format!("skin.scatter: expected an array of three numbers from 0 to 1, found {bad}");
+        refuses(of(text), &[&at(2, 15), &number]);
+    }
+    refuses(of("[skin.iris]\npupil = 0.5\n"), &[&at(1, 7), "skin.iris: expected one of the keys color,"]);
+    let bytes = |pack: &Path| fs::write(pack.join(FILE), b"[skin]\n# \xFF\n").expect("written");
+    refuses(bytes, &[FILE, "expected UTF-8 text, found a bad byte at offset 9"]);
+    let folder = |pack: &Path| fs::create_dir(pack.join(FILE)).expect("created");
+    refuses(folder, &[FILE, "expected a file, found a folder"]);
+}
+
+#[test]
 fn textures_that_do_not_decode() {
     let pack = copy_of_golden_pack();
     fs::write(pack.path().join("SkinTex_Decal.png"), b"no picture").expect("written");
