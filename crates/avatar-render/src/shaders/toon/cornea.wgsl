@@ -6,6 +6,9 @@ fn cornea_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @locatio
     let key = frame.lamps[KEY_LAMP];
     let half_way = normalize(key.direction_world + surface.view);
     let spot = band(dot(surface.smooth_normal, half_way), 0.988);
-    let opacity = max(surface.opacity, spot);
-    return target_color(mix(surface.color * surface.opacity, key.radiance, spot), opacity);
+    // It covers what lies behind by as much as it shines: a lamp that is off draws no dark spot.
+    let brightest = max(key.radiance.r, max(key.radiance.g, key.radiance.b)) * frame.exposure;
+    let shine = spot * saturate(brightest);
+    let body = surface.color * surface.opacity * (1.0 - shine);
+    return target_color(body + key.radiance * spot, max(surface.opacity, shine));
 }
