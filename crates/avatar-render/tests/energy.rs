@@ -1,4 +1,5 @@
 //! No surface sends out more light than it receives, and white ones hardly less.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 mod common;
 

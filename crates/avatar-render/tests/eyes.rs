@@ -1,4 +1,5 @@
 //! Eyes: the iris behind the cornea lies where Snell's law says, and the cornea shines without hiding it.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 mod common;
 
@@ -213,9 +214,7 @@ fn the_pupil_is_as_wide_as_it_is_told() {
         for pupil in [0.2, 0.4, 0.6, 0.8] {
             // On the surface and not bent: as large as it is.
             let iris = Iris { pupil, painted_pupil, depth: 0.0, refractive_index: index, ..PLAIN_IRIS };
-            // Toon draws the highlight of a lamp that is off, too: put it where no cornea reflects.
-            let key = Lamp { direction_world: Vec3::new(1.0, 0.0, -0.6), radiance: [0.0; 3] };
-            let scene = lit_scene(camera(0.0), Light { key, ..room() });
+            let scene = lit_scene(camera(0.0), room());
             let picture = light_of(shading, SIZE, &scene, &eye(&painted, iris, true));
             let edge = pixel_of(&camera(0.0), SIZE, Vec3::new(IRIS_RADIUS, 0.0, FRONT_Z)).x;
             let radius = pupil * (edge - SIZE as f32 / 2.0);
@@ -292,6 +291,24 @@ fn the_iris_is_seen_through_the_cornea_and_the_highlight_is_bright() {
             assert!(redder(behind) * redder(seen) > 0.0, "{name}: {behind} {seen}");
             assert!(redder(seen).abs() > 0.5 * redder(behind).abs(), "{name}: {behind} {seen}");
         }
+    }
+}
+
+#[test]
+fn a_lamp_that_is_off_or_weak_does_not_darken_the_eye() {
+    let Some(gpu) = gpu() else { return };
+    let avatar = checkered_eye(gpu, true);
+    for (name, shading) in shadings() {
+        let draw = |toward, radiance: f32| {
+            let key = Lamp { direction_world: toward, radiance: [radiance; 3] };
+            let light = Light { key, ..bare_light(Environment::uniform([0.5; 3])) };
+            light_of(shading, SIZE, &lit_scene(scene(6.0).camera, light), &avatar)
+        };
+        let (front, behind) = (Vec3::new(0.2, 0.2, 1.0), Vec3::NEG_Z);
+        assert!(draw(front, 0.0).difference_share(&draw(behind, 0.0), 0.003) < 0.0001, "{name}");
+        let (weak, off) = (draw(front, 0.02), draw(front, 0.0));
+        let darkened = weak.light.iter().zip(&off.light).map(|(w, o)| (*o - *w).max_element());
+        assert!(darkened.fold(0.0, f32::max) < 0.01, "{name}");
     }
 }
 

@@ -136,18 +136,17 @@ fn a_mirrored_head_in_mirrored_light_is_a_mirrored_picture() {
         light_of(Shading::Natural(Terms { eye_optics, ..Terms::NONE }), SIZE, &scene, &one)
     });
     assert!(with.difference_share(&without, 0.012) > 0.05);
-    for (yaw, pitch) in [(0.0, 0.0), (0.7, 0.3)] {
-        let scene = |yaw, light| lit_scene(Camera::orbit(Vec3::ZERO, 5.0, yaw, pitch, 0.5, 1.0), light);
-        for (name, shading) in shadings() {
-            let here = light_of(shading, SIZE, &scene(yaw, light), &one);
-            let there = light_of(shading, SIZE, &scene(-yaw, mirror_light(&light)), &other).flipped();
-            // Three of 255 steps where the light is 1. Edges of triangles, shadows and tones may fall to either side.
-            let share = here.difference_share(&there, 0.012);
-            assert!(share < 0.01, "{name}, yaw {yaw}: {share}");
-            // The same head from the same side is something else: the comparison can tell.
-            let not_mirrored = light_of(shading, SIZE, &scene(-yaw, light), &one).flipped();
-            assert!(here.difference_share(&not_mirrored, 0.012) > 0.2, "{name}, yaw {yaw}");
-        }
+    let (yaw, pitch) = (0.7, 0.3);
+    let scene = |yaw, light| lit_scene(Camera::orbit(Vec3::ZERO, 5.0, yaw, pitch, 0.5, 1.0), light);
+    for (name, shading) in shadings() {
+        let here = light_of(shading, SIZE, &scene(yaw, light), &one);
+        let there = light_of(shading, SIZE, &scene(-yaw, mirror_light(&light)), &other).flipped();
+        // Three of 255 steps where the light is 1. Edges of triangles, shadows and tones may fall to either side.
+        let share = here.difference_share(&there, 0.012);
+        assert!(share < 0.01, "{name}, yaw {yaw}: {share}");
+        // The same head from the same side is something else: the comparison can tell.
+        let not_mirrored = light_of(shading, SIZE, &scene(-yaw, light), &one).flipped();
+        assert!(here.difference_share(&not_mirrored, 0.012) > 0.2, "{name}, yaw {yaw}");
     }
 }
 

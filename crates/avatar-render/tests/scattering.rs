@@ -1,4 +1,5 @@
 //! Light that spreads below the skin: past the edge of light, red farthest, and through what is thin.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Shadows fall where geometry says, of the lamps that cast them, with edges as soft as designed.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 mod common;
 

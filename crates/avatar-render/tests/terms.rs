@@ -1,4 +1,5 @@
 //! Each term of natural shading does what it says: occlusion, reflections, the sharp lobe, pores.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 mod common;
 
