@@ -3,6 +3,7 @@
 
 mod common;
 
+use avatar_look::irradiance_at;
 use avatar_look::optics::{Cosines, Lobes, specular, two_lobe_specular};
 use avatar_mesh::{Mesh, PartKind};
 use avatar_render::{
@@ -91,6 +92,56 @@ fn neither_a_flat_plate_nor_the_middle_of_a_ball_hides_anything() {
                 if -point.dot(ray) > 0.5 {
                     assert!(share.x > 0.98, "a ball, {kind:?}: {share} at {at}");
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_far_behind_is_not_darkened() {
+    let Some(gpu) = gpu() else { return };
+    // Half the plate's height in front of it, ten times as far as the renderer looks.
+    let (plate, before) = (square(Vec3::ZERO, 1.0), square(Vec3::new(0.0, 0.0, 1.0), 0.2));
+    let none = PartTextures::default();
+    let avatar = model(gpu, &[part(&plate, PartKind::Skin, none), part(&before, PartKind::Teeth, none)]);
+    for (place, kind) in [PartKind::Skin, PartKind::Teeth].into_iter().enumerate() {
+        assert!(avatar.0.set_material(&gpu.queue, place, &dark(kind)));
+    }
+    for yaw in [0.0, 0.4] {
+        let picture = left(&avatar, Camera::orbit(Vec3::ZERO, 8.0, yaw, 0.0, 0.2, 1.0));
+        let darkest = picture.light.iter().map(|share| share.x).fold(1.0, f32::min);
+        assert!(darkest > 0.99, "{darkest} from {yaw}");
+    }
+}
+
+#[test]
+fn matte_surfaces_take_their_light_from_where_they_look() {
+    let Some(_) = gpu() else { return };
+    let panel = |x, y, z, radiance| Panel { direction_world: Vec3::new(x, y, z), radius_rad: 0.6, radiance };
+    // Each direction has a colour of its own.
+    let environment = Environment {
+        panels: [
+            panel(1.0, 0.2, 0.3, [3.0, 0.0, 0.5]),
+            panel(-0.4, 0.9, 0.3, [0.0, 2.0, 0.5]),
+            panel(-0.3, -0.5, 0.8, [0.3, 0.3, 2.5]),
+            panel(0.2, 0.3, -1.0, [1.0, 1.0, 0.0]),
+        ],
+        ..Environment::STUDIO
+    };
+    // Its twin on the CPU is held against a sum over all directions.
+    let irradiance = environment.irradiance();
+    let white = Material { color: [1.0; 3], ..dark(PartKind::Teeth) };
+    let avatar = of_one(&ball(Vec3::ZERO, 1.0, 64), PartKind::Teeth, white);
+    for (yaw, pitch) in [(0.0, 0.0), (2.0, 0.5), (-1.3, -0.9)] {
+        let camera = Camera::orbit(Vec3::ZERO, 6.0, yaw, pitch, 0.36, 1.0);
+        let scene = lit_scene(camera, bare_light(environment));
+        for (at, light) in light_of(Shading::Natural(Terms::NONE), SIZE, &scene, &avatar).pixels() {
+            let ray = ray_through(&camera, SIZE, at);
+            let Some(normal) = meets_ball(camera.eye(), ray, Vec3::ZERO, 1.0) else { continue };
+            // Toward the silhouette more and more is reflected instead.
+            if -normal.dot(ray) > 0.7 {
+                let expected = irradiance_at(&irradiance, normal);
+                assert!((light - expected).abs().max_element() < 0.03, "{light} for {expected} at {normal}");
             }
         }
     }
