@@ -144,7 +144,10 @@ fn the_readmes_programs_run_in_projects_of_their_own() {
         crates.push((name.to_owned(), project));
     }
     let names: Vec<_> = crates.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(names, ["rig-core", "avatar-mesh", "pose-anim", "avatar-pack", "avatar-render"]);
+    assert_eq!(
+        names,
+        ["rig-core", "avatar-mesh", "avatar-look", "pose-anim", "avatar-pack", "avatar-render"]
+    );
 
     for (name, project) in &crates {
         let mut cargo = Command::new(env!("CARGO"));
