@@ -194,11 +194,13 @@ impl AvatarState {
             && of_state.eq(of_model)
     }
 
-    /// A box around the avatar as it is now.
+    /// A box around the avatar as it is now. What is nowhere, or endless, has none: it must not take the shadows of other
+    /// avatars with it.
     pub(crate) fn bounds(&self, model: &AvatarModel) -> Option<Bounds> {
         let boxes = model.parts.iter().flat_map(|part| &part.geometry.bone_boxes);
         boxes
             .filter_map(|(bone, bounds)| self.bones.get(*bone).map(|bone| bone.moved(*bounds)))
+            .filter(|bounds| bounds.size().is_finite() && bounds.center().is_finite())
             .reduce(Bounds::union)
     }
 

@@ -9,7 +9,7 @@ use avatar_render::{
     AvatarModel, AvatarState, DrawError, Image, ModelError, PartBones, PartDesc, PartProblem, PartTextures,
     Renderer, RendererConfig, RendererError, Shading, Targets,
 };
-use common::{Random, ball, gpu, part, random_mesh, scene, square};
+use common::{Random, ball, gpu, largest_difference, model, part, random_mesh, scene, shadings, square};
 use glam::{Affine3A, Vec3};
 use wgpu::TextureFormat;
 
@@ -209,13 +209,34 @@ fn numbers_that_are_not_finite_draw_something_or_nothing_but_never_fail() {
     let parts = [PartKind::Skin, PartKind::Cornea].map(|kind| part(&mesh, kind, PartTextures::default()));
     let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, 1).expect("a model");
     let mut state = AvatarState::new(&gpu.device, &model);
-    let canvas = Canvas::new(gpu, 8, 8, 1, Shading::Plain).expect("a canvas");
-    for bad in [f32::NAN, f32::INFINITY, 1e38] {
-        state.set(&gpu.queue, &[Affine3A::from_translation(Vec3::splat(bad))], &[]).expect("lengths fit");
-        let mut scene = scene(bad);
-        scene.light.key.direction_world = Vec3::splat(bad);
-        scene.background = [bad; 4];
-        assert!(canvas.render(gpu, &scene, &[(&model, &state)]).is_ok(), "{bad}");
+    for (name, shading) in shadings() {
+        let canvas = Canvas::new(gpu, 8, 8, 1, shading).expect("a canvas");
+        for bad in [f32::NAN, f32::INFINITY, 1e38] {
+            state.set(&gpu.queue, &[Affine3A::from_translation(Vec3::splat(bad))], &[]).expect("lengths fit");
+            let mut scene = scene(bad);
+            scene.light.key.direction_world = Vec3::splat(bad);
+            scene.light.environment.sky = [bad; 3];
+            scene.background = [bad; 4];
+            assert!(canvas.render(gpu, &scene, &[(&model, &state)]).is_ok(), "{name}, {bad}");
+        }
+    }
+}
+
+#[test]
+fn an_avatar_that_is_nowhere_leaves_the_others_as_they_are() {
+    let Some(gpu) = gpu() else { return };
+    let mesh = ball(Vec3::ZERO, 1.0, 16);
+    let (model, good) = model(gpu, &[part(&mesh, PartKind::Skin, PartTextures::default())]);
+    let mut lost = AvatarState::new(&gpu.device, &model);
+    for (name, shading) in shadings() {
+        let canvas = Canvas::new(gpu, 48, 48, 1, shading).expect("a canvas");
+        let scene = scene(4.0);
+        let alone = canvas.render(gpu, &scene, &[(&model, &good)]).expect("a picture");
+        for bad in [f32::NAN, f32::INFINITY] {
+            lost.set(&gpu.queue, &[Affine3A::from_translation(Vec3::splat(bad))], &[]).expect("lengths fit");
+            let both = canvas.render(gpu, &scene, &[(&model, &good), (&model, &lost)]).expect("a picture");
+            assert!(largest_difference(&alone, &both) <= 1, "{name}, {bad}");
+        }
     }
 }
 
