@@ -3,6 +3,7 @@
 use crate::Terms;
 use crate::deformer::GpuDeformedVertex;
 use crate::frame::{GpuFrame, GpuLamp};
+use crate::hair::{GpuHair, GpuHairRegion, GpuRoot};
 use crate::material::{GpuIris, GpuMaterial};
 use crate::part::{GpuPart, GpuShapeOffset, GpuVertex, GpuVertexBones};
 use crate::renderer::GpuShadowView;
@@ -58,6 +59,25 @@ fn layouts() -> Vec<Layout> {
         },
         layout!("DeformedVertex", GpuDeformedVertex, position, normal),
         layout!("Lamp", GpuLamp, direction_world, radiance),
+        layout!(
+            "HairRegion",
+            GpuHairRegion,
+            root_color,
+            length,
+            tip_color,
+            length_variation,
+            root_radius,
+            tip_radius,
+            color_variation,
+            bend,
+            gravity,
+            curl_radius,
+            curl_turns,
+            clump,
+            noise
+        ),
+        layout!("Hair", GpuHair, regions, hull_center, margin, head_bone, strand_count, width_factor),
+        layout!("Root", GpuRoot, corners, region, barycentric, tuft, random, comb),
         layout!("ShadowView", GpuShadowView, shadow_from_world),
         layout!(
             "Frame",
@@ -153,7 +173,7 @@ fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
     let layouts = layouts();
     let mut seen = BTreeSet::new();
     for program in all() {
-        let module = parsed(&program, &Constants { terms: Terms::HIGH, encode_srgb: false });
+        let module = parsed(&program, &Constants { terms: Terms::HIGH, ..Constants::default() });
         for handle in buffer_types(&module) {
             let ty = &module.types[handle];
             let TypeInner::Struct { members, span } = &ty.inner else { continue };
@@ -180,10 +200,13 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("vertex_bones", size_of::<GpuVertexBones>()),
         ("shape_offsets", size_of::<GpuShapeOffset>()),
         ("deformed", size_of::<GpuDeformedVertex>()),
+        ("roots", size_of::<GpuRoot>()),
+        ("hull", size_of::<f32>()),
+        ("points", size_of::<[f32; 4]>()),
     ];
     let mut seen = BTreeSet::new();
     for program in all() {
-        let module = parsed(&program, &Constants { terms: Terms::HIGH, encode_srgb: false });
+        let module = parsed(&program, &Constants { terms: Terms::HIGH, ..Constants::default() });
         for (_, variable) in module.global_variables.iter() {
             let TypeInner::Array { stride, .. } = module.types[variable.ty].inner else { continue };
             let name = variable.name.as_deref().expect("variables have names");

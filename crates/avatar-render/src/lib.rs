@@ -22,6 +22,7 @@
 //!
 //! ```text
 //!  deform               compute: shapes and bones, every part once
+//!  grow hair            compute: every strand anew on the deformed skin, where a model has hair
 //!  shadows              depth that the key and rim lamps see
 //!  depth and normals    one sample a pixel ┐ medium and high
 //!  ambient occlusion    from both          ┘
@@ -33,6 +34,7 @@
 //!    eyeball            front sides
 //!    skin back          what shows at the rim of the neck, lids and lips: a hollow in ambient light
 //!    outlines           toon only
+//!    hair               strands as ribbons
 //!    cornea             front sides, blended, far to near, depth tested but not written
 //! ```
 //!
@@ -71,6 +73,7 @@ mod curvature;
 mod deformer;
 mod eye;
 mod frame;
+mod hair;
 pub mod headless;
 mod image;
 #[cfg(test)]
@@ -99,6 +102,7 @@ pub use avatar_look::{Environment, Iris, Lamp, Light, Material, Panel, ToneMap};
 pub use camera::Camera;
 pub use color::linear_from_srgb8;
 pub use deformer::{Deformer, DeformerError};
+pub use hair::{Grower, GrowerError, HairError};
 pub use image::{Image, ImageSizeError};
 pub use model::{AvatarModel, ModelError, PartBones, PartDesc, PartProblem, PartTextures};
 pub use readback::ReadbackError;

@@ -1,4 +1,5 @@
 use crate::eye::{EyeShape, eye_shape};
+use crate::hair::{HairError, HairModel};
 use crate::material::{
     COLOR_TEXTURE, GLOSS_TEXTURE, GpuMaterial, NORMAL_TEXTURE, OCCLUSION_TEXTURE, THICKNESS_TEXTURE,
 };
@@ -6,6 +7,7 @@ use crate::part::Geometry;
 use crate::state;
 use crate::texture::{TextureUse, upload};
 use crate::{Image, ImageSizeError};
+use avatar_groom::Groom;
 use avatar_look::Material;
 use avatar_mesh::{Bounds, Mesh, PartKind};
 use wgpu::util::DeviceExt;
@@ -144,6 +146,7 @@ pub struct AvatarModel {
     shape_count: usize,
     /// Height of the skin at bind pose: what materials and the reach of occlusion are measured by.
     pub(crate) height: f32,
+    pub(crate) hair: Option<HairModel>,
 }
 
 /// A part on the GPU.
@@ -192,7 +195,7 @@ impl AvatarModel {
                     .map_err(|problem| ModelError::Part { label: desc.label.to_owned(), problem })
             })
             .collect();
-        Ok(Self { parts: parts?, palette_len, shape_count, height })
+        Ok(Self { parts: parts?, palette_len, shape_count, height, hair: None })
     }
 
     /// Number of bone matrices that an avatar of this model needs.
@@ -214,6 +217,30 @@ impl AvatarModel {
     pub(crate) fn parts_of(&self, kind: PartKind) -> impl Iterator<Item = (usize, &ModelPart)> {
         let seen = move |part: &ModelPart| part.kind == kind && part.geometry.index_count > 0;
         self.parts.iter().enumerate().filter(move |(_, part)| seen(part))
+    }
+
+    /// Plants hair on a part, or takes it away: `skin` is the part's mesh, `groom` was made from it. States that were made
+    /// before have no room for it; make them anew.
+    ///
+    /// # Errors
+    /// No such part, roots that do not belong to it, or more strands than the device binds; nothing changes then.
+    pub fn set_hair(
+        &mut self,
+        device: &wgpu::Device,
+        part: usize,
+        skin: &Mesh,
+        groom: Option<&Groom>,
+    ) -> Result<(), HairError> {
+        let missing = HairError::NoSuchPart { parts: self.parts.len(), found: part };
+        let vertices = self.parts.get(part).ok_or(missing)?.geometry.vertex_count;
+        let hair = groom.map(|groom| HairModel::new(device, part, vertices, skin, groom)).transpose()?;
+        self.hair = hair.filter(|hair| hair.strand_count > 0);
+        Ok(())
+    }
+
+    /// Number of strands.
+    pub fn strand_count(&self) -> usize {
+        self.hair.as_ref().map_or(0, |hair| hair.strand_count as usize)
     }
 
     /// Replaces the looks of a part in all avatars of this model, from the next submission on. Returns whether there

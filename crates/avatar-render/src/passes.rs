@@ -9,6 +9,8 @@ use avatar_mesh::PartKind;
 pub(crate) enum Pass {
     /// Compute: all parts of all avatars into their pose.
     Deform,
+    /// Compute: every strand of hair anew on the deformed skin.
+    GrowHair,
     /// What the key and rim lamps see: depth.
     Shadows,
     /// Depth and normals, one sample a pixel.
@@ -24,8 +26,9 @@ pub(crate) enum Pass {
 }
 
 /// The order of a frame's passes. Each reads only what those before it wrote.
-pub(crate) const FRAME_PASSES: [Pass; 7] = [
+pub(crate) const FRAME_PASSES: [Pass; 8] = [
     Pass::Deform,
+    Pass::GrowHair,
     Pass::Shadows,
     Pass::Prepass,
     Pass::Occlusion,
@@ -39,6 +42,7 @@ impl Pass {
     pub(crate) fn label(self) -> &'static str {
         match self {
             Self::Deform => "deform",
+            Self::GrowHair => "grow hair",
             Self::Shadows => "shadows",
             Self::Prepass => "depth and normals",
             Self::Occlusion => "ambient occlusion",
@@ -49,8 +53,9 @@ impl Pass {
     }
 
     /// Whether a shading needs it.
-    pub(crate) fn runs(self, terms: Terms) -> bool {
+    pub(crate) fn runs(self, terms: Terms, with_hair: bool) -> bool {
         match self {
+            Self::GrowHair => with_hair,
             Self::Deform | Self::Picture => true,
             Self::Shadows => terms.shadows.lamps() > 0,
             Self::Prepass => terms.prepass(),

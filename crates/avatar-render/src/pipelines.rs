@@ -2,13 +2,14 @@
 
 use crate::deformer::GpuDeformedVertex;
 use crate::frame::{Ring, uniform_entry};
+use crate::hair::draw_layout;
 use crate::model::look_layout;
 use crate::part::GpuVertex;
 use crate::passes::Drawable;
 use crate::renderer::{GpuShadowView, RendererConfig};
 use crate::resources::Resources;
 use crate::shaders::{
-    Constants, OCCLUSION_PASS, PREPASS, Program, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS,
+    Constants, OCCLUSION_PASS, PREPASS, Program, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS, STRANDS,
 };
 use crate::state::GpuBone;
 use crate::targets::{DEPTH_FORMAT, NORMAL_FORMAT, OCCLUSION_FORMAT, SKIN_LIGHT_FORMAT};
@@ -33,6 +34,7 @@ pub(crate) struct Layouts {
     pipeline: wgpu::PipelineLayout,
     /// Passes over the whole picture know no parts.
     whole_picture: wgpu::PipelineLayout,
+    hair: wgpu::PipelineLayout,
     shadow_pipeline: wgpu::PipelineLayout,
 }
 
@@ -52,6 +54,7 @@ impl Layouts {
         };
         Self {
             pipeline: layout("parts of avatars", &[Some(frame), Some(&view), Some(&look_layout(device))]),
+            hair: layout("hair", &[Some(frame), Some(&view), Some(&draw_layout(device))]),
             whole_picture: layout("whole picture", &[Some(frame), Some(&view)]),
             shadow_pipeline: layout("shadow", &[Some(&shadow)]),
             view,
@@ -63,7 +66,8 @@ impl Layouts {
 fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
+        // Strands are lit at their points.
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
         ty,
         count: None,
     };
@@ -97,6 +101,37 @@ pub(crate) struct PassPipelines {
     pub(crate) scatter_across: Option<wgpu::RenderPipeline>,
 }
 
+/// Builds the pipeline that draws strands.
+pub(crate) fn strand_pipeline(
+    device: &wgpu::Device,
+    layouts: &Layouts,
+    config: RendererConfig,
+) -> wgpu::RenderPipeline {
+    let several = config.samples > 1;
+    let blend = (!several).then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+    let recipe = Recipe {
+        program: &STRANDS,
+        layout: &layouts.hair,
+        buffers: &[],
+        // Ribbons have no sides.
+        cull_mode: None,
+        depth: Some((wgpu::CompareFunction::Greater, true)),
+        bias: Default::default(),
+        samples: config.samples,
+        target: Some(wgpu::ColorTargetState {
+            format: config.color_format,
+            blend,
+            write_mask: wgpu::ColorWrites::ALL,
+        }),
+    };
+    let constants = Constants {
+        terms: config.shading.terms(),
+        encode_srgb: config.encodes_in_shader(),
+        coverage_mask: several,
+    };
+    recipe.build(device, &constants)
+}
+
 /// What distinguishes a pipeline.
 struct Recipe<'a> {
     program: &'a Program,
@@ -112,7 +147,7 @@ struct Recipe<'a> {
 impl PassPipelines {
     pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts, config: RendererConfig) -> Self {
         let terms = config.shading.terms();
-        let constants = Constants { terms, encode_srgb: false };
+        let constants = Constants { terms, ..Constants::default() };
         let bind = bind_attributes();
         let posed = posed_attributes();
         let curvature = curvature_attributes();
@@ -207,13 +242,22 @@ pub(crate) fn picture_pipeline(
             write_mask: wgpu::ColorWrites::ALL,
         }),
     };
-    let constants = Constants { terms: config.shading.terms(), encode_srgb: config.encodes_in_shader() };
+    let constants = Constants {
+        terms: config.shading.terms(),
+        encode_srgb: config.encodes_in_shader(),
+        coverage_mask: false,
+    };
     recipe.build(device, &constants)
 }
 
 impl Recipe<'_> {
     fn again(&self) -> Self {
         Self { target: self.target.clone(), ..*self }
+    }
+
+    /// Strands are ribbons, everything else lists of triangles.
+    fn is_strip(&self) -> bool {
+        self.program.label == STRANDS.label
     }
 
     fn build(&self, device: &wgpu::Device, constants: &Constants) -> wgpu::RenderPipeline {
@@ -228,7 +272,14 @@ impl Recipe<'_> {
                 compilation_options: Default::default(),
                 buffers: self.buffers,
             },
-            primitive: wgpu::PrimitiveState { cull_mode: self.cull_mode, ..Default::default() },
+            primitive: wgpu::PrimitiveState {
+                cull_mode: self.cull_mode,
+                topology: match self.is_strip() {
+                    true => wgpu::PrimitiveTopology::TriangleStrip,
+                    false => wgpu::PrimitiveTopology::TriangleList,
+                },
+                ..Default::default()
+            },
             depth_stencil: self.depth.map(|(compare, writes)| wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(writes),

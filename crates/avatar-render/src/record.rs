@@ -1,11 +1,13 @@
 //! Records the passes of one frame.
 
 use crate::frame::SHADOW_COUNT;
+use crate::hair::HairState;
 use crate::model::ModelPart;
 use crate::passes::{Drawable, Pass};
 use crate::pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, POSED_SLOT};
 use crate::state::{GpuBone, PosedPart};
 use crate::{AvatarModel, AvatarState, PassTimer, Renderer, Scene, Targets};
+use avatar_groom::SEGMENTS;
 use avatar_mesh::PartKind;
 
 /// Everything that the passes of one frame share.
@@ -32,6 +34,10 @@ impl<'a> Frame<'a> {
             Pass::Deform => {
                 let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
                 renderer.deformer.record(encoder, timestamps, self.avatars);
+            }
+            Pass::GrowHair => {
+                let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
+                renderer.grower.record(encoder, timestamps, self.avatars);
             }
             Pass::Shadows => self.shadows(encoder),
             Pass::Prepass => {
@@ -85,6 +91,25 @@ impl<'a> Frame<'a> {
         self.set_groups(&mut pass, group);
         pass.set_pipeline(pipeline);
         self.draw_kind(&mut pass, PartKind::Skin);
+    }
+
+    /// How many strands each avatar with hair has, and where.
+    fn with_hair(&self) -> impl Iterator<Item = (u32, &'a HairState)> {
+        let hair = |(model, state): &(&'a AvatarModel, &'a AvatarState)| {
+            Some((model.hair.as_ref()?.strand_count, state.hair.as_ref()?))
+        };
+        self.avatars.iter().filter_map(hair)
+    }
+
+    /// After what is opaque and before what is clear: hair writes depth, so that corneas lie rightly before or behind it.
+    fn strands(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.push_debug_group("hair");
+        pass.set_pipeline(&self.renderer.strands);
+        for (strands, hair) in self.with_hair() {
+            pass.set_bind_group(2, &hair.draw, &[]);
+            pass.draw(0..2 * (SEGMENTS as u32 + 1), 0..strands);
+        }
+        pass.pop_debug_group();
     }
 
     fn shadows(&self, encoder: &mut wgpu::CommandEncoder) {
@@ -143,6 +168,9 @@ impl<'a> Frame<'a> {
         });
         self.set_groups(&mut pass, &targets.for_picture);
         for (drawable, pipeline) in &self.renderer.picture {
+            if drawable.is_transparent {
+                self.strands(&mut pass);
+            }
             pass.push_debug_group(drawable.label);
             pass.set_pipeline(pipeline);
             match drawable.is_transparent {

@@ -1,8 +1,9 @@
 use crate::color::srgb_from_linear;
 use crate::deformer::Deformer;
 use crate::frame::{GpuFrame, Ring, SHADOW_COUNT};
+use crate::hair::Grower;
 use crate::passes::{Drawable, FRAME_PASSES, draw_order};
-use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, view_group};
+use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, strand_pipeline, view_group};
 use crate::record::Frame;
 use crate::resources::Resources;
 use crate::shadows::ShadowViews;
@@ -101,6 +102,8 @@ pub struct Renderer {
     pub(crate) passes: PassPipelines,
     /// In the order of drawing.
     pub(crate) picture: Vec<(Drawable, wgpu::RenderPipeline)>,
+    pub(crate) grower: Grower,
+    pub(crate) strands: wgpu::RenderPipeline,
     pub(crate) shadow_views: Ring<GpuShadowView>,
     pub(crate) shadow_group: wgpu::BindGroup,
 }
@@ -129,6 +132,8 @@ impl Renderer {
             id: NEXT.fetch_add(1, Ordering::Relaxed),
             config,
             deformer: Deformer::new(device),
+            grower: Grower::new(device),
+            strands: strand_pipeline(device, &layouts, config),
             passes: PassPipelines::new(device, &layouts, config),
             picture: (draw_order(config.shading).into_iter())
                 .map(|drawable| (drawable, picture_pipeline(device, &layouts, &drawable, config)))
@@ -214,7 +219,8 @@ impl Renderer {
             }),
             timer,
         };
-        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms));
+        let with_hair = avatars.iter().any(|(model, _)| model.strand_count() > 0);
+        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms, with_hair));
         for pass in passes() {
             frame.record(encoder, pass);
         }

@@ -3,11 +3,13 @@
 use crate::deformer::DEFORM_WORKGROUP_SIZE;
 use crate::eye::PROFILE_LEN;
 use crate::frame::{KEY_LAMP, LAMP_COUNT, RIM_LAMP, SHADOW_COUNT, TONE_AGX, TONE_NEUTRAL};
+use crate::hair::{GROW_WORKGROUP_SIZE, REGION_COUNT};
 use crate::material::{
     COLOR_TEXTURE, GLOSS_TEXTURE, NORMAL_TEXTURE, OCCLUSION_TEXTURE, SKIN_ALBEDO, THICKNESS_TEXTURE,
 };
 use crate::pores::PORE_CELLS;
 use crate::{Scattering, Terms};
+use avatar_groom::{FIRST_SEGMENT, HULL_SIZE, SEGMENTS};
 use avatar_look::optics::diffusion_distance;
 use avatar_mesh::MIN_NORMAL_LENGTH;
 
@@ -28,11 +30,13 @@ pub(crate) struct Constants {
     pub(crate) terms: Terms,
     /// Whether fragments encode their colours because the target does not.
     pub(crate) encode_srgb: bool,
+    /// Whether thin strands cover some of a pixel's samples, instead of being blended.
+    pub(crate) coverage_mask: bool,
 }
 
 impl Default for Constants {
     fn default() -> Self {
-        Self { terms: Terms::NONE, encode_srgb: false }
+        Self { terms: Terms::NONE, encode_srgb: false, coverage_mask: false }
     }
 }
 
@@ -214,6 +218,22 @@ pub(crate) const SCATTER_PASS: Program = Program {
     modules: &[FRAME, VIEW, LOOK, VERTEX, SCATTER, module!("passes/scatter_across")],
 };
 
+const HAIR: &str = module!("strands/hair");
+
+pub(crate) const GROW_PASS: Program = Program {
+    label: "grow hair",
+    entry: "grow_main",
+    fragment: None,
+    modules: &[AVATAR, HAIR, module!("strands/grow")],
+};
+
+pub(crate) const STRANDS: Program = Program {
+    label: "hair",
+    entry: "strand_main",
+    fragment: Some("strand_fragment_main"),
+    modules: &[FRAME, VIEW, BRDF, OUTPUT, SHADOW, AMBIENT, HAIR, module!("strands/draw")],
+};
+
 impl Program {
     /// The whole text.
     pub(crate) fn source(&self, constants: &Constants) -> String {
@@ -235,7 +255,7 @@ impl Program {
 
 impl Constants {
     fn text(&self) -> String {
-        let Self { terms, encode_srgb } = self;
+        let Self { terms, encode_srgb, coverage_mask } = self;
         let reach = terms.shadows.reach().map_or(-1, |reach| reach as i32);
         let flag = |name: &str, on: bool| format!("const {name}: bool = {on};\n");
         let number = |name: &str, value: u32| format!("const {name}: u32 = {value}u;\n");
@@ -271,6 +291,12 @@ impl Constants {
             flag("TRANSMISSION", terms.transmission),
             flag("EYE_OPTICS", terms.eye_optics),
             flag("ENCODE_SRGB", *encode_srgb),
+            flag("COVERAGE_MASK", *coverage_mask),
+            number("SEGMENTS", SEGMENTS as u32),
+            float("FIRST_SEGMENT", FIRST_SEGMENT),
+            number("HULL_SIZE", HULL_SIZE as u32),
+            number("REGION_COUNT", REGION_COUNT as u32),
+            number("GROW_WORKGROUP_SIZE", GROW_WORKGROUP_SIZE),
         ]
         .concat()
     }
@@ -284,8 +310,17 @@ pub(crate) mod tests {
     pub(crate) fn all() -> Vec<Program> {
         let styles = [PLAIN, NATURAL, TOON];
         let of_style = |p: Programs| [p.skin, p.teeth, p.eyeball, p.skin_back, p.cornea];
-        let passes =
-            [OUTLINE, DEFORM_PASS, SHADOW_PASS, PREPASS, OCCLUSION_PASS, SKIN_LIGHT_PASS, SCATTER_PASS];
+        let passes = [
+            OUTLINE,
+            DEFORM_PASS,
+            SHADOW_PASS,
+            PREPASS,
+            OCCLUSION_PASS,
+            SKIN_LIGHT_PASS,
+            SCATTER_PASS,
+            GROW_PASS,
+            STRANDS,
+        ];
         styles.into_iter().flat_map(of_style).chain(passes).collect()
     }
 
@@ -300,7 +335,8 @@ pub(crate) mod tests {
     #[test]
     fn every_program_parses_and_validates_without_optional_capabilities() {
         for terms in [Terms::NONE, Terms::LOW, Terms::MEDIUM, Terms::HIGH] {
-            let constants = Constants { terms, encode_srgb: terms == Terms::NONE };
+            let plain = terms == Terms::NONE;
+            let constants = Constants { terms, encode_srgb: plain, coverage_mask: !plain };
             for program in all() {
                 let module = parsed(&program, &constants);
                 let mut validator = naga::valid::Validator::new(

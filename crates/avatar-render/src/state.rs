@@ -1,5 +1,6 @@
 use crate::AvatarModel;
 use crate::deformer::{GpuDeformedVertex, deformed_layout};
+use crate::hair::HairState;
 use crate::model::ModelPart;
 use crate::part::Geometry;
 use avatar_mesh::Bounds;
@@ -41,6 +42,9 @@ pub struct AvatarState {
     pub(crate) bind_group: wgpu::BindGroup,
     /// What the deform pass makes of each part of the model.
     pub(crate) posed: Vec<PosedPart>,
+    /// What the growing pass makes of the model's hair.
+    pub(crate) hair: Option<HairState>,
+    strand_count: usize,
 }
 
 /// A part in its pose of now, on the GPU.
@@ -123,7 +127,12 @@ impl AvatarState {
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
         });
         let output_layout = deformed_layout(device);
-        let posed = model.parts.iter().map(|part| PosedPart::new(device, &output_layout, part)).collect();
+        let posed: Vec<_> =
+            model.parts.iter().map(|part| PosedPart::new(device, &output_layout, part)).collect();
+        let hair = model
+            .hair
+            .as_ref()
+            .and_then(|hair| Some(HairState::new(device, hair, &posed.get(hair.part)?.vertices)));
         let room = model.shape_count().max(1) * size_of::<GpuActiveShape>();
         let shape_buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("avatar: active shapes"),
@@ -148,6 +157,8 @@ impl AvatarState {
             shape_buffer,
             bind_group,
             posed,
+            hair,
+            strand_count: model.strand_count(),
         }
     }
 
@@ -192,6 +203,7 @@ impl AvatarState {
         self.bones.len() == model.palette_len()
             && self.shape_count == model.shape_count()
             && of_state.eq(of_model)
+            && self.strand_count == model.strand_count()
     }
 
     /// A box around the avatar as it is now. What is nowhere, or endless, has none: it must not take the shadows of other

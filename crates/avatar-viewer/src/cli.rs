@@ -1,4 +1,5 @@
 use crate::face_args::FaceArgs;
+use crate::hair_args::HairArgs;
 use crate::look_args::LookArgs;
 use crate::scene::{BACKGROUND, SAMPLES, View};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -45,6 +46,8 @@ pub(crate) enum Verb {
     Bones(BonesArgs),
     /// Writes a part's deformed positions and normals as OBJ
     Deform(DeformArgs),
+    /// Writes the strands of hair as the GPU grew them, as JSON
+    Strands(StrandsArgs),
     /// Prints the motion of all controls while poses are pressed, as CSV
     Trace(TraceArgs),
     /// Prints what is in a pack
@@ -127,6 +130,22 @@ pub(crate) struct DeformArgs {
     /// Compute on the GPU, with the function that draws
     #[arg(long)]
     pub(crate) gpu: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StrandsArgs {
+    #[command(flatten)]
+    pub(crate) pack: PackArg,
+    #[command(flatten)]
+    pub(crate) face: FaceArgs,
+    #[command(flatten)]
+    pub(crate) hair: HairArgs,
+    /// The strands, JSON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Only the first so many strands
+    #[arg(long, value_name = "NUMBER")]
+    pub(crate) limit: Option<usize>,
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,6 @@
 //! How the picture is to look, as the command line says it.
 
+use crate::hair_args::HairArgs;
 use avatar_render::{Light, Quality, Shading, Style, ToneMap};
 use clap::{Args, ValueEnum};
 
@@ -20,6 +21,8 @@ pub(crate) struct LookArgs {
     /// Brighter (above 0) or darker, in stops
     #[arg(long, default_value = "0", allow_negative_numbers = true, value_parser = stops, value_name = "STOPS")]
     exposure: f32,
+    #[command(flatten)]
+    pub(crate) hair: HairArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -67,11 +70,17 @@ impl Default for LookArgs {
             light: LightName::Studio,
             tone_map: ToneMapName::Neutral,
             exposure: 0.0,
+            hair: HairArgs::OFF,
         }
     }
 }
 
 impl LookArgs {
+    /// The defaults, with this hair.
+    pub(crate) fn with_hair(hair: HairArgs) -> Self {
+        Self { hair, ..Self::default() }
+    }
+
     /// The shading on this adapter.
     pub(crate) fn shading(&self, adapter: &wgpu::AdapterInfo) -> Shading {
         let quality = match self.quality {

@@ -6,6 +6,7 @@
 mod cli;
 mod face_args;
 mod files;
+mod hair_args;
 mod label;
 mod look_args;
 mod offscreen;

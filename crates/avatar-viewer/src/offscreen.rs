@@ -3,10 +3,12 @@ use crate::face_args::FaceChoice;
 use crate::look_args::LookArgs;
 use crate::scene::{self, View};
 use anyhow::{Context, Result, bail};
+use avatar_groom::SEGMENTS;
 use avatar_mesh::Deformed;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking};
-use avatar_render::{AvatarModel, AvatarState, Deformer};
+use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
+use glam::Vec3;
 use image::RgbaImage;
 
 /// What the device complained about outside of any call, such as running out of memory.
@@ -32,7 +34,7 @@ impl Offscreen {
     /// Opens the best adapter and uploads the avatar.
     pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let gpu = open_blocking(GpuOptions::default())?;
-        let model = scene::upload(pack, textures, &gpu.device, &gpu.queue)?;
+        let model = scene::upload(pack, textures, &gpu.device, &gpu.queue, &look.hair)?;
         let avatar = AvatarState::new(&gpu.device, &model);
         check(&gpu)?;
         Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, look, canvas: None })
@@ -71,6 +73,16 @@ impl Offscreen {
         let picture = canvas.render(&self.gpu, &scene, &[(&self.model, &self.avatar)])?;
         self.canvas = Some((size, canvas));
         RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")
+    }
+
+    /// The strands, grown on the GPU by the pass that draws, and read back.
+    pub(crate) fn strands(&mut self, pack: &Pack, face: &FaceChoice) -> Result<Vec<[Vec3; SEGMENTS + 1]>> {
+        self.pose(pack, face)?;
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
+        let strands =
+            Grower::new(device).run(device, queue, &Deformer::new(device), &self.model, &self.avatar);
+        check(&self.gpu)?;
+        Ok(strands?)
     }
 
     /// One part, deformed on the GPU by the function that draws, and read back.

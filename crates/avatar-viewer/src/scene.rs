@@ -1,5 +1,6 @@
 //! From a pack to what the renderer takes, the same for pictures and for the window.
 
+use crate::hair_args::HairArgs;
 use anyhow::Result;
 use avatar_mesh::{Bounds, PartKind};
 use avatar_pack::{Pack, Texture, Textures};
@@ -67,6 +68,7 @@ pub(crate) fn upload(
     textures: &Textures,
     device: &wgpu::Device,
     queue: &wgpu::Queue,
+    hair: &HairArgs,
 ) -> Result<AvatarModel> {
     let image = |texture| {
         textures.get(texture).map(|image| Image {
@@ -105,7 +107,10 @@ pub(crate) fn upload(
             textures: textures_of(part.spec.kind),
         })
         .collect();
-    let model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
+    let mut model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
+    if let Some((skin, groom)) = hair.groom(pack, textures) {
+        model.set_hair(device, skin, &pack.parts[skin].mesh, Some(&groom))?;
+    }
     set_materials(pack, &model, queue);
     Ok(model)
 }

@@ -6,6 +6,7 @@ mod info;
 mod keys;
 mod render;
 mod sheet;
+mod strands;
 mod trace;
 
 use crate::cli::{Cli, PackArg, Verb};
@@ -23,6 +24,7 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
         Verb::Sheet(args) => sheet::run(&args),
         Verb::Bones(args) => bones::run(&args, matches),
         Verb::Deform(args) => deform::run(&args, matches),
+        Verb::Strands(args) => strands::run(&args, matches),
         Verb::Trace(args) => trace::run(&args),
         Verb::Info(args) => info::run(&args),
         Verb::Keys(args) => keys::run(&args),

@@ -51,7 +51,7 @@ impl Stage {
         let shading = look.shading(&gpu.info);
         let renderer_config = RendererConfig { color_format: config.format, samples: SAMPLES, shading };
         let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
-        let model = scene::upload(pack, textures, device, &gpu.queue)?;
+        let model = scene::upload(pack, textures, device, &gpu.queue, &look.hair)?;
         let avatar = AvatarState::new(device, &model);
         let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar, look };
         stage.resize(size)?;

@@ -1,0 +1,28 @@
+//! Where hair grows on a face, and how: plain data and plain functions, without a GPU.
+//!
+//! ```text
+//!  density texture + skin ──▶ Root per strand ─┐
+//!  Style (short, bob, long …) ─────────────────┼──▶ Groom ──▶ avatar-render grows and draws it every frame
+//!  skin at bind pose ──▶ Hull ─────────────────┘          └──▶ grow(): the same strand on the CPU
+//! ```
+//!
+//! A root keeps its triangle, its place in it and its random numbers for good, so that it follows the deformed skin exactly.
+//! Roots come in a random but fixed order: the first N are a fair sample of all, which is what changing the density at run
+//! time and level of detail are. Lengths of a style are fractions of the height of the skin.
+//!
+//! This crate knows no files, no clock and no ambient randomness: the same input gives the same roots on every machine.
+
+mod density;
+mod groom;
+mod grow;
+mod hull;
+mod random;
+mod roots;
+mod style;
+
+pub use density::DensityMap;
+pub use groom::Groom;
+pub use grow::{FIRST_SEGMENT, MARGIN, SEGMENTS, TUFT_TRIANGLES, Triangle, grow};
+pub use hull::{HULL_SIZE, Hull};
+pub use roots::{Region, Root, scatter};
+pub use style::{RegionStyle, Style};

@@ -1,0 +1,175 @@
+use crate::Region;
+
+/// How hair looks and falls, region by region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// The head's own hair.
+    pub scalp: RegionStyle,
+    /// Above the eyes.
+    pub brows: RegionStyle,
+    /// At the edges of the lids.
+    pub lashes: RegionStyle,
+}
+
+/// How the hair of one region looks and falls. Lengths are fractions of the height of the skin, colours are linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegionStyle {
+    /// Share of the strands that the density asks for, 0 (bald) to 1.
+    pub density: f32,
+    /// Length of a strand.
+    pub length: f32,
+    /// How much shorter strands may be, 0 (all alike) to 1.
+    pub length_variation: f32,
+    /// Half the width at the root.
+    pub root_radius: f32,
+    /// Half the width at the tip.
+    pub tip_radius: f32,
+    /// Colour at the root.
+    pub root_color: [f32; 3],
+    /// Colour at the tip.
+    pub tip_color: [f32; 3],
+    /// How much lighter or darker strands are than the colour says, 0 (all alike) to 1.
+    pub color_variation: f32,
+    /// How strongly a strand turns from the normal of the skin to where it is combed and pulled, 0 (it stands) to 1.
+    pub bend: f32,
+    /// Pull downward in the world.
+    pub gravity: f32,
+    /// Where it is combed, at bind pose: away from the parting, up, forward; of any length.
+    pub comb: [f32; 3],
+    /// Where the parting is: to the character's left of the middle.
+    pub parting: f32,
+    /// Half the width of the strip in the middle that has hair at all; everything where it is 1 or more.
+    pub strip: f32,
+    /// Radius of curls at the tip.
+    pub curl_radius: f32,
+    /// Turns of a curl from root to tip.
+    pub curl_turns: f32,
+    /// How much strands of one tuft bend alike, each tuft in a way of its own.
+    pub clump: f32,
+    /// How much each strand goes its own way.
+    pub noise: f32,
+}
+
+impl Style {
+    /// The presets by name.
+    pub const PRESETS: [(&str, Self); 6] = [
+        ("short", Self::SHORT),
+        ("bob", Self::BOB),
+        ("long", Self::LONG),
+        ("curly", Self::CURLY),
+        ("mohawk", Self::MOHAWK),
+        ("bald", Self::BALD),
+    ];
+
+    const STRAND: RegionStyle = RegionStyle {
+        density: 1.0,
+        length: 0.08,
+        length_variation: 0.35,
+        root_radius: 0.00055,
+        tip_radius: 0.00012,
+        root_color: [0.035, 0.016, 0.009],
+        tip_color: [0.11, 0.052, 0.026],
+        color_variation: 0.35,
+        bend: 0.5,
+        gravity: 0.35,
+        comb: [1.0, -0.4, -0.5],
+        parting: 0.0,
+        strip: 1.0,
+        curl_radius: 0.0,
+        curl_turns: 0.0,
+        clump: 0.25,
+        noise: 0.15,
+    };
+    const BROW: RegionStyle = RegionStyle {
+        density: 1.0,
+        length: 0.016,
+        length_variation: 0.3,
+        root_radius: 0.0005,
+        tip_radius: 0.0001,
+        bend: 0.75,
+        gravity: 0.0,
+        comb: [1.0, 0.25, 0.0],
+        clump: 0.1,
+        ..Self::STRAND
+    };
+    const LASH: RegionStyle = RegionStyle {
+        density: 0.12,
+        length: 0.014,
+        bend: 0.35,
+        gravity: 0.0,
+        comb: [0.4, 0.5, 0.8],
+        root_color: [0.008, 0.006, 0.005],
+        tip_color: [0.012, 0.009, 0.008],
+        ..Self::BROW
+    };
+    /// Cropped close to the head.
+    pub const SHORT: Self = Self {
+        scalp: RegionStyle {
+            length: 0.075,
+            bend: 0.45,
+            comb: [0.6, -0.2, 0.35],
+            parting: 0.03,
+            ..Self::STRAND
+        },
+        brows: Self::BROW,
+        lashes: Self::LASH,
+    };
+    /// To the chin, parted at the side.
+    pub const BOB: Self = Self {
+        scalp: RegionStyle {
+            length: 0.44,
+            length_variation: 0.12,
+            bend: 0.7,
+            gravity: 1.0,
+            comb: [1.0, -0.2, -0.35],
+            parting: 0.05,
+            clump: 0.3,
+            noise: 0.08,
+            ..Self::STRAND
+        },
+        ..Self::SHORT
+    };
+    /// Over the shoulders, parted in the middle.
+    pub const LONG: Self =
+        Self { scalp: RegionStyle { length: 0.85, parting: 0.0, ..Self::BOB.scalp }, ..Self::SHORT };
+    /// Curls around the head.
+    pub const CURLY: Self = Self {
+        scalp: RegionStyle {
+            length: 0.32,
+            bend: 0.3,
+            gravity: 0.55,
+            comb: [0.8, 0.1, -0.1],
+            curl_radius: 0.016,
+            curl_turns: 3.5,
+            clump: 0.5,
+            noise: 0.3,
+            ..Self::STRAND
+        },
+        ..Self::SHORT
+    };
+    /// A crest in the middle.
+    pub const MOHAWK: Self = Self {
+        scalp: RegionStyle {
+            length: 0.2,
+            length_variation: 0.15,
+            bend: 0.12,
+            gravity: 0.0,
+            comb: [0.0, 0.6, -0.4],
+            strip: 0.055,
+            tip_color: [0.5, 0.03, 0.06],
+            ..Self::STRAND
+        },
+        ..Self::SHORT
+    };
+    /// Brows and lashes only.
+    pub const BALD: Self = Self { scalp: RegionStyle { density: 0.0, ..Self::STRAND }, ..Self::SHORT };
+
+    /// The style of a region.
+    pub fn region(&self, region: Region) -> &RegionStyle {
+        match region {
+            Region::Scalp => &self.scalp,
+            Region::Brows => &self.brows,
+            Region::Lashes => &self.lashes,
+        }
+    }
+}

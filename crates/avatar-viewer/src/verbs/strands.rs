@@ -1,0 +1,30 @@
+use crate::cli::StrandsArgs;
+use crate::look_args::LookArgs;
+use crate::offscreen::Offscreen;
+use crate::output::OutputFile;
+use anyhow::Result;
+use clap::ArgMatches;
+use serde_json::json;
+
+pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
+    let out = OutputFile::check(&args.out)?;
+    let files = super::open(&args.pack)?;
+    let pack = files.load_pack()?;
+    let face = args.face.resolve(&pack, matches)?;
+    let textures = files.load_textures();
+    let look = LookArgs::with_hair(args.hair);
+    let mut offscreen = Offscreen::open(&pack, &textures, 1, look)?;
+    let strands = offscreen.strands(&pack, &face)?;
+    let roots = args.hair.groom(&pack, &textures).map_or_else(Vec::new, |(_, groom)| groom.roots);
+    if strands.is_empty() {
+        eprintln!("warning: expected hair to grow, found none: the pack has no HairMap, or --hair is off");
+    }
+    let strands: Vec<_> = (roots.iter().zip(&strands))
+        .take(args.limit.unwrap_or(usize::MAX))
+        .map(|(root, points)| {
+            let points: Vec<_> = points.iter().map(|point| point.to_array()).collect();
+            json!({ "triangle": root.triangle, "barycentric": root.barycentric, "points": points })
+        })
+        .collect();
+    out.write(format!("{}\n", json!({ "strands": strands })).as_bytes())
+}
