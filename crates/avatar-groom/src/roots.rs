@@ -61,10 +61,12 @@ pub fn scatter(
         let Some((positions, uvs)) = points(mesh, corners) else { continue };
         let area = 0.5 * f64::from((positions[1] - positions[0]).cross(positions[2] - positions[0]).length());
         let mean = f64::from(density.mean(uvs));
-        if !(area * mean > 0.0) || !area.is_finite() {
+        let wanted = area * mean * per_area;
+        // Also no number, from a broken mesh.
+        if wanted <= 0.0 || !wanted.is_finite() {
             continue;
         }
-        share += area * mean * per_area;
+        share += wanted;
         while (counted as f64) + 1.0 <= share {
             let barycentric = place(density, uvs, seed, counted);
             let at = |weights: [f32; 3]| (0..3).map(|i| positions[i] * weights[i]).sum::<Vec3>();
