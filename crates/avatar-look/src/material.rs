@@ -113,7 +113,7 @@ impl Material {
                 sharp_roughness: 0.55,
                 transmission: 1.0,
                 thickness: 0.09,
-                pore_strength: 0.25,
+                pore_strength: 0.08,
                 pore_density: 50.0,
                 ..matte
             },

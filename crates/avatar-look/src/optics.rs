@@ -65,8 +65,8 @@ pub fn schlick_fresnel(reflectance: f32, cosine: f32) -> f32 {
 /// What a white matte surface makes of a lamp of radiance 1 if light reaches around the terminator by `wrap`, 0 (not at
 /// all) to 1 (to the far pole).
 ///
-/// Over all directions it reflects what an unwrapped surface does: S. McAuley, "Extension to Energy-Conserving Wrapped
-/// Diffuse", 2011. A wrap per channel gives skin its warm edge of shadow (S. Green, GPU Gems, chapter 16, 2004).
+/// Over all directions it reflects what an unwrapped surface does: S. McAuley, "Energy-Conserving Wrapped
+/// Diffuse". A wrap per channel gives skin its warm edge of shadow (S. Green, GPU Gems, chapter 16, 2004).
 pub fn wrapped_diffuse(n_dot_l: f32, wrap: f32) -> f32 {
     let reach = 1.0 + wrap;
     ((n_dot_l + wrap) / (reach * reach)).max(0.0)

@@ -37,8 +37,8 @@ fn specular_lobe(normal: vec3f, view: vec3f, direction: vec3f, reflectance: f32,
         * smith_visibility(n_dot_v, n_dot_l, alpha) * n_dot_l;
 }
 
-// Wrapped diffuse that reflects no more than it receives: S. McAuley, "Extension to Energy-Conserving Wrapped
-// Diffuse", 2011. A wrap per channel gives skin its warm edge of shadow (S. Green, GPU Gems, chapter 16, 2004).
+// Wrapped diffuse that reflects no more than it receives: S. McAuley, "Energy-Conserving Wrapped
+// Diffuse". A wrap per channel gives skin its warm edge of shadow (S. Green, GPU Gems, chapter 16, 2004).
 fn wrapped_diffuse(n_dot_l: f32, wrap: vec3f) -> vec3f {
     let reach = 1.0 + wrap;
     return max((vec3f(n_dot_l) + wrap) / (reach * reach), vec3f(0.0));

@@ -69,7 +69,7 @@ fn iris_uv(from_axis: vec2f) -> vec2f {
 }
 
 // Where the line of sight meets the iris: in through the cornea's sphere, bent by Snell's law, on to the plane of the
-// iris. J. Jimenez, "Next-Generation Character Rendering", 2013; A. Francois et al., "Image-based modeling of the human
+// iris. J. Jimenez, "Next-Generation Character Rendering", 2013; G. François et al., "Image-based modeling of the human
 // eye", 2009.
 fn iris_view(in: EyeOut) -> IrisView {
     let iris = material.iris;

@@ -51,7 +51,7 @@ fn scattered_along(axis: vec2i, position_clip: vec4f) -> vec3f {
         let step = i32(round(x * pixels));
         let pixel = clamp(center + axis * step, vec2i(0), size - 1);
         let light = textureLoad(skin_light, pixel, 0);
-        let gap = (view_distance(textureLoad(depth_texture, pixel, 0)) - distance) / unit;
+        let gap = (view_distance(textureLoad(depth_texture, pixel, 0)) - distance) / (1.5 * widest);
         // Another part, or another side of a fold: light does not jump there.
         let same = light.a * exp(-0.5 * gap * gap);
         let spacing = max(abs(t), 0.5 / f32(SCATTER_REACH));

@@ -67,7 +67,9 @@ fn diffuse_of(surface: Surface, lamp: u32, seen: f32) -> vec3f {
     let visibility = seen * smoothstep(-0.65, -0.3, dot(surface.smooth_normal, direction));
     var reflected = vec3f(0.0);
     if SCATTERING == WRAPPED {
-        reflected = visibility * wrapped_diffuse(dot(surface.normal, direction), material.wrap);
+        // Near the edge of light the surface shades itself, smoothly; the map would cut it into steps.
+        let own = smoothstep(0.0, 0.25, dot(surface.smooth_normal, direction));
+        reflected = mix(1.0, visibility, own) * wrapped_diffuse(dot(surface.normal, direction), material.wrap);
     } else if SCATTERING == PRE_INTEGRATED {
         reflected = bled(visibility) * pre_integrated(surface, direction);
     } else {
