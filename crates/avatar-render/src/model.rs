@@ -260,8 +260,9 @@ fn cornea_of<'a, 'b>(ball: &PartDesc<'b>, parts: &'a [PartDesc<'b>]) -> Option<&
     let distance = |part: &PartDesc<'_>| {
         part.mesh.bounds().map_or(f32::INFINITY, |bounds| bounds.center().distance(center))
     };
-    match ball.kind {
-        PartKind::Eyeball => {
+    match (ball.kind, ball.bones) {
+        // The view is turned back to bind pose by one bone: eyes with bones per vertex are drawn as they are.
+        (PartKind::Eyeball, PartBones::Rigid(_)) => {
             parts.iter().filter(is_its_cornea).min_by(|a, b| distance(a).total_cmp(&distance(b)))
         }
         _ => None,
