@@ -1,6 +1,6 @@
 use crate::part::Geometry;
 use crate::readback::{ReadbackError, mapped};
-use crate::shaders::{Constants, DEFORM_PASS};
+use crate::shaders::{Constants, DEFORM_PASS, Program};
 use crate::state::avatar_layout;
 use crate::{AvatarModel, AvatarState};
 use avatar_mesh::Deformed;
@@ -55,6 +55,27 @@ pub(crate) fn deformed_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
+/// The pipeline of a compute pass; `groups` are the layouts of its bind groups in their order.
+pub(crate) fn compute_pipeline(
+    device: &wgpu::Device,
+    program: &Program,
+    groups: [&wgpu::BindGroupLayout; 3],
+) -> wgpu::ComputePipeline {
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(program.label),
+        bind_group_layouts: &groups.map(Some),
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(program.label),
+        layout: Some(&layout),
+        module: &program.module(device, &Constants::default()),
+        entry_point: Some(program.entry),
+        compilation_options: Default::default(),
+        cache: None,
+    })
+}
+
 /// Deforms avatars: the first pass of every frame. By itself it reads back what is drawn.
 #[derive(Debug)]
 pub struct Deformer {
@@ -64,23 +85,8 @@ pub struct Deformer {
 impl Deformer {
     /// Builds the pipeline.
     pub fn new(device: &wgpu::Device) -> Self {
-        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("deform"),
-            bind_group_layouts: &[
-                Some(&deformed_layout(device)),
-                Some(&avatar_layout(device)),
-                Some(&Geometry::layout(device)),
-            ],
-            immediate_size: 0,
-        });
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(DEFORM_PASS.label),
-            layout: Some(&pipeline_layout),
-            module: &DEFORM_PASS.module(device, &Constants::default()),
-            entry_point: Some(DEFORM_PASS.entry),
-            compilation_options: Default::default(),
-            cache: None,
-        });
+        let groups = [&deformed_layout(device), &avatar_layout(device), &Geometry::layout(device)];
+        let pipeline = compute_pipeline(device, &DEFORM_PASS, groups);
         Self { pipeline }
     }
 

@@ -1,7 +1,7 @@
 use crate::color::srgb_from_linear;
 use crate::deformer::Deformer;
 use crate::frame::{GpuFrame, Ring, SHADOW_COUNT};
-use crate::hair::Grower;
+use crate::grower::Grower;
 use crate::passes::{Drawable, FRAME_PASSES, draw_order};
 use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, strand_pipeline, view_group};
 use crate::record::Frame;

@@ -7,7 +7,7 @@ mod common;
 use avatar_groom::{DensityMap, Groom, SEGMENTS, Style, Triangle, grow};
 use avatar_mesh::deform;
 use avatar_pack::{FaceState, Pack, Source, SourceError, Texture, Textures};
-use avatar_render::headless::render_image;
+use avatar_render::headless::{Gpu, render_image};
 use avatar_render::{
     AvatarModel, AvatarState, Deformer, Grower, HairError, PartBones, PartDesc, PartTextures,
 };
@@ -38,19 +38,24 @@ fn groom(pack: &Pack, density: &DensityMap, style: Style, strands: f32) -> Groom
     Groom::new(&pack.parts[0].mesh, density, &eyes, style, strands, 7)
 }
 
+/// The skin alone, without hair.
+fn bald(gpu: &Gpu, pack: &Pack) -> AvatarModel {
+    let part = PartDesc {
+        label: "skin",
+        mesh: &pack.parts[0].mesh,
+        kind: pack.parts[0].spec.kind,
+        bones: PartBones::PerVertex,
+        textures: PartTextures::default(),
+    };
+    AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette.len()).expect("a model")
+}
+
 #[test]
 fn strands_stand_on_the_deformed_skin_and_are_those_of_the_cpu_in_every_pose() {
     let Some(gpu) = gpu() else { return };
     let (pack, density) = avatar();
     let skin = &pack.parts[0].mesh;
-    let part = PartDesc {
-        label: "skin",
-        mesh: skin,
-        kind: pack.parts[0].spec.kind,
-        bones: PartBones::PerVertex,
-        textures: PartTextures::default(),
-    };
-    let mut model = AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette.len()).expect("a model");
+    let mut model = bald(gpu, &pack);
     let (deformer, grower) = (Deformer::new(&gpu.device), Grower::new(&gpu.device));
     let mut posed = skin.deformed();
     for (_, style) in Style::PRESETS {
@@ -93,14 +98,7 @@ fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
     let Some(gpu) = gpu() else { return };
     let (pack, density) = avatar();
     let skin = &pack.parts[0].mesh;
-    let part = PartDesc {
-        label: "skin",
-        mesh: skin,
-        kind: pack.parts[0].spec.kind,
-        bones: PartBones::PerVertex,
-        textures: PartTextures::default(),
-    };
-    let mut model = AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette.len()).expect("a model");
+    let mut model = bald(gpu, &pack);
     let scene = scene(70.0);
     let draw = |model: &AvatarModel| {
         let state = AvatarState::new(&gpu.device, model);
