@@ -1,0 +1,108 @@
+use crate::deformer::compute_pipeline;
+use crate::hair::{GROW_WORKGROUP_SIZE, POINT_STRIDE, grow_layouts};
+use crate::readback::{ReadbackError, mapped};
+use crate::shaders::GROW_PASS;
+use crate::state::avatar_layout;
+use crate::{AvatarModel, AvatarState, Deformer};
+use avatar_groom::SEGMENTS;
+use glam::{Vec3, Vec4};
+
+/// Grows hair: a pass of every frame. By itself it reads back what is drawn.
+#[derive(Debug)]
+pub struct Grower {
+    pipeline: wgpu::ComputePipeline,
+}
+
+/// Why strands could not be read back.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GrowerError {
+    /// The state of another model, or one made before the model got its hair.
+    #[error("expected the state of this model with its hair, found another one")]
+    StateOfAnotherModel,
+    /// The result did not come back.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
+}
+
+impl Grower {
+    /// Builds the pipeline.
+    pub fn new(device: &wgpu::Device) -> Self {
+        let [hair, skin] = grow_layouts(device);
+        let pipeline = compute_pipeline(device, &GROW_PASS, [&hair, &avatar_layout(device), &skin]);
+        Self { pipeline }
+    }
+
+    /// Grows the hair of avatars on their deformed skins.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(GROW_PASS.label),
+            timestamp_writes: timestamps,
+        });
+        pass.set_pipeline(&self.pipeline);
+        for (model, state) in avatars {
+            if let (Some(hair), Some(grown)) = (&model.hair, &state.hair) {
+                pass.set_bind_group(0, &grown.grow[0], &[]);
+                pass.set_bind_group(1, &state.bind_group, &[]);
+                pass.set_bind_group(2, &grown.grow[1], &[]);
+                pass.dispatch_workgroups(hair.strand_count.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
+            }
+        }
+    }
+
+    /// Deforms an avatar, grows its hair and waits for it: the points of each strand, from the root to the tip, from the
+    /// very buffer that is drawn.
+    ///
+    /// # Errors
+    /// A state that does not belong to the model, or a lost device.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn run(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        deformer: &Deformer,
+        model: &AvatarModel,
+        state: &AvatarState,
+    ) -> Result<Vec<[Vec3; SEGMENTS + 1]>, GrowerError> {
+        crate::readback::block_on(self.run_async(device, queue, deformer, model, state))
+    }
+
+    /// The same, for callers that cannot block.
+    ///
+    /// # Errors
+    /// As above.
+    pub async fn run_async(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        deformer: &Deformer,
+        model: &AvatarModel,
+        state: &AvatarState,
+    ) -> Result<Vec<[Vec3; SEGMENTS + 1]>, GrowerError> {
+        if !state.fits(model) {
+            return Err(GrowerError::StateOfAnotherModel);
+        }
+        let Some(grown) = &state.hair else { return Ok(Vec::new()) };
+        let size = grown.points.size();
+        let readable = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("hair: readable"),
+            size,
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("grow and read back") });
+        deformer.record(&mut encoder, None, &[(model, state)]);
+        self.record(&mut encoder, None, &[(model, state)]);
+        encoder.copy_buffer_to_buffer(&grown.points, 0, &readable, 0, size);
+        queue.submit([encoder.finish()]);
+        let view = mapped(device, &readable).await?;
+        let points: &[[f32; 4]] = bytemuck::cast_slice(&view);
+        let (strands, _) = points.as_chunks::<POINT_STRIDE>();
+        Ok(strands.iter().map(|strand| std::array::from_fn(|i| Vec4::from(strand[i]).truncate())).collect())
+    }
+}
