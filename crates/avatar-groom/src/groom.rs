@@ -1,6 +1,9 @@
-use crate::{DensityMap, Hull, Region, Root, Style, scatter};
+use crate::grow::{axes, grow_to};
+use crate::random::unit;
+use crate::{DensityMap, Field, Region, Root, SEGMENTS, Style, Triangle, guides, scatter};
 use avatar_mesh::{Bounds, Mesh};
-use glam::Vec3;
+use glam::{Affine3A, Vec2, Vec3};
+use std::collections::BTreeMap;
 
 /// The hair of one head: roots, how it falls, and what it stays outside of.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,13 +12,33 @@ pub struct Groom {
     pub roots: Vec<Root>,
     /// Directions in which strands are combed, in the frame of their triangle at bind pose, one per root.
     pub combs: Vec<Vec3>,
+    /// Lengths in the world, one per root.
+    pub lengths: Vec<f32>,
+    /// Where curls begin around the strand, in radians from −π to π, one per root.
+    pub phases: Vec<f32>,
+    /// Strands that others follow, as indices to the roots.
+    pub guides: Vec<u32>,
+    /// The place in `guides` of the strand that each strand follows, or [`NO_GUIDE`](crate::NO_GUIDE).
+    pub guide_of: Vec<u32>,
     /// How it looks and falls.
     pub style: Style,
     /// What strands stay outside of.
-    pub hull: Hull,
+    pub field: Field,
+    /// The bone that moves most of the hair.
+    pub head_bone: u32,
     /// Height of the skin: what lengths of the style are measured by.
     pub height: f32,
 }
+
+/// Strands of one lock curl together, but for so much of a turn.
+const PHASE_SPREAD: f32 = 0.12;
+/// Where the cut is not quite even, as a fraction of the length.
+const CUT_SPREAD: f32 = 0.05;
+/// Densities between which strands grow to their full length, and what share of it the first ones have.
+const HAIRLINE: [f32; 2] = [0.4, 0.85];
+const HAIRLINE_LENGTH: f32 = 0.08;
+/// How often the length to the cut is halved.
+const CUT_STEPS: usize = 9;
 
 impl Groom {
     /// Plants hair on a skin; see [`scatter`] for the arguments.
@@ -35,16 +58,110 @@ impl Groom {
             let off = (position(skin, root).x - middle).abs() / height;
             root.region != Region::Scalp || off < style.scalp.strip
         });
-        let scalp = roots.iter().filter(|root| root.region == Region::Scalp).map(|root| position(skin, root));
-        let (sum, count) = scalp.fold((Vec3::ZERO, 0u32), |(sum, n), p| (sum + p, n + 1));
-        // A little below the middle of the scalp is inside of every head.
-        let center = match count {
-            0 => bounds.center(),
-            n => sum / n as f32 - Vec3::Y * 0.1 * height,
+        let positions: Vec<Vec3> = roots.iter().map(|root| position(skin, root)).collect();
+        let parting = middle + style.scalp.parting * height;
+        let guides = guides::choose(&roots);
+        let head_bone = head_bone(skin, &roots);
+        let mut groom = Self {
+            combs: roots.iter().map(|root| comb(skin, root, &style, middle, height)).collect(),
+            lengths: roots.iter().map(|root| length(skin, density, root, &style, height)).collect(),
+            guide_of: guides::assign(&roots, &positions, &guides, |p| p.x < parting),
+            phases: Vec::new(),
+            field: Field::new(skin, head_bone),
+            head_bone,
+            guides,
+            roots,
+            style,
+            height,
         };
-        let combs = roots.iter().map(|root| comb(skin, root, &style, middle, height)).collect();
-        Self { roots, combs, style, hull: Hull::new(skin, center), height }
+        groom.phases = (0..groom.roots.len()).map(|strand| groom.phase(strand, seed)).collect();
+        groom.cut(skin, bounds.min.y);
+        groom
     }
+
+    /// Strands of a lock begin their curls alike.
+    fn phase(&self, strand: usize, seed: u64) -> f32 {
+        let turn = |strand: usize| unit(seed ^ 0xC0A1, strand as u64);
+        let of_lock = self.guide(strand).map_or(0.0, turn);
+        let own =
+            if self.guide(strand).is_some() { PHASE_SPREAD * (turn(strand) - 0.5) } else { turn(strand) };
+        // Within half a turn, where the GPU's cosines are exact enough.
+        let turns = of_lock + own;
+        std::f32::consts::TAU * (turns - turns.round())
+    }
+
+    /// Shortens what would hang below the cut at bind pose, lock by lock: hair has one length in all poses.
+    fn cut(&mut self, skin: &Mesh, lowest: f32) {
+        let height = lowest + self.style.scalp.cut * self.height;
+        let lengths: Vec<f32> =
+            (self.guides.iter()).map(|&guide| self.length_to(skin, guide as usize, height)).collect();
+        for (strand, &number) in self.guide_of.iter().enumerate() {
+            let (Some(length), Some(root)) = (lengths.get(number as usize), self.roots.get(strand)) else {
+                continue;
+            };
+            // The strand's own may be shorter already.
+            let uneven = length * (1.0 - CUT_SPREAD * root.random[0]);
+            self.lengths[strand] = self.lengths[strand].min(uneven);
+        }
+    }
+
+    /// The length at which a strand ends at a height at bind pose, or the style's if it does not reach that low. A strand
+    /// bends from point to point, so that a shorter one lies otherwise: the length is sought, not measured.
+    fn length_to(&self, skin: &Mesh, strand: usize, height: f32) -> f32 {
+        let Some(root) = self.roots.get(strand) else { return 0.0 };
+        let corner = |i: usize| root.corners[i] as usize;
+        let of = |all: &[Vec3], i: usize| all.get(corner(i)).copied().unwrap_or(Vec3::Y);
+        let triangle = Triangle {
+            positions: [0, 1, 2].map(|i| of(&skin.positions, i)),
+            normals: [0, 1, 2].map(|i| of(&skin.normals, i)),
+        };
+        let at_bind = vec![Affine3A::IDENTITY; self.head_bone as usize + 1];
+        let reaches = |length: f32| {
+            let points = grow_to(self, strand, length, &triangle, &at_bind, None);
+            points.is_some_and(|points| points[SEGMENTS].y < height)
+        };
+        let whole = length_without_variation(root, &self.style, self.height);
+        if !reaches(whole) {
+            return whole;
+        }
+        let (mut above, mut below) = (0.0, whole);
+        for _ in 0..CUT_STEPS {
+            let middle = (above + below) * 0.5;
+            *(if reaches(middle) { &mut below } else { &mut above }) = middle;
+        }
+        above
+    }
+}
+
+/// The bone that moves most of the hair.
+fn head_bone(skin: &Mesh, roots: &[Root]) -> u32 {
+    let Some(skinning) = &skin.skinning else { return 0 };
+    let mut weights: BTreeMap<u16, f32> = BTreeMap::new();
+    for vertex in roots.iter().map(|root| root.corners[0] as usize) {
+        let Some((bones, shares)) = skinning.bones.get(vertex).zip(skinning.weights.get(vertex)) else {
+            continue;
+        };
+        bones.iter().zip(shares).for_each(|(bone, share)| *weights.entry(*bone).or_default() += share);
+    }
+    let most = weights.into_iter().max_by(|(_, a), (_, b)| a.total_cmp(b));
+    most.map_or(0, |(bone, _)| u32::from(bone))
+}
+
+fn length_without_variation(root: &Root, style: &Style, height: f32) -> f32 {
+    style.region(root.region).length * height
+}
+
+fn length(skin: &Mesh, density: &DensityMap, root: &Root, style: &Style, height: f32) -> f32 {
+    let variation = style.region(root.region).length_variation;
+    let uv = |i: usize| skin.uvs.get(root.corners[i] as usize).copied().unwrap_or(Vec2::ZERO);
+    let thick = match root.region {
+        Region::Scalp => density.at((0..3).map(|i| uv(i) * root.barycentric[i]).sum()),
+        _ => 1.0,
+    };
+    // Where hair begins it is thin and short.
+    let begun = ((thick - HAIRLINE[0]) / (HAIRLINE[1] - HAIRLINE[0])).clamp(0.0, 1.0);
+    let share = HAIRLINE_LENGTH + (1.0 - HAIRLINE_LENGTH) * begun * begun;
+    length_without_variation(root, style, height) * (1.0 - variation * root.random[0]) * share
 }
 
 fn position(skin: &Mesh, root: &Root) -> Vec3 {
@@ -59,10 +176,10 @@ fn comb(skin: &Mesh, root: &Root, style: &Style, middle: f32, height: f32) -> Ve
         - middle
         - if root.region == Region::Scalp { region.parting * height } else { 0.0 };
     // Away from the parting on both sides, without a jump at it.
-    let side = (x / (0.02 * height)).clamp(-1.0, 1.0);
+    let side = (x / (0.004 * height)).clamp(-1.0, 1.0);
     let [away, up, forward] = region.comb;
-    let bind = Vec3::new(away * side, up, forward).normalize_or_zero();
+    let bind = Vec3::new(away * side, up, forward);
     let corner = |i: usize| skin.positions.get(root.corners[i] as usize).copied().unwrap_or(Vec3::ZERO);
-    let [x, y, z] = crate::grow::axes([corner(0), corner(1), corner(2)]);
+    let [x, y, z] = axes([corner(0), corner(1), corner(2)]);
     Vec3::new(bind.dot(x), bind.dot(y), bind.dot(z))
 }

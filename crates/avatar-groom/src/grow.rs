@@ -1,8 +1,11 @@
-use crate::{Groom, Hull};
-use glam::{Affine3A, Vec3};
+use crate::{Groom, NO_GUIDE, OTHER_BONES, Region, RegionStyle};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
 
 /// Segments of a strand.
 pub const SEGMENTS: usize = 12;
+
+/// The points of a strand, from the root to the tip.
+pub type Strand = [Vec3; SEGMENTS + 1];
 
 /// The deformed triangle of a root.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,64 +16,152 @@ pub struct Triangle {
     pub normals: [Vec3; 3],
 }
 
-/// How far strands keep from the hull, as a fraction of the height of the skin.
+/// How far strands keep from the skin, as a fraction of its height.
 pub const MARGIN: f32 = 0.006;
 
 /// Length of the first segment by that of an even one.
 pub const FIRST_SEGMENT: f32 = 0.15;
 
-/// Neighbouring triangles, by number, whose strands bend alike.
-pub const TUFT_TRIANGLES: u32 = 24;
+/// How far from the skin hair is still combed along it, as a fraction of the skin's height.
+pub const COMBED_REACH: f32 = 0.08;
 
-/// The points of a strand, in the world; the twin of `grow_strand` in WGSL, line by line.
-///
-/// It starts on the triangle, goes on along the normal for one segment, and turns to where it is combed and pulled. `head`
-/// takes the head from bind pose to its pose of now.
+/// The largest radius of a curl by the length of its strand.
+pub const CURL_SHARE: f32 = 0.08;
+
+/// How near to its guide a strand is fully drawn to it; twice as far away it goes its own way. As a fraction of the skin's
+/// height.
+pub const LOCK_REACH: f32 = 0.06;
+
+/// The points of a guide in the world: a strand that follows no other, without curls. `strand` is an index to the roots.
+pub fn grow_guide(groom: &Groom, strand: usize, triangle: &Triangle, bones: &[Affine3A]) -> Option<Strand> {
+    let length = *groom.lengths.get(strand)?;
+    let head = *bones.get(groom.head_bone as usize)?;
+    Some(grow_to(groom, strand, length, triangle, bones, None)?.map(|point| head.transform_point3(point)))
+}
+
+/// The points of a strand in the world; the twin of `grow_main` in WGSL, line by line. `guide` is what [`grow_guide`] made of
+/// its guide, if it has one.
 pub fn grow(
     groom: &Groom,
     strand: usize,
     triangle: &Triangle,
-    head: &Affine3A,
-) -> Option<[Vec3; SEGMENTS + 1]> {
+    bones: &[Affine3A],
+    guide: Option<&Strand>,
+) -> Option<Strand> {
+    let head = *bones.get(groom.head_bone as usize)?;
+    let style = groom.style.region(groom.roots.get(strand)?.region);
+    let mut points = grow_to(groom, strand, *groom.lengths.get(strand)?, triangle, bones, guide)?;
+    let phase = *groom.phases.get(strand)?;
+    let phase = Vec2::new(libm::cosf(phase), libm::sinf(phase));
+    let radius = curl_radius(style, groom.height, *groom.lengths.get(strand)?);
+    curl(&mut points, radius, style.curl_turn(), phase);
+    Some(points.map(|point| head.transform_point3(point)))
+}
+
+/// The middle line of a strand of a length, in the head's bind pose.
+///
+/// It starts on the triangle, goes on along the normal for a short segment, and turns to where it is combed and pulled, outside
+/// of the skin. `bones` take the skin from bind pose to its pose of now.
+pub(crate) fn grow_to(
+    groom: &Groom,
+    strand: usize,
+    length: f32,
+    triangle: &Triangle,
+    bones: &[Affine3A],
+    guide: Option<&Strand>,
+) -> Option<Strand> {
+    let head = *bones.get(groom.head_bone as usize)?;
+    // From the head's bind pose to that of the other bones.
+    let others: [Affine3A; OTHER_BONES] = std::array::from_fn(|i| {
+        let other = bones.get(groom.field.bones[i] as usize).copied().unwrap_or(head);
+        rigid_inverse(other) * head
+    });
     let (root, comb_local) = (groom.roots.get(strand)?, groom.combs.get(strand)?);
     let style = groom.style.region(root.region);
     let [w0, w1, w2] = root.barycentric;
     let [a, b, c] = triangle.positions;
-    let start = a * w0 + b * w1 + c * w2;
+    let start_world = a * w0 + b * w1 + c * w2;
     let [na, nb, nc] = triangle.normals;
-    let normal = (na * w0 + nb * w1 + nc * w2).normalize_or(Vec3::Y);
+    let normal_world = (na * w0 + nb * w1 + nc * w2).normalize_or(Vec3::Y);
     let [x, y, z] = axes(triangle.positions);
-    let comb = x * comb_local.x + y * comb_local.y + z * comb_local.z;
-    let length = style.length * groom.height * (1.0 - style.length_variation * root.random[0]);
+    let bind_from_posed = Mat3::from(head.matrix3).transpose();
+    let to_bind = |point: Vec3| bind_from_posed * (point - Vec3::from(head.translation));
+    let start = to_bind(start_world);
+    let normal = bind_from_posed * normal_world;
+    let comb = bind_from_posed * (x * comb_local.x + y * comb_local.y + z * comb_local.z);
+    let down = bind_from_posed * Vec3::NEG_Y;
+
     // The first segment only says where the strand leaves; long hair would stand off by its whole length otherwise.
     let first = FIRST_SEGMENT * length / SEGMENTS as f32;
-    let step = (length - first) / (SEGMENTS - 1) as f32;
-    let own = Vec3::from_array([root.random[1], root.random[2], root.random[3]]) * 2.0 - 1.0;
-    let tuft = tuft(root.triangle);
-    let aside = own * style.noise + tuft * style.clump;
+    let own = Vec3::from_array([root.random[0], root.random[1], root.random[2]]) * 2.0 - 1.0;
+    let margin = MARGIN * groom.height;
+    // Strands lie over one another instead of in one shell.
+    let lift = style.volume * groom.height * root.random[2] + curl_radius(style, groom.height, length);
 
     let mut points = [start; SEGMENTS + 1];
-    let mut direction = normal;
-    for i in 1..=SEGMENTS {
-        let t = (i - 1) as f32 / SEGMENTS as f32;
-        if i > 1 {
-            let wanted = (comb * (1.0 - t)
-                + aside * (2.0 * t).min(1.0)
-                + Vec3::NEG_Y * (style.gravity * (0.3 + 3.0 * t)))
-                .normalize_or(direction);
-            let turned = direction + (wanted - direction) * style.bend;
-            direction = turned.normalize_or(direction);
+    points[1] = start + normal * first;
+    let (mut direction, mut skin_normal, mut near) = (normal, normal, 1.0f32);
+    let back = others.map(|other| Mat3::from(other.matrix3).transpose());
+    let mut shares = [0.0; OTHER_BONES];
+    for i in 2..=SEGMENTS {
+        let t = (i - 1) as f32 / (SEGMENTS - 1) as f32;
+        let step = (length - first) * step_share(i);
+        // Along the skin: what supports hair takes the comb's push into it.
+        let combed = (comb - skin_normal * (comb.dot(skin_normal) * near)) * near.max(style.hold * (1.0 - t));
+        let force = combed + own * (style.noise * t) + down * style.gravity;
+        // What pulls straight back turns nothing: the sum would have no direction.
+        let across = force - direction * force.dot(direction).min(0.0);
+        direction = (direction + across * style.bend).normalize_or(direction);
+        let mut next = points[i - 1] + direction * step;
+        if let Some(guide) = guide {
+            let toward = to_bind(guide[i]) - next;
+            let share = (2.0 - toward.length() / (LOCK_REACH * groom.height)).clamp(0.0, 1.0);
+            next += toward * (style.clump * t * share);
         }
-        let mut next = points[i - 1] + direction * if i > 1 { step } else { first };
-        if i > 1 {
-            next = outside(&groom.hull, head, next, MARGIN * groom.height);
-            direction = (next - points[i - 1]).normalize_or(direction);
-            next = points[i - 1] + direction * step;
-        }
-        points[i] = next;
+        let (distance, outward) = match root.region {
+            Region::Scalp => {
+                // Where the skin moves with other bones, the place is sought where they have it at bind pose. The shares are
+                // those of the point before.
+                let moved = |i: usize| (others[i].transform_point3(next) - next) * shares[i];
+                let near = groom.field.at(next + moved(0) + moved(1));
+                let turned = |i: usize| (back[i] * near.outward - near.outward) * near.shares[i];
+                shares = near.shares;
+                (near.distance, (near.outward + turned(0) + turned(1)).normalize_or(near.outward))
+            }
+            // Lids and brows move in the head's frame, and their hair is short: the plane of the skin says it.
+            _ => ((next - start).dot(normal), normal),
+        };
+        let least = margin * (4.0 * t).min(1.0) + lift * (3.0 * t).min(1.0);
+        next += outward * (least - distance).max(0.0);
+        direction = (next - points[i - 1]).normalize_or(direction);
+        // Pushed back, the segment gets shorter: at its full length it would be inside again.
+        points[i] = points[i - 1] + direction * step.min(next.distance(points[i - 1]));
+        skin_normal = outward;
+        near = (1.0 - (distance - least) / (COMBED_REACH * groom.height)).clamp(0.0, 1.0);
     }
-    curl(&mut points, style.curl_radius * groom.height, style.curl_turns, root.random[3]);
     Some(points)
+}
+
+/// Length of the segment before a point, as a share of what the first one leaves: longer toward the tip, because strands bend
+/// most where they leave the skin.
+pub(crate) fn step_share(point: usize) -> f32 {
+    (point + 1) as f32 / STEP_SUM as f32
+}
+
+/// Sum of `point + 1` over the points from 2 to the last.
+pub const STEP_SUM: u32 = ((SEGMENTS * (SEGMENTS + 1)) / 2 - 1 + (SEGMENTS - 1)) as u32;
+
+impl Groom {
+    /// The strand that a strand follows, as an index to the roots.
+    pub fn guide(&self, strand: usize) -> Option<usize> {
+        let number = *self.guide_of.get(strand)?;
+        (number != NO_GUIDE).then(|| self.guides.get(number as usize).map(|root| *root as usize))?
+    }
+}
+
+fn rigid_inverse(bone: Affine3A) -> Affine3A {
+    let rotation = bone.matrix3.transpose();
+    Affine3A { matrix3: rotation, translation: -(rotation * bone.translation) }
 }
 
 /// The frame of a triangle.
@@ -80,45 +171,23 @@ pub(crate) fn axes([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
     [x, z.cross(x), z]
 }
 
-/// The way of a tuft: neighbours in the mesh go alike.
-fn tuft(triangle: u32) -> Vec3 {
-    let group = triangle / TUFT_TRIANGLES;
-    let h = |salt: u32| {
-        let mut v = group.wrapping_mul(0x9E37_79B1) ^ salt;
-        v = (v ^ (v >> 15)).wrapping_mul(0x2C1B_3C6D);
-        v = (v ^ (v >> 12)).wrapping_mul(0x297A_2D39);
-        ((v ^ (v >> 15)) >> 8) as f32 / (1u32 << 23) as f32 - 1.0
-    };
-    Vec3::new(h(1), h(2), h(3))
+/// Short strands do not reach around a whole curl.
+fn curl_radius(style: &RegionStyle, height: f32, length: f32) -> f32 {
+    (style.curl_radius * height).min(CURL_SHARE * length)
 }
 
-/// The nearest point along the ray from the head's middle that is not inside of it.
-fn outside(hull: &Hull, head: &Affine3A, point: Vec3, margin: f32) -> Vec3 {
-    let rotation = head.matrix3;
-    let from_center = rotation.transpose() * (point - Vec3::from(head.translation)) - hull.center;
-    let distance = from_center.length();
-    if distance <= 0.0 {
-        return point;
-    }
-    let direction = from_center / distance;
-    let least = hull.radius(direction) + margin;
-    if distance >= least {
-        return point;
-    }
-    point + Vec3::from(rotation * glam::Vec3A::from(direction * (least - distance)))
-}
-
-/// Winds a strand around itself, more toward the tip.
-fn curl(points: &mut [Vec3; SEGMENTS + 1], radius: f32, turns: f32, phase: f32) {
+/// Winds a strand around itself, more toward the tip; `phase` is a direction of unit length.
+fn curl(points: &mut Strand, radius: f32, turn: Vec2, phase: Vec2) {
     if radius <= 0.0 {
         return;
     }
     let along = (points[SEGMENTS] - points[1]).normalize_or(Vec3::NEG_Y);
     let side = along.cross(if along.x.abs() < 0.8 { Vec3::X } else { Vec3::Y }).normalize_or(Vec3::Z);
     let other = along.cross(side);
+    let mut phase = phase;
     for (i, point) in points.iter_mut().enumerate().skip(2) {
+        phase = turn.rotate(phase);
         let t = (i - 1) as f32 / (SEGMENTS - 1) as f32;
-        let angle = std::f32::consts::TAU * (turns * t + phase);
-        *point += (side * angle.cos() + other * angle.sin()) * (radius * t.min(0.35) / 0.35);
+        *point += (side * phase.x + other * phase.y) * (radius * (3.0 * t).min(1.0));
     }
 }

@@ -3,7 +3,7 @@
 //! ```text
 //!  density texture + skin ──▶ Root per strand ─┐
 //!  Style (short, bob, long …) ─────────────────┼──▶ Groom ──▶ avatar-render grows and draws it every frame
-//!  skin at bind pose ──▶ Hull ─────────────────┘          └──▶ grow(): the same strand on the CPU
+//!  skin at bind pose ──▶ Field ────────────────┘          └──▶ grow(): the same strand on the CPU
 //! ```
 //!
 //! A root keeps its triangle, its place in it and its random numbers for good, so that it follows the deformed skin exactly.
@@ -13,16 +13,22 @@
 //! This crate knows no files, no clock and no ambient randomness: the same input gives the same roots on every machine.
 
 mod density;
+mod field;
 mod groom;
 mod grow;
-mod hull;
+mod guides;
+mod pseudonormal;
 mod random;
 mod roots;
 mod style;
 
 pub use density::DensityMap;
+pub use field::{Field, Near, OTHER_BONES};
 pub use groom::Groom;
-pub use grow::{FIRST_SEGMENT, MARGIN, SEGMENTS, TUFT_TRIANGLES, Triangle, grow};
-pub use hull::{HULL_SIZE, Hull};
+pub use grow::{
+    COMBED_REACH, CURL_SHARE, FIRST_SEGMENT, LOCK_REACH, MARGIN, SEGMENTS, STEP_SUM, Strand, Triangle, grow,
+    grow_guide,
+};
+pub use guides::NO_GUIDE;
 pub use roots::{Region, Root, scatter};
 pub use style::{RegionStyle, Style};

@@ -1,4 +1,5 @@
-use crate::Region;
+use crate::{Region, SEGMENTS};
+use glam::Vec2;
 
 /// How hair looks and falls, region by region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,12 +31,18 @@ pub struct RegionStyle {
     pub tip_color: [f32; 3],
     /// How much lighter or darker strands are than the colour says, 0 (all alike) to 1.
     pub color_variation: f32,
-    /// How strongly a strand turns from the normal of the skin to where it is combed and pulled, 0 (it stands) to 1.
+    /// How strongly a strand turns from segment to segment to where it is combed and pulled; 0: it stands.
     pub bend: f32,
     /// Pull downward in the world.
     pub gravity: f32,
-    /// Where it is combed, at bind pose: away from the parting, up, forward; of any length.
+    /// Pull of the comb at bind pose: away from the parting, up, forward.
     pub comb: [f32; 3],
+    /// How much the comb still pulls away from the skin, 0 (hair falls there) to 1 (it stands).
+    pub hold: f32,
+    /// How far the hair lifts off the head, as a layer.
+    pub volume: f32,
+    /// Height above the lowest point of the skin at which the hair is cut at bind pose.
+    pub cut: f32,
     /// Where the parting is: to the character's left of the middle.
     pub parting: f32,
     /// Half the width of the strip in the middle that has hair at all; everything where it is 1 or more.
@@ -44,7 +51,7 @@ pub struct RegionStyle {
     pub curl_radius: f32,
     /// Turns of a curl from root to tip.
     pub curl_turns: f32,
-    /// How much strands of one tuft bend alike, each tuft in a way of its own.
+    /// How much the strands of a lock meet at its tip, 0 (each for itself) to 1.
     pub clump: f32,
     /// How much each strand goes its own way.
     pub noise: f32,
@@ -75,6 +82,9 @@ impl Style {
         comb: [1.0, -0.4, -0.5],
         parting: 0.0,
         strip: 1.0,
+        hold: 1.0,
+        volume: 0.01,
+        cut: -10.0,
         curl_radius: 0.0,
         curl_turns: 0.0,
         clump: 0.25,
@@ -105,10 +115,12 @@ impl Style {
     /// Cropped close to the head.
     pub const SHORT: Self = Self {
         scalp: RegionStyle {
-            length: 0.075,
-            bend: 0.45,
-            comb: [0.6, -0.2, 0.35],
+            length: 0.085,
+            bend: 0.6,
+            gravity: 0.3,
+            comb: [0.5, 0.0, 0.5],
             parting: 0.03,
+            clump: 0.35,
             ..Self::STRAND
         },
         brows: Self::BROW,
@@ -117,32 +129,38 @@ impl Style {
     /// To the chin, parted at the side.
     pub const BOB: Self = Self {
         scalp: RegionStyle {
-            length: 0.44,
-            length_variation: 0.12,
-            bend: 0.7,
-            gravity: 1.0,
-            comb: [1.0, -0.2, -0.35],
+            length: 0.7,
+            length_variation: 0.1,
+            bend: 2.5,
+            gravity: 0.5,
+            comb: [0.9, 0.35, -0.75],
             parting: 0.05,
-            clump: 0.3,
-            noise: 0.08,
+            hold: 0.0,
+            volume: 0.03,
+            cut: 0.2,
+            clump: 0.12,
+            noise: 0.1,
             ..Self::STRAND
         },
         ..Self::SHORT
     };
     /// Over the shoulders, parted in the middle.
-    pub const LONG: Self =
-        Self { scalp: RegionStyle { length: 0.85, parting: 0.0, ..Self::BOB.scalp }, ..Self::SHORT };
+    pub const LONG: Self = Self {
+        scalp: RegionStyle { length: 1.1, parting: 0.0, cut: -0.1, ..Self::BOB.scalp },
+        ..Self::SHORT
+    };
     /// Curls around the head.
     pub const CURLY: Self = Self {
         scalp: RegionStyle {
-            length: 0.32,
-            bend: 0.3,
-            gravity: 0.55,
-            comb: [0.8, 0.1, -0.1],
-            curl_radius: 0.016,
-            curl_turns: 3.5,
-            clump: 0.5,
-            noise: 0.3,
+            length: 0.3,
+            bend: 0.6,
+            gravity: 0.45,
+            comb: [0.6, 0.3, -0.4],
+            curl_radius: 0.024,
+            curl_turns: 2.2,
+            clump: 0.4,
+            noise: 0.15,
+            volume: 0.02,
             ..Self::STRAND
         },
         ..Self::SHORT
@@ -150,12 +168,13 @@ impl Style {
     /// A crest in the middle.
     pub const MOHAWK: Self = Self {
         scalp: RegionStyle {
-            length: 0.2,
+            length: 0.22,
             length_variation: 0.15,
-            bend: 0.12,
+            bend: 0.15,
             gravity: 0.0,
             comb: [0.0, 0.6, -0.4],
             strip: 0.055,
+            clump: 0.4,
             tip_color: [0.5, 0.03, 0.06],
             ..Self::STRAND
         },
@@ -171,5 +190,13 @@ impl Style {
             Region::Brows => &self.brows,
             Region::Lashes => &self.lashes,
         }
+    }
+}
+
+impl RegionStyle {
+    /// By how much a curl turns from one point of a strand to the next: cosine and sine.
+    pub fn curl_turn(&self) -> Vec2 {
+        let angle = std::f32::consts::TAU * self.curl_turns / (SEGMENTS - 1) as f32;
+        Vec2::new(libm::cosf(angle), libm::sinf(angle))
     }
 }

@@ -46,10 +46,15 @@ impl Grower {
         pass.set_pipeline(&self.pipeline);
         for (model, state) in avatars {
             if let (Some(hair), Some(grown)) = (&model.hair, &state.hair) {
-                pass.set_bind_group(0, &grown.grow[0], &[]);
                 pass.set_bind_group(1, &state.bind_group, &[]);
-                pass.set_bind_group(2, &grown.grow[1], &[]);
-                pass.dispatch_workgroups(hair.strand_count.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
+                pass.set_bind_group(2, &grown.skin, &[]);
+                // Strands read their guides: each dispatch sees what the one before it wrote.
+                for (group, strands) in
+                    [(&grown.grow_guides, hair.guide_count), (&grown.grow, hair.strand_count)]
+                {
+                    pass.set_bind_group(0, group, &[]);
+                    pass.dispatch_workgroups(strands.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
+                }
             }
         }
     }

@@ -1,13 +1,14 @@
 //! Hair on the GPU: strands grow on the deformed skin every frame, and are drawn from where they grew.
 
 use crate::deformer::GpuDeformedVertex;
-use avatar_groom::{Groom, MARGIN, RegionStyle, SEGMENTS, TUFT_TRIANGLES};
-use avatar_mesh::Mesh;
+use avatar_groom::{COMBED_REACH, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle, SEGMENTS};
 use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
 
 /// Strands per workgroup.
 pub(crate) const GROW_WORKGROUP_SIZE: u32 = 64;
+/// The number of a guide's own guide: it has none, and no curls.
+pub(crate) const IS_GUIDE: u32 = NO_GUIDE - 1;
 /// Scalp, brows, lashes.
 pub(crate) const REGION_COUNT: usize = 3;
 /// Elements per strand in the buffer of points: the points, and the normal at the root.
@@ -21,19 +22,19 @@ const WIDEST: f32 = 5.0;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct GpuHairRegion {
     pub(crate) root_color: [f32; 3],
-    pub(crate) length: f32,
-    pub(crate) tip_color: [f32; 3],
-    pub(crate) length_variation: f32,
     pub(crate) root_radius: f32,
+    pub(crate) tip_color: [f32; 3],
     pub(crate) tip_radius: f32,
     pub(crate) color_variation: f32,
     pub(crate) bend: f32,
     pub(crate) gravity: f32,
     pub(crate) curl_radius: f32,
-    pub(crate) curl_turns: f32,
+    pub(crate) curl_turn: [f32; 2],
     pub(crate) clump: f32,
     pub(crate) noise: f32,
-    pub(crate) pad: [f32; 3],
+    pub(crate) volume: f32,
+    pub(crate) hold: f32,
+    pub(crate) pad: [f32; 2],
 }
 
 /// WGSL `Hair`.
@@ -41,12 +42,17 @@ pub(crate) struct GpuHairRegion {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct GpuHair {
     pub(crate) regions: [GpuHairRegion; REGION_COUNT],
-    pub(crate) hull_center: [f32; 3],
+    pub(crate) field_origin: [f32; 3],
+    pub(crate) field_cell: f32,
+    pub(crate) field_size: [u32; 3],
     pub(crate) margin: f32,
+    pub(crate) combed_reach: f32,
+    pub(crate) lock_reach: f32,
+    pub(crate) other_bones: [u32; OTHER_BONES],
     pub(crate) head_bone: u32,
     pub(crate) strand_count: u32,
     pub(crate) width_factor: f32,
-    pub(crate) pad: f32,
+    pub(crate) field_range: f32,
 }
 
 /// WGSL `Root`.
@@ -56,10 +62,11 @@ pub(crate) struct GpuRoot {
     pub(crate) corners: [u32; 3],
     pub(crate) region: u32,
     pub(crate) barycentric: [f32; 3],
-    pub(crate) tuft: u32,
-    pub(crate) random: [f32; 4],
+    pub(crate) guide: u32,
     pub(crate) comb: [f32; 3],
-    pub(crate) pad: f32,
+    pub(crate) length: f32,
+    pub(crate) random: [f32; 3],
+    pub(crate) phase: f32,
 }
 
 /// Why a head can have no such hair.
@@ -83,6 +90,30 @@ pub enum HairError {
         /// Number of vertices of the part.
         vertices: u32,
     },
+    /// A groom whose lists have different lengths.
+    #[error(
+        "strand {strand}: expected a comb, a length, a phase and a guide, found fewer of them than roots"
+    )]
+    Incomplete {
+        /// The strand.
+        strand: usize,
+    },
+    /// Hair that moves with a bone that the model does not have.
+    #[error("expected a bone below {bones}, found {found}")]
+    Bone {
+        /// The bone.
+        found: u32,
+        /// Number of bones of the model.
+        bones: u32,
+    },
+    /// A field of distances that does not fill its grid.
+    #[error("expected distances for a grid of {} × {} × {}, found {found}", expected[0], expected[1], expected[2])]
+    Field {
+        /// Size of the grid.
+        expected: [u32; 3],
+        /// Number of distances.
+        found: usize,
+    },
     /// More strands than a binding of the device holds.
     #[error("expected at most {limit} strands, found {found}")]
     TooMany {
@@ -99,17 +130,23 @@ pub(crate) struct HairModel {
     /// The part that it grows on.
     pub(crate) part: usize,
     pub(crate) strand_count: u32,
+    pub(crate) guide_count: u32,
     hair: wgpu::Buffer,
     roots: wgpu::Buffer,
-    hull: wgpu::Buffer,
+    /// The roots of the guides once more, without guides of their own.
+    guide_roots: wgpu::Buffer,
+    field: wgpu::Buffer,
 }
 
 /// The hair of one avatar.
 #[derive(Debug)]
 pub(crate) struct HairState {
     pub(crate) points: wgpu::Buffer,
-    /// Group 0 of the growing pass, and group 2: the deformed skin.
-    pub(crate) grow: [wgpu::BindGroup; 2],
+    /// Group 0 of the growing pass: of guides, and of all strands.
+    pub(crate) grow_guides: wgpu::BindGroup,
+    pub(crate) grow: wgpu::BindGroup,
+    /// Group 2 of the growing pass: the deformed skin.
+    pub(crate) skin: wgpu::BindGroup,
     /// Group 2 of the drawing.
     pub(crate) draw: wgpu::BindGroup,
 }
@@ -119,7 +156,7 @@ impl HairModel {
         device: &wgpu::Device,
         part: usize,
         vertices: u32,
-        skin: &Mesh,
+        bones: u32,
         groom: &Groom,
     ) -> Result<Self, HairError> {
         let limits = device.limits();
@@ -132,34 +169,44 @@ impl HairModel {
             return Err(HairError::TooMany { found, limit });
         }
         let mut roots = Vec::with_capacity(found);
-        for (strand, (root, comb)) in groom.roots.iter().zip(&groom.combs).enumerate() {
+        for (strand, root) in groom.roots.iter().enumerate() {
             if let Some(&found) = root.corners.iter().find(|corner| **corner >= vertices) {
                 return Err(HairError::Corner { strand, found, vertices });
             }
-            roots.push(GpuRoot {
-                corners: root.corners,
-                region: root.region as u32,
-                barycentric: root.barycentric,
-                tuft: root.triangle / TUFT_TRIANGLES,
-                random: root.random,
-                comb: comb.to_array(),
-                pad: 0.0,
-            });
+            roots.push(gpu_root(groom, strand).ok_or(HairError::Incomplete { strand })?);
         }
-        let strand_count = roots.len() as u32;
-        if roots.is_empty() {
-            // WebGPU binds no empty buffers.
+        let guide_root =
+            |strand: &u32| roots.get(*strand as usize).map(|root| GpuRoot { guide: IS_GUIDE, ..*root });
+        let mut guide_roots: Vec<GpuRoot> = groom.guides.iter().filter_map(guide_root).collect();
+        let (strand_count, guide_count) = (roots.len() as u32, guide_roots.len() as u32);
+        // WebGPU binds no empty buffers.
+        for roots in [&mut roots, &mut guide_roots].into_iter().filter(|roots| roots.is_empty()) {
             roots.push(GpuRoot::zeroed());
         }
+        let field = &groom.field;
+        let places = field.size.iter().map(|n| u64::from(*n)).product::<u64>();
+        let known = field.distances.len().min(field.shares.len()).min(field.slopes.len());
+        if field.size.iter().any(|n| *n < 2) || known as u64 != places {
+            return Err(HairError::Field { expected: field.size, found: known });
+        }
+        if let Some(&found) = field.bones.iter().chain([&groom.head_bone]).find(|bone| **bone >= bones) {
+            return Err(HairError::Bone { found, bones });
+        }
+        let texels = field.texels();
         let region = |style: &RegionStyle| GpuHairRegion::new(style, groom.height);
         let hair = GpuHair {
             regions: [region(&groom.style.scalp), region(&groom.style.brows), region(&groom.style.lashes)],
-            hull_center: groom.hull.center.to_array(),
+            field_origin: field.origin.to_array(),
+            field_cell: field.cell,
+            field_size: field.size,
             margin: MARGIN * groom.height,
-            head_bone: head_bone(skin, groom),
+            combed_reach: COMBED_REACH * groom.height,
+            lock_reach: LOCK_REACH * groom.height,
+            head_bone: groom.head_bone,
+            other_bones: groom.field.bones,
             strand_count,
             width_factor: (REFERENCE_STRANDS / strand_count.max(1) as f32).clamp(0.5, WIDEST),
-            pad: 0.0,
+            field_range: field.range(),
         };
         let buffer = |label, contents: &[u8], usage| {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -172,53 +219,51 @@ impl HairModel {
         Ok(Self {
             part,
             strand_count,
+            guide_count,
             hair: buffer("hair", bytemuck::bytes_of(&hair), wgpu::BufferUsages::UNIFORM),
             roots: buffer("hair: roots", bytemuck::cast_slice(&roots), storage),
-            hull: buffer("hair: hull", bytemuck::cast_slice(&groom.hull.radii), storage),
+            guide_roots: buffer("hair: roots of guides", bytemuck::cast_slice(&guide_roots), storage),
+            field: buffer("hair: distances from the skin", bytemuck::cast_slice(&texels), storage),
         })
     }
+}
+
+fn gpu_root(groom: &Groom, strand: usize) -> Option<GpuRoot> {
+    let root = groom.roots.get(strand)?;
+    let [x, y, z, _] = root.random;
+    let guide = *groom.guide_of.get(strand)?;
+    Some(GpuRoot {
+        corners: root.corners,
+        region: root.region as u32,
+        barycentric: root.barycentric,
+        // A guide that does not exist leads nobody.
+        guide: if (guide as usize) < groom.guides.len() { guide } else { NO_GUIDE },
+        comb: groom.combs.get(strand)?.to_array(),
+        length: *groom.lengths.get(strand)?,
+        random: [x, y, z],
+        phase: *groom.phases.get(strand)?,
+    })
 }
 
 impl GpuHairRegion {
     fn new(style: &RegionStyle, height: f32) -> Self {
         Self {
             root_color: style.root_color,
-            length: style.length * height,
-            tip_color: style.tip_color,
-            length_variation: style.length_variation,
             root_radius: style.root_radius * height,
+            tip_color: style.tip_color,
             tip_radius: style.tip_radius * height,
             color_variation: style.color_variation,
             bend: style.bend,
             gravity: style.gravity,
             curl_radius: style.curl_radius * height,
-            curl_turns: style.curl_turns,
+            curl_turn: style.curl_turn().to_array(),
             clump: style.clump,
             noise: style.noise,
-            pad: [0.0; 3],
+            volume: style.volume * height,
+            hold: style.hold,
+            pad: [0.0; 2],
         }
     }
-}
-
-/// The bone that moves most of the hair.
-fn head_bone(skin: &Mesh, groom: &Groom) -> u32 {
-    let Some(skinning) = &skin.skinning else { return 0 };
-    let mut weights: Vec<f32> = Vec::new();
-    for root in &groom.roots {
-        let vertex = root.corners[0] as usize;
-        let Some((bones, shares)) = skinning.bones.get(vertex).zip(skinning.weights.get(vertex)) else {
-            continue;
-        };
-        for (bone, share) in bones.iter().zip(shares) {
-            let bone = usize::from(*bone);
-            if weights.len() <= bone {
-                weights.resize(bone + 1, 0.0);
-            }
-            weights[bone] += share;
-        }
-    }
-    let most = weights.iter().enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
-    most.map_or(0, |(bone, _)| bone as u32)
 }
 
 fn storage_entry(
@@ -262,6 +307,7 @@ pub(crate) fn grow_layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 2] 
                 storage_entry(1, compute, true),
                 storage_entry(2, compute, true),
                 storage_entry(3, compute, false),
+                storage_entry(4, compute, true),
             ],
         }),
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -286,13 +332,16 @@ pub(crate) fn draw_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 
 impl HairState {
     pub(crate) fn new(device: &wgpu::Device, hair: &HairModel, skin: &wgpu::Buffer) -> Self {
-        let strands = u64::from(hair.strand_count.max(1));
-        let points = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("hair: points"),
-            size: strands * (POINT_STRIDE * size_of::<[f32; 4]>()) as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
-            mapped_at_creation: false,
-        });
+        let buffer = |label, strands: u32| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: u64::from(strands.max(1)) * (POINT_STRIDE * size_of::<[f32; 4]>()) as u64,
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            })
+        };
+        let points = buffer("hair: points", hair.strand_count);
+        let guides = buffer("hair: points of guides", hair.guide_count);
         let [grow_layout, skin_layout] = grow_layouts(device);
         let group = |label, layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]| {
             let entries: Vec<_> = (0u32..)
@@ -309,11 +358,13 @@ impl HairState {
             })
         };
         debug_assert_eq!(skin.size() % size_of::<GpuDeformedVertex>() as u64, 0);
+        let of_guides = [&hair.hair, &hair.guide_roots, &hair.field, &guides, &hair.roots];
+        let of_strands = [&hair.hair, &hair.roots, &hair.field, &points, &guides];
         Self {
-            grow: [
-                group("grow hair", &grow_layout, &[&hair.hair, &hair.roots, &hair.hull, &points]),
-                group("deformed skin", &skin_layout, &[skin]),
-            ],
+            // Guides follow no guides: anything is bound in their place.
+            grow_guides: group("grow guides of hair", &grow_layout, &of_guides),
+            grow: group("grow hair", &grow_layout, &of_strands),
+            skin: group("deformed skin", &skin_layout, &[skin]),
             draw: group("draw hair", &draw_layout(device), &[&hair.hair, &hair.roots, &points]),
             points,
         }

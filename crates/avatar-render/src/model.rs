@@ -219,7 +219,7 @@ impl AvatarModel {
         self.parts.iter().enumerate().filter(move |(_, part)| seen(part))
     }
 
-    /// Plants hair on a part, or takes it away: `skin` is the part's mesh, `groom` was made from it. States that were made
+    /// Plants hair on a part, or takes it away: `groom` was made from the part's mesh. States that were made
     /// before have no room for it; make them anew.
     ///
     /// # Errors
@@ -228,12 +228,13 @@ impl AvatarModel {
         &mut self,
         device: &wgpu::Device,
         part: usize,
-        skin: &Mesh,
         groom: Option<&Groom>,
     ) -> Result<(), HairError> {
         let missing = HairError::NoSuchPart { parts: self.parts.len(), found: part };
         let vertices = self.parts.get(part).ok_or(missing)?.geometry.vertex_count;
-        let hair = groom.map(|groom| HairModel::new(device, part, vertices, skin, groom)).transpose()?;
+        let hair = groom
+            .map(|groom| HairModel::new(device, part, vertices, self.palette_len as u32, groom))
+            .transpose()?;
         self.hair = hair.filter(|hair| hair.strand_count > 0);
         Ok(())
     }

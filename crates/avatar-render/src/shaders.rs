@@ -3,13 +3,13 @@
 use crate::deformer::DEFORM_WORKGROUP_SIZE;
 use crate::eye::PROFILE_LEN;
 use crate::frame::{KEY_LAMP, LAMP_COUNT, RIM_LAMP, SHADOW_COUNT, TONE_AGX, TONE_NEUTRAL};
-use crate::hair::{GROW_WORKGROUP_SIZE, REGION_COUNT};
+use crate::hair::{GROW_WORKGROUP_SIZE, IS_GUIDE, REGION_COUNT};
 use crate::material::{
     COLOR_TEXTURE, GLOSS_TEXTURE, NORMAL_TEXTURE, OCCLUSION_TEXTURE, SKIN_ALBEDO, THICKNESS_TEXTURE,
 };
 use crate::pores::PORE_CELLS;
 use crate::{Scattering, Terms};
-use avatar_groom::{FIRST_SEGMENT, HULL_SIZE, SEGMENTS};
+use avatar_groom::{CURL_SHARE, FIRST_SEGMENT, NO_GUIDE, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
 use avatar_look::optics::diffusion_distance;
 use avatar_mesh::MIN_NORMAL_LENGTH;
 
@@ -224,7 +224,7 @@ pub(crate) const GROW_PASS: Program = Program {
     label: "grow hair",
     entry: "grow_main",
     fragment: None,
-    modules: &[AVATAR, HAIR, module!("strands/grow")],
+    modules: &[AVATAR, HAIR, module!("strands/field"), module!("strands/grow")],
 };
 
 pub(crate) const STRANDS: Program = Program {
@@ -294,8 +294,13 @@ impl Constants {
             flag("COVERAGE_MASK", *coverage_mask),
             number("SEGMENTS", SEGMENTS as u32),
             float("FIRST_SEGMENT", FIRST_SEGMENT),
-            number("HULL_SIZE", HULL_SIZE as u32),
+            number("NO_GUIDE", NO_GUIDE),
+            number("IS_GUIDE", IS_GUIDE),
+            float("CURL_SHARE", CURL_SHARE),
+            float("STEP_SUM", STEP_SUM as f32),
             number("REGION_COUNT", REGION_COUNT as u32),
+            number("OTHER_BONES", OTHER_BONES as u32),
+            number("SCALP", Region::Scalp as u32),
             number("GROW_WORKGROUP_SIZE", GROW_WORKGROUP_SIZE),
         ]
         .concat()

@@ -4,14 +4,16 @@
 
 mod common;
 
-use avatar_groom::{DensityMap, Groom, SEGMENTS, Style, Triangle, grow};
-use avatar_mesh::deform;
+use avatar_groom::{DensityMap, Groom, Root, SEGMENTS, Strand, Style, Triangle, grow, grow_guide};
+use avatar_mesh::{Deformed, deform};
 use avatar_pack::{FaceState, Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Gpu, render_image};
 use avatar_render::{
     AvatarModel, AvatarState, Deformer, Grower, HairError, PartBones, PartDesc, PartTextures,
 };
+use common::nearest::Nearest;
 use common::{gpu, scene};
+use glam::Vec3;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -50,43 +52,146 @@ fn bald(gpu: &Gpu, pack: &Pack) -> AvatarModel {
     AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette.len()).expect("a model")
 }
 
+/// A head with hair on the GPU, and what its face does.
+struct Head<'a> {
+    gpu: &'a Gpu,
+    pack: &'a Pack,
+    model: AvatarModel,
+    state: AvatarState,
+    deformer: Deformer,
+    grower: Grower,
+    face: FaceState,
+    posed: Deformed,
+}
+
+impl<'a> Head<'a> {
+    fn new(gpu: &'a Gpu, pack: &'a Pack, groom: &Groom) -> Self {
+        let skin = &pack.parts[0].mesh;
+        let mut model = bald(gpu, pack);
+        model.set_hair(&gpu.device, 0, Some(groom)).expect("hair");
+        Self {
+            gpu,
+            pack,
+            state: AvatarState::new(&gpu.device, &model),
+            model,
+            deformer: Deformer::new(&gpu.device),
+            grower: Grower::new(&gpu.device),
+            face: FaceState::new(pack),
+            posed: skin.deformed(),
+        }
+    }
+
+    /// The strands of a pose from the GPU; the skin from the CPU.
+    fn strands(&mut self, values: &[f32]) -> Vec<Strand> {
+        let (pack, gpu) = (self.pack, self.gpu);
+        self.face.pose(pack, values).expect("a pose");
+        self.state.set(&gpu.queue, self.face.bones(), self.face.weights()).expect("lengths fit");
+        let skin = &pack.parts[0].mesh;
+        deform(skin, self.face.bones(), self.face.weights(), &mut self.posed).expect("lengths fit");
+        let Self { deformer, grower, model, state, .. } = self;
+        grower.run(&gpu.device, &gpu.queue, deformer, model, state).expect("strands")
+    }
+
+    /// The skin from the GPU.
+    fn posed_by_gpu(&self) -> Deformed {
+        let Self { gpu, deformer, model, state, .. } = self;
+        deformer.run(&gpu.device, &gpu.queue, model, state, 0).expect("a skin")
+    }
+
+    /// Panics where a strand does not start on the skin, along its normal.
+    fn assert_stands(&self, groom: &Groom, strands: &[Strand], pose: &str) {
+        assert_eq!(strands.len(), groom.roots.len());
+        for (i, (root, points)) in groom.roots.iter().zip(strands).enumerate() {
+            let Triangle { positions, normals } = triangle(&self.posed, root);
+            let on_skin: Vec3 = (0..3).map(|k| positions[k] * root.barycentric[k]).sum();
+            let off = on_skin.distance(points[0]) / groom.height;
+            assert!(off <= 1e-4, "{pose}, strand {i}: {off} off the skin");
+            let normal: Vec3 = (0..3).map(|k| normals[k] * root.barycentric[k]).sum();
+            let leaves = (points[1] - points[0]).normalize_or_zero().dot(normal.normalize_or_zero());
+            assert!(leaves > 1f32.to_radians().cos(), "{pose}, strand {i}: {leaves}");
+        }
+    }
+}
+
+fn triangle(posed: &Deformed, root: &Root) -> Triangle {
+    let corner = |k: usize| root.corners[k] as usize;
+    Triangle {
+        positions: [0, 1, 2].map(|k| posed.positions[corner(k)]),
+        normals: [0, 1, 2].map(|k| posed.normals[corner(k)]),
+    }
+}
+
+/// All of a face's poses, whole.
+fn poses(pack: &Pack) -> Vec<(String, Vec<f32>)> {
+    let whole = pack.poses.iter().map(|pose| {
+        let mut values = pack.controls.defaults();
+        pose.values.iter().for_each(|&(control, value)| values[control] = value);
+        (pose.name.clone(), values)
+    });
+    whole.collect()
+}
+
 #[test]
 fn strands_stand_on_the_deformed_skin_and_are_those_of_the_cpu_in_every_pose() {
     let Some(gpu) = gpu() else { return };
     let (pack, density) = avatar();
-    let skin = &pack.parts[0].mesh;
-    let mut model = bald(gpu, &pack);
-    let (deformer, grower) = (Deformer::new(&gpu.device), Grower::new(&gpu.device));
-    let mut posed = skin.deformed();
     for (_, style) in Style::PRESETS {
         let groom = groom(&pack, &density, style, 3000.0);
-        model.set_hair(&gpu.device, 0, skin, Some(&groom)).expect("hair");
-        let mut state = AvatarState::new(&gpu.device, &model);
-        let mut face = FaceState::new(&pack);
-        for pose in pack.poses.iter() {
-            let mut values = pack.controls.defaults();
-            pose.values.iter().for_each(|&(control, value)| values[control] = value);
-            face.pose(&pack, &values).expect("a pose");
-            state.set(&gpu.queue, face.bones(), face.weights()).expect("lengths fit");
-            deform(skin, face.bones(), face.weights(), &mut posed).expect("lengths fit");
-            let strands = grower.run(&gpu.device, &gpu.queue, &deformer, &model, &state).expect("strands");
-            assert_eq!(strands.len(), groom.roots.len());
-            // The bone that moves the scalp.
-            let head = &face.bones()[1];
-            for (i, (root, points)) in groom.roots.iter().zip(&strands).enumerate() {
-                let corner = |k: usize| root.corners[k] as usize;
-                let positions = [0, 1, 2].map(|k| posed.positions[corner(k)]);
-                let normals = [0, 1, 2].map(|k| posed.normals[corner(k)]);
-                let on_skin: glam::Vec3 = (0..3).map(|k| positions[k] * root.barycentric[k]).sum();
-                let off = on_skin.distance(points[0]) / groom.height;
-                assert!(off <= 1e-4, "{}, strand {i}: {off} off the skin", pose.name);
-                let normal: glam::Vec3 = (0..3).map(|k| normals[k] * root.barycentric[k]).sum();
-                let leaves = (points[1] - points[0]).normalize_or_zero().dot(normal.normalize_or_zero());
-                assert!(leaves > 1f32.to_radians().cos(), "{}, strand {i}: {leaves}", pose.name);
-                let twin = grow(&groom, i, &Triangle { positions, normals }, head).expect("a strand");
+        let mut head = Head::new(gpu, &pack, &groom);
+        for (pose, values) in poses(&pack) {
+            let strands = head.strands(&values);
+            head.assert_stands(&groom, &strands, &pose);
+            let bones = head.face.bones();
+            // Of the very skin that the GPU grows on: what rounding does to hair that stands on end is not growth's.
+            let posed = head.posed_by_gpu();
+            let of = |strand: usize| triangle(&posed, &groom.roots[strand]);
+            for (i, points) in strands.iter().enumerate() {
+                let guide = groom.guide(i).map(|g| grow_guide(&groom, g, &of(g), bones).expect("a guide"));
+                let twin = grow(&groom, i, &of(i), bones, guide.as_ref()).expect("a strand");
                 for k in 0..=SEGMENTS {
                     let off = twin[k].distance(points[k]) / groom.height;
-                    assert!(off <= 1e-4, "{}, strand {i}, point {k}: {off}", pose.name);
+                    assert!(off <= 1e-4, "{pose}, strand {i}, point {k}: {off}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn strands_stand_on_the_skin_in_any_pose() {
+    let Some(gpu) = gpu() else { return };
+    let (pack, density) = avatar();
+    let groom = groom(&pack, &density, Style::SHORT, 2000.0);
+    let mut head = Head::new(gpu, &pack, &groom);
+    let mut bits = 1u32;
+    let mut unit = move || {
+        // Numerical Recipes' generator; its upper bits.
+        bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (bits >> 8) as f32 / (1u32 << 24) as f32
+    };
+    for pose in 0..200 {
+        let values: Vec<f32> = (pack.controls.controls().iter())
+            .map(|control| control.min + (control.max - control.min) * unit())
+            .collect();
+        let strands = head.strands(&values);
+        head.assert_stands(&groom, &strands, &format!("pose {pose}"));
+    }
+}
+
+#[test]
+fn no_strand_is_under_the_skin_in_any_pose_of_the_pack() {
+    let Some(gpu) = gpu() else { return };
+    let (pack, density) = avatar();
+    for (name, style) in Style::PRESETS {
+        let groom = groom(&pack, &density, style, 3000.0);
+        let mut head = Head::new(gpu, &pack, &groom);
+        for (pose, values) in poses(&pack) {
+            let strands = head.strands(&values);
+            let nearest = Nearest::new(&head.posed.positions, &pack.parts[0].mesh.triangles);
+            for (i, points) in strands.iter().enumerate() {
+                for (k, point) in points.iter().enumerate() {
+                    let depth = nearest.depth(*point) / groom.height;
+                    assert!(depth <= 0.005, "{name}, {pose}, strand {i}, point {k}: {depth} at {point}");
                 }
             }
         }
@@ -106,20 +211,20 @@ fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
     };
     let bare = draw(&model);
     let groom = groom(&pack, &density, Style::BOB, 8000.0);
-    model.set_hair(&gpu.device, 0, skin, Some(&groom)).expect("hair");
+    model.set_hair(&gpu.device, 0, Some(&groom)).expect("hair");
     assert_eq!(model.strand_count(), groom.roots.len());
     let covered = draw(&model);
     let changed = bare.rgba.iter().zip(&covered.rgba).filter(|(a, b)| a.abs_diff(**b) > 10).count();
     assert!(changed > 2000, "{changed}");
     assert_eq!(draw(&model).rgba, covered.rgba, "the same bytes again");
-    model.set_hair(&gpu.device, 0, skin, None).expect("none");
+    model.set_hair(&gpu.device, 0, None).expect("none");
     assert_eq!(draw(&model).rgba, bare.rgba);
 
     let mut wrong = groom.clone();
     wrong.roots[3].corners[1] = u32::MAX;
-    let refused = model.set_hair(&gpu.device, 0, skin, Some(&wrong));
+    let refused = model.set_hair(&gpu.device, 0, Some(&wrong));
     let vertices = skin.positions.len() as u32;
     assert_eq!(refused, Err(HairError::Corner { strand: 3, found: u32::MAX, vertices }));
-    let refused = model.set_hair(&gpu.device, 9, skin, Some(&groom));
+    let refused = model.set_hair(&gpu.device, 9, Some(&groom));
     assert_eq!(refused, Err(HairError::NoSuchPart { parts: 1, found: 9 }));
 }

@@ -7,123 +7,147 @@ struct DeformedVertex {
 
 @group(0) @binding(0) var<uniform> hair: Hair;
 @group(0) @binding(1) var<storage, read> roots: array<Root>;
-@group(0) @binding(2) var<storage, read> hull: array<f32>;
-// Per strand its points with their height above the head in w, then the normal of the skin at the root.
+// Per strand its points with their height above the skin in w, then the normal of the skin at the root.
 @group(0) @binding(3) var<storage, read_write> points: array<vec4f>;
+// The same of the strands that others follow.
+@group(0) @binding(4) var<storage, read> guides: array<vec4f>;
 @group(2) @binding(0) var<storage, read> deformed: array<DeformedVertex>;
+
+const POINT_STRIDE: u32 = SEGMENTS + 2u;
 
 fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
     let length2 = dot(v, v);
-    return select(other, v * inverseSqrt(max(length2, 1e-30)), length2 > 1e-20);
+    // Not inverseSqrt: some adapters only approximate it.
+    return select(other, v / sqrt(max(length2, 1e-30)), length2 > 1e-20);
 }
 
-// Q. Meyer et al., "On Floating-Point Normal Vectors", 2010: the octahedron around the sphere, unfolded, 0…1.
-fn square_from_direction(d: vec3f) -> vec2f {
-    let flat = d.xz / max(abs(d.x) + abs(d.y) + abs(d.z), 1e-12);
-    let signs = select(vec2f(1.0), vec2f(-1.0), flat < vec2f(0.0));
-    let folded = select(flat, (1.0 - abs(flat.yx)) * signs, d.y < 0.0);
-    return folded * 0.5 + 0.5;
+// Bones are rigid: rows of rotation and translation.
+fn moved(bone: Bone, point: vec3f) -> vec3f {
+    return vec4f(point, 1.0) * bone;
 }
 
-fn hull_radius(direction: vec3f) -> f32 {
-    let last = f32(HULL_SIZE - 1u);
-    let place = clamp(square_from_direction(direction) * f32(HULL_SIZE) - 0.5, vec2f(0.0), vec2f(last));
-    let low = min(floor(place), vec2f(last - 1.0));
-    let share = place - low;
-    let at = u32(low.y) * HULL_SIZE + u32(low.x);
-    return mix(
-        mix(hull[at], hull[at + 1u], share.x),
-        mix(hull[at + HULL_SIZE], hull[at + HULL_SIZE + 1u], share.x),
-        share.y);
+fn turned_back(bone: Bone, direction: vec3f) -> vec3f {
+    return bone[0].xyz * direction.x + bone[1].xyz * direction.y + bone[2].xyz * direction.z;
 }
 
-// From the head's middle, at bind pose.
-fn from_middle(point: vec3f) -> vec3f {
-    let head = posed_from_bind[hair.head_bone];
-    let d = point - vec3f(head[0].w, head[1].w, head[2].w);
-    return head[0].xyz * d.x + head[1].xyz * d.y + head[2].xyz * d.z - hair.hull_center;
+// From the head's bind pose to that of another bone.
+fn other_from_head(index: u32, head: Bone) -> Bone {
+    let other = posed_from_bind[index];
+    let offset = vec3f(head[0].w - other[0].w, head[1].w - other[1].w, head[2].w - other[2].w);
+    let position = turned_back(other, offset);
+    let x = turned_back(other, vec3f(head[0].x, head[1].x, head[2].x));
+    let y = turned_back(other, vec3f(head[0].y, head[1].y, head[2].y));
+    let z = turned_back(other, vec3f(head[0].z, head[1].z, head[2].z));
+    return Bone(
+        vec4f(x.x, y.x, z.x, position.x), vec4f(x.y, y.y, z.y, position.y), vec4f(x.z, y.z, z.z, position.z));
 }
 
-fn outside(point: vec3f) -> vec3f {
-    let from_center = from_middle(point);
-    let distance = length(from_center);
-    if distance <= 0.0 {
-        return point;
+// Winds a strand around itself, more toward the tip.
+fn curl(strand: ptr<function, array<vec4f, SEGMENTS + 1u>>, radius: f32, turn: vec2f, start_phase: f32) {
+    if radius <= 0.0 {
+        return;
     }
-    let direction = from_center / distance;
-    let least = hull_radius(direction) + hair.margin;
-    if distance >= least {
-        return point;
+    let along = normalize_or((*strand)[SEGMENTS].xyz - (*strand)[1].xyz, vec3f(0.0, -1.0, 0.0));
+    let beside = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(along.x) < 0.8);
+    let side = normalize_or(cross(along, beside), vec3f(0.0, 0.0, 1.0));
+    let other = cross(along, side);
+    var phase = vec2f(cos(start_phase), sin(start_phase));
+    for (var i = 2u; i <= SEGMENTS; i++) {
+        phase = vec2f(turn.x * phase.x - turn.y * phase.y, turn.y * phase.x + turn.x * phase.y);
+        let t = f32(i - 1u) / f32(SEGMENTS - 1u);
+        let offset = (side * phase.x + other * phase.y) * (radius * min(3.0 * t, 1.0));
+        (*strand)[i] = vec4f((*strand)[i].xyz + offset, (*strand)[i].w);
     }
-    let head = posed_from_bind[hair.head_bone];
-    let push = direction * (least - distance);
-    return point + vec3f(dot(head[0].xyz, push), dot(head[1].xyz, push), dot(head[2].xyz, push));
-}
-
-fn tuft_number(tuft: u32, salt: u32) -> f32 {
-    var v = (tuft * 0x9E3779B1u) ^ salt;
-    v = (v ^ (v >> 15u)) * 0x2C1B3C6Du;
-    v = (v ^ (v >> 12u)) * 0x297A2D39u;
-    return f32((v ^ (v >> 15u)) >> 8u) / 8388608.0 - 1.0;
 }
 
 @compute @workgroup_size(GROW_WORKGROUP_SIZE)
 fn grow_main(@builtin(global_invocation_id) id: vec3u) {
-    let strand = id.x;
-    if strand >= hair.strand_count {
+    let number = id.x;
+    if number >= min(hair.strand_count, arrayLength(&points) / POINT_STRIDE) {
         return;
     }
-    let root = roots[strand];
+    let root = roots[number];
     let style = hair.regions[root.region];
     let a = deformed[root.corners.x];
     let b = deformed[root.corners.y];
     let c = deformed[root.corners.z];
     let w = root.barycentric;
-    let start = a.position * w.x + b.position * w.y + c.position * w.z;
-    let normal = normalize_or(a.normal * w.x + b.normal * w.y + c.normal * w.z, vec3f(0.0, 1.0, 0.0));
+    let start_world = a.position * w.x + b.position * w.y + c.position * w.z;
+    let normal_world =
+        normalize_or(a.normal * w.x + b.normal * w.y + c.normal * w.z, vec3f(0.0, 1.0, 0.0));
     let x = normalize_or(b.position - a.position, vec3f(1.0, 0.0, 0.0));
     let z = normalize_or(cross(x, c.position - a.position), vec3f(0.0, 0.0, 1.0));
-    let comb = x * root.comb.x + cross(z, x) * root.comb.y + z * root.comb.z;
-    let strand_length = style.length * (1.0 - style.length_variation * root.random.x);
-    let first_step = FIRST_SEGMENT * strand_length / f32(SEGMENTS);
-    let step = (strand_length - first_step) / f32(SEGMENTS - 1u);
-    let own = root.random.yzw * 2.0 - 1.0;
-    let tuft = vec3f(tuft_number(root.tuft, 1u), tuft_number(root.tuft, 2u), tuft_number(root.tuft, 3u));
-    let aside = own * style.noise + tuft * style.clump;
+    let comb_world = x * root.comb.x + cross(z, x) * root.comb.y + z * root.comb.z;
+    // All that follows is in the head's bind pose.
+    let head = posed_from_bind[hair.head_bone];
+    var others = array<Bone, OTHER_BONES>(
+        other_from_head(hair.other_bones.x, head), other_from_head(hair.other_bones.y, head));
+    let posed_rows = mat3x3f(head[0].xyz, head[1].xyz, head[2].xyz);
+    let head_position = vec3f(head[0].w, head[1].w, head[2].w);
+    let start = posed_rows * (start_world - head_position);
+    let normal = posed_rows * normal_world;
+    let comb = posed_rows * comb_world;
+    let down = posed_rows * vec3f(0.0, -1.0, 0.0);
 
-    var strand_points: array<vec3f, SEGMENTS + 1u>;
-    strand_points[0] = start;
+    let first = FIRST_SEGMENT * root.length / f32(SEGMENTS);
+    let own = root.random * 2.0 - 1.0;
+    // Short strands do not reach around a whole curl.
+    let curl_radius = min(style.curl_radius, CURL_SHARE * root.length);
+    let lift = style.volume * root.random.z + curl_radius;
+    let has_guide = root.guide < IS_GUIDE;
+    let guide = select(0u, root.guide * POINT_STRIDE, has_guide);
+    var strand: array<vec4f, SEGMENTS + 1u>;
+    strand[0] = vec4f(start, 0.0);
+    var before = start + normal * first;
+    strand[1] = vec4f(before, first);
     var direction = normal;
-    for (var i = 1u; i <= SEGMENTS; i++) {
-        let t = f32(i - 1u) / f32(SEGMENTS);
-        let before = strand_points[i - 1u];
-        if i == 1u {
-            strand_points[i] = before + direction * first_step;
-            continue;
+    var skin_normal = normal;
+    var near = 1.0;
+    var skin: Near;
+    for (var i = 2u; i <= SEGMENTS; i++) {
+        let t = f32(i - 1u) / f32(SEGMENTS - 1u);
+        let step = (root.length - first) * (f32(i + 1u) / STEP_SUM);
+        // Along the skin: what supports hair takes the comb's push into it.
+        let combed = (comb - skin_normal * (dot(comb, skin_normal) * near)) * max(near, style.hold * (1.0 - t));
+        let force = combed + own * (style.noise * t) + down * style.gravity;
+        // What pulls straight back turns nothing: the sum would have no direction.
+        let across = force - direction * min(dot(force, direction), 0.0);
+        direction = normalize_or(direction + across * style.bend, direction);
+        var next = before + direction * step;
+        if has_guide {
+            let toward = posed_rows * (guides[guide + i].xyz - head_position) - next;
+            let share = saturate(2.0 - length(toward) / hair.lock_reach);
+            next += toward * (style.clump * t * share);
         }
-        let pull = vec3f(0.0, -style.gravity * (0.3 + 3.0 * t), 0.0);
-        let wanted = normalize_or(comb * (1.0 - t) + aside * min(2.0 * t, 1.0) + pull, direction);
-        direction = normalize_or(direction + (wanted - direction) * style.bend, direction);
-        direction = normalize_or(outside(before + direction * step) - before, direction);
-        strand_points[i] = before + direction * step;
+        // Where the skin moves with other bones, the place is sought where they have it at bind pose. The shares are those of
+        // the point before.
+        let moved_0 = (moved(others[0], next) - next) * skin.shares.x;
+        let moved_1 = (moved(others[1], next) - next) * skin.shares.y;
+        skin = field_at(next + moved_0 + moved_1);
+        let turned_0 = (turned_back(others[0], skin.outward) - skin.outward) * skin.shares.x;
+        let turned_1 = (turned_back(others[1], skin.outward) - skin.outward) * skin.shares.y;
+        skin.outward = normalize_or(skin.outward + turned_0 + turned_1, skin.outward);
+        if root.region != SCALP {
+            // Lids and brows move in the head's frame, and their hair is short: the plane of the skin says it.
+            skin.outward = normal;
+            skin.distance = dot(next - start, normal);
+        }
+        let least = hair.margin * min(4.0 * t, 1.0) + lift * min(3.0 * t, 1.0);
+        next += skin.outward * max(least - skin.distance, 0.0);
+        direction = normalize_or(next - before, direction);
+        // Pushed back, the segment gets shorter: at its full length it would be inside again.
+        before += direction * min(step, distance(next, before));
+        strand[i] = vec4f(before, max(skin.distance, least));
+        skin_normal = skin.outward;
+        near = saturate(1.0 - (skin.distance - least) / hair.combed_reach);
+    }
+    if root.guide != IS_GUIDE {
+        curl(&strand, curl_radius, style.curl_turn, root.phase);
     }
 
-    // Curls: the strand winds around itself, more toward the tip.
-    let along = normalize_or(strand_points[SEGMENTS] - strand_points[1], vec3f(0.0, -1.0, 0.0));
-    let beside = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(along.x) < 0.8);
-    let side = normalize_or(cross(along, beside), vec3f(0.0, 0.0, 1.0));
-    let other = cross(along, side);
-    let first = strand * (SEGMENTS + 2u);
+    let out = number * POINT_STRIDE;
     for (var i = 0u; i <= SEGMENTS; i++) {
-        var point = strand_points[i];
-        if i >= 2u && style.curl_radius > 0.0 {
-            let t = f32(i - 1u) / f32(SEGMENTS - 1u);
-            let angle = 6.2831853 * (style.curl_turns * t + root.random.w);
-            point += (side * cos(angle) + other * sin(angle)) * (style.curl_radius * min(t, 0.35) / 0.35);
-        }
-        let from_center = from_middle(point);
-        let distance = length(from_center);
-        points[first + i] = vec4f(point, distance - hull_radius(from_center / max(distance, 1e-6)));
+        points[out + i] = vec4f(head_position + strand[i].xyz * posed_rows, strand[i].w);
     }
-    points[first + SEGMENTS + 1u] = vec4f(normal, 0.0);
+    points[out + SEGMENTS + 1u] = vec4f(normal_world, 0.0);
 }

@@ -1,0 +1,202 @@
+//! Distances from a skin, and the strands that keep them.
+#![allow(clippy::expect_used, reason = "a test may panic")]
+
+use avatar_groom::{
+    DensityMap, Field, Groom, MARGIN, RegionStyle, SEGMENTS, Style, Triangle, grow, grow_guide,
+};
+use avatar_mesh::{Mesh, Skinning};
+use glam::{Affine3A, Quat, Vec2, Vec3};
+
+/// A ball of radius 1 around a place, by latitude and longitude.
+fn ball(center: Vec3) -> Mesh {
+    let (rows, columns) = (48u32, 96u32);
+    let mut mesh = Mesh::default();
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let uv = Vec2::new(column as f32 / columns as f32, row as f32 / rows as f32);
+            let (phi, theta) = (uv.x * std::f32::consts::TAU, uv.y * std::f32::consts::PI);
+            let normal = Vec3::new(theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos());
+            mesh.positions.push(center + normal);
+            mesh.normals.push(normal);
+            mesh.uvs.push(uv);
+        }
+    }
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let a = row * (columns + 1) + column;
+        let b = a + columns + 1;
+        mesh.triangles.extend([[a, b, a + 1], [a + 1, b, b + 1]]);
+    }
+    mesh
+}
+
+fn places(count: u32, reach: f32) -> impl Iterator<Item = Vec3> {
+    // R. Roberts' additive sequence in three dimensions.
+    let g = 1.220_744_1_f32;
+    let steps = Vec3::new(1.0 / g, 1.0 / (g * g), 1.0 / (g * g * g));
+    (0..count).map(move |i| ((steps * i as f32 + 0.5).fract() * 2.0 - 1.0) * reach)
+}
+
+#[test]
+fn the_distance_from_a_ball_is_that_from_its_middle_less_the_radius() {
+    let center = Vec3::new(3.0, -2.0, 5.0);
+    let field = Field::new(&ball(center), 0);
+    for place in places(4000, 1.12) {
+        let near = field.at(center + place);
+        let wanted = (place.length() - 1.0).clamp(-field.range(), field.range());
+        // The grid's half cell where distances bend most: in the middle.
+        assert!((near.distance - wanted).abs() < 0.25 * field.cell, "{place}: {} {wanted}", near.distance);
+        if (0.6..1.1).contains(&place.length()) {
+            // Smoothing adds half its variance (a cell's square) times the curvature, and facets lie below the ball.
+            assert!(
+                (near.distance - wanted).abs() < 0.08 * field.cell,
+                "{place}: {} {wanted}",
+                near.distance
+            );
+            let along = near.outward.dot(place.normalize());
+            assert!(along > 0.999, "{place}: {along}");
+        }
+    }
+    let far = field.at(center + Vec3::X * 9.0);
+    assert!((far.distance - 8.0).abs() < 0.5, "{}", far.distance);
+}
+
+#[test]
+fn a_field_knows_its_side_where_the_skin_is_open_and_where_it_is_folded() {
+    // Without its lowest part, as a head without its body.
+    let mut open = ball(Vec3::ZERO);
+    open.triangles.retain(|corners| corners.iter().all(|i| open.positions[*i as usize].y > -0.6));
+    let field = Field::new(&open, 0);
+    assert!(field.at(Vec3::new(0.0, 0.3, 0.0)).distance < -0.4);
+    assert!(field.at(Vec3::new(0.95, -0.5, 0.0)).distance > 0.0);
+    // A ridge as sharp as the edge of an ear: on both sides of it is outside.
+    let mut ridge = ball(Vec3::ZERO);
+    for p in ridge.positions.iter_mut().filter(|p| p.x.abs() < 0.04 && p.y > 0.0) {
+        *p *= 1.5;
+    }
+    let field = Field::new(&ridge, 0);
+    for x in [-0.3, -0.2, 0.2, 0.3] {
+        assert!(field.at(Vec3::new(x, 1.2, 0.0)).distance > 0.0, "{x}");
+    }
+}
+
+#[test]
+fn broken_meshes_have_a_field_too() {
+    let mut broken = ball(Vec3::ZERO);
+    broken.triangles.push([0, 1, 9_999_999]);
+    broken.positions[7] = Vec3::NAN;
+    broken.normals.truncate(50);
+    let field = Field::new(&broken, 3);
+    assert_eq!(field.texels().len(), field.size.iter().product::<u32>() as usize);
+    assert!(field.at(Vec3::NAN).outward.is_finite() || field.at(Vec3::NAN).outward.is_nan());
+    Field::new(&Mesh::default(), 0).at(Vec3::ONE);
+}
+
+fn style(scalp: RegionStyle) -> Style {
+    Style { scalp, ..Style::LONG }
+}
+
+fn hairy(mesh: &Mesh, style: Style) -> Groom {
+    let everywhere = DensityMap::new(1, 1, vec![255]).expect("a map");
+    Groom::new(mesh, &everywhere, &[], style, 2000.0, 5)
+}
+
+fn triangle(mesh: &Mesh, groom: &Groom, strand: usize, bones: &[Affine3A]) -> Triangle {
+    let corners = groom.roots[strand].corners.map(|i| i as usize);
+    let bone = bones[groom.head_bone as usize];
+    Triangle {
+        positions: corners.map(|i| bone.transform_point3(mesh.positions[i])),
+        normals: corners.map(|i| bone.transform_vector3(mesh.normals[i])),
+    }
+}
+
+#[test]
+fn hair_stays_outside_of_a_turned_head_has_its_length_and_follows_its_guide() {
+    let mesh = ball(Vec3::ZERO);
+    let turned = [Affine3A::from_rotation_translation(Quat::from_rotation_z(0.7), Vec3::new(5.0, 1.0, 2.0))];
+    let mut ratios = Vec::new();
+    for clump in [0.0, 0.2] {
+        let groom = hairy(&mesh, style(RegionStyle { clump, cut: -10.0, ..Style::LONG.scalp }));
+        assert!(groom.guides.len() > 20);
+        let middle = turned[0].transform_point3(Vec3::ZERO);
+        let mut apart = [0.0f32; 2];
+        for strand in 0..groom.roots.len() {
+            let guide_strand = groom.guide(strand).expect("a guide");
+            let guide =
+                grow_guide(&groom, guide_strand, &triangle(&mesh, &groom, guide_strand, &turned), &turned);
+            let guide = guide.expect("a guide");
+            let of = triangle(&mesh, &groom, strand, &turned);
+            let points = grow(&groom, strand, &of, &turned, Some(&guide)).expect("a strand");
+            for point in &points[2..] {
+                let height = point.distance(middle) - 1.0;
+                assert!(height > 0.25 * MARGIN * groom.height, "{height}");
+            }
+            let length: f32 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            let wanted = groom.lengths[strand];
+            // Segments that the head pushes back get shorter.
+            assert!(length <= wanted * 1.001 && length > 0.8 * wanted, "{length} {wanted}");
+            apart[0] += points[0].distance(guide[0]);
+            apart[1] += points[SEGMENTS].distance(guide[SEGMENTS]);
+        }
+        ratios.push(apart[1] / apart[0]);
+    }
+    assert!(ratios[1] < 0.8 * ratios[0], "{ratios:?}");
+}
+
+#[test]
+fn the_cut_is_where_the_style_says() {
+    let mesh = ball(Vec3::ZERO);
+    let scalp =
+        RegionStyle { cut: -0.2, clump: 0.0, length: 3.0, length_variation: 0.0, ..Style::LONG.scalp };
+    let groom = hairy(&mesh, style(scalp));
+    let bones = [Affine3A::IDENTITY];
+    // The lowest point of the ball is -1, its height 2.
+    let height = -1.0 - 0.2 * 2.0;
+    let guides: Vec<f32> = (groom.guides.iter())
+        .map(|&strand| {
+            let of = triangle(&mesh, &groom, strand as usize, &bones);
+            grow_guide(&groom, strand as usize, &of, &bones).expect("a guide")[SEGMENTS].y
+        })
+        .collect();
+    assert!(guides.iter().all(|y| (y - height).abs() < 0.12), "{guides:?}");
+    let mean = guides.iter().sum::<f32>() / guides.len() as f32;
+    assert!((mean - height).abs() < 0.05, "{mean}");
+}
+
+#[test]
+fn guides_are_the_nearest_ones_on_their_side_of_the_parting() {
+    let mesh = ball(Vec3::ZERO);
+    let groom = hairy(&mesh, style(RegionStyle { parting: 0.1, ..Style::LONG.scalp }));
+    let at = |strand: usize| -> Vec3 {
+        let root = &groom.roots[strand];
+        (0..3).map(|i| mesh.positions[root.corners[i] as usize] * root.barycentric[i]).sum()
+    };
+    let side = |strand: usize| at(strand).x < 0.2;
+    for strand in 0..groom.roots.len() {
+        let same_side = groom.guides.iter().map(|g| *g as usize).filter(|g| side(*g) == side(strand));
+        let nearest = same_side.map(|g| at(g).distance(at(strand))).fold(f32::INFINITY, f32::min);
+        let found = groom.guide(strand).expect("a guide");
+        assert_eq!(side(found), side(strand));
+        assert!((at(found).distance(at(strand)) - nearest).abs() < 1e-6, "strand {strand}");
+    }
+}
+
+#[test]
+fn necks_and_jaws_carry_hair_along() {
+    // The lower half moves with bone 1.
+    let mut mesh = ball(Vec3::ZERO);
+    let weights: Vec<[f32; 4]> = (mesh.positions.iter())
+        .map(|p| {
+            let low = (0.5 - 4.0 * (p.y + 0.4)).clamp(0.0, 1.0);
+            [1.0 - low, low, 0.0, 0.0]
+        })
+        .collect();
+    mesh.skinning = Some(Skinning {
+        bones: vec![[0, 1, 0, 0]; mesh.positions.len()],
+        blend_index: vec![Vec3::ZERO; mesh.positions.len()],
+        weights,
+    });
+    let field = Field::new(&mesh, 0);
+    assert_eq!(field.bones[0], 1);
+    assert!(field.at(Vec3::new(0.0, 0.9, 0.0)).shares[0] < 0.01);
+    assert!(field.at(Vec3::new(0.0, -0.95, 0.0)).shares[0] > 0.99);
+}
