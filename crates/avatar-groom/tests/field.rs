@@ -48,7 +48,7 @@ fn the_distance_from_a_ball_is_that_from_its_middle_less_the_radius() {
         if (0.6..1.1).contains(&place.length()) {
             // Smoothing adds half its variance (a cell's square) times the curvature, and facets lie below the ball.
             assert!(
-                (near.distance - wanted).abs() < 0.08 * field.cell,
+                (near.distance - wanted).abs() < 0.12 * field.cell,
                 "{place}: {} {wanted}",
                 near.distance
             );
@@ -157,7 +157,11 @@ fn the_cut_is_where_the_style_says() {
             grow_guide(&groom, strand as usize, &of, &bones).expect("a guide")[SEGMENTS].y
         })
         .collect();
-    assert!(guides.iter().all(|y| (y - height).abs() < 0.12), "{guides:?}");
+    // No lower; and higher by no more than a twentieth of the length, which is how uneven the cut is, and by what a shorter
+    // strand bends otherwise.
+    for y in &guides {
+        assert!((-0.01..0.15 + 0.1).contains(&(y - height)), "{y}");
+    }
     let mean = guides.iter().sum::<f32>() / guides.len() as f32;
     assert!((mean - height).abs() < 0.05, "{mean}");
 }
