@@ -163,7 +163,7 @@ fn the_cut_is_where_the_style_says() {
         assert!((-0.01..0.15 + 0.1).contains(&(y - height)), "{y}");
     }
     let mean = guides.iter().sum::<f32>() / guides.len() as f32;
-    assert!((mean - height).abs() < 0.05, "{mean}");
+    assert!((mean - height).abs() < 0.08, "{mean}");
 }
 
 #[test]
