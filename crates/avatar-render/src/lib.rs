@@ -34,8 +34,9 @@
 //!    eyeball            front sides
 //!    skin back          what shows at the rim of the neck, lids and lips: a hollow in ambient light
 //!    outlines           toon only
-//!    hair               strands as ribbons
-//!    cornea             front sides, blended, far to near, depth tested but not written
+//!  hair                 strands as ribbons, where a model has hair
+//!  corneas              front sides, blended, far to near, depth tested but not written; without hair in one pass
+//!                       with the avatars
 //! ```
 //!
 //! Which passes run and which terms programs have, [`Shading`] says; [`Quality`] and [`Style`] choose one.

@@ -21,12 +21,16 @@ pub(crate) enum Pass {
     SkinLight,
     /// That light, spread sideways below the skin.
     ScatterAcross,
-    /// The picture.
+    /// The picture: what is opaque, and what is clear as well where no hair comes in between.
     Picture,
+    /// Strands, over what is opaque.
+    Hair,
+    /// What is clear, over hair.
+    Clear,
 }
 
 /// The order of a frame's passes. Each reads only what those before it wrote.
-pub(crate) const FRAME_PASSES: [Pass; 8] = [
+pub(crate) const FRAME_PASSES: [Pass; 10] = [
     Pass::Deform,
     Pass::GrowHair,
     Pass::Shadows,
@@ -35,6 +39,8 @@ pub(crate) const FRAME_PASSES: [Pass; 8] = [
     Pass::SkinLight,
     Pass::ScatterAcross,
     Pass::Picture,
+    Pass::Hair,
+    Pass::Clear,
 ];
 
 impl Pass {
@@ -49,13 +55,15 @@ impl Pass {
             Self::SkinLight => "light on skin",
             Self::ScatterAcross => "scatter across",
             Self::Picture => "avatars",
+            Self::Hair => "hair",
+            Self::Clear => "corneas",
         }
     }
 
     /// Whether a shading needs it.
     pub(crate) fn runs(self, terms: Terms, with_hair: bool) -> bool {
         match self {
-            Self::GrowHair => with_hair,
+            Self::GrowHair | Self::Hair | Self::Clear => with_hair,
             Self::Deform | Self::Picture => true,
             Self::Shadows => terms.shadows.lamps() > 0,
             Self::Prepass => terms.prepass(),

@@ -21,6 +21,8 @@ pub(crate) struct Frame<'a> {
     pub(crate) frame_offset: u32,
     pub(crate) shadow_offsets: [u32; SHADOW_COUNT],
     pub(crate) timer: Option<&'a PassTimer>,
+    /// Whether any of the avatars has hair.
+    pub(crate) has_hair: bool,
 }
 
 /// A part of an avatar.
@@ -42,7 +44,7 @@ impl<'a> Frame<'a> {
             Pass::Shadows => self.shadows(encoder),
             Pass::Prepass => {
                 let Some([front, both]) = &pipelines.prepass else { return };
-                let depth = depth_attachment(&targets.single_depth, true);
+                let depth = depth_attachment(&targets.single_depth);
                 let mut pass = self.begin(encoder, pass, Some(&targets.normals), Some(depth));
                 self.set_groups(&mut pass, &targets.for_prepass);
                 for (kind, pipeline) in
@@ -68,6 +70,8 @@ impl<'a> Frame<'a> {
                 self.on_skin(encoder, pass, pipelines.scatter_across.as_ref(), &targets.scattered, group);
             }
             Pass::Picture => self.picture(encoder),
+            Pass::Hair => self.strands(encoder),
+            Pass::Clear => self.clear_parts(encoder),
         }
     }
 
@@ -101,15 +105,14 @@ impl<'a> Frame<'a> {
         self.avatars.iter().filter_map(hair)
     }
 
-    /// After what is opaque and before what is clear: hair writes depth, so that corneas lie rightly before or behind it.
-    fn strands(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.push_debug_group("hair");
+    /// Hair writes depth, so that corneas lie rightly before or behind it.
+    fn strands(&self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = self.begin_picture(encoder, Pass::Hair, false, false);
         pass.set_pipeline(&self.renderer.strands);
         for (strands, hair) in self.with_hair() {
             pass.set_bind_group(2, &hair.draw, &[]);
             pass.draw(0..2 * (SEGMENTS as u32 + 1), 0..strands);
         }
-        pass.pop_debug_group();
     }
 
     fn shadows(&self, encoder: &mut wgpu::CommandEncoder) {
@@ -149,36 +152,64 @@ impl<'a> Frame<'a> {
     }
 
     fn picture(&self, encoder: &mut wgpu::CommandEncoder) {
-        let targets = self.targets;
-        let (color, resolve_target, store) = match &targets.multisampled {
-            Some(multisampled) => (multisampled, Some(self.view), wgpu::StoreOp::Discard),
-            None => (self.view, None, wgpu::StoreOp::Store),
-        };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(Pass::Picture.label()),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: color,
-                depth_slice: None,
-                resolve_target,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(self.clear), store },
-            })],
-            depth_stencil_attachment: Some(depth_attachment(&targets.depth, false)),
-            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(Pass::Picture)),
-            ..Default::default()
-        });
-        self.set_groups(&mut pass, &targets.for_picture);
-        for (drawable, pipeline) in &self.renderer.picture {
-            if drawable.is_transparent {
-                self.strands(&mut pass);
-            }
+        let mut pass = self.begin_picture(encoder, Pass::Picture, true, !self.has_hair);
+        // One pass where it is enough: the picture is not stored and loaded in between.
+        self.draw_picture(&mut pass, |drawable| !(self.has_hair && drawable.is_transparent));
+    }
+
+    fn clear_parts(&self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = self.begin_picture(encoder, Pass::Clear, false, true);
+        self.draw_picture(&mut pass, |drawable| drawable.is_transparent);
+    }
+
+    fn draw_picture(&self, pass: &mut wgpu::RenderPass<'_>, is_drawn: impl Fn(&Drawable) -> bool) {
+        for (drawable, pipeline) in self.renderer.picture.iter().filter(|(drawable, _)| is_drawn(drawable)) {
             pass.push_debug_group(drawable.label);
             pass.set_pipeline(pipeline);
             match drawable.is_transparent {
-                false => self.draw_kind(&mut pass, drawable.kind),
-                true => self.draw_far_to_near(&mut pass, drawable),
+                false => self.draw_kind(pass, drawable.kind),
+                true => self.draw_far_to_near(pass, drawable),
             }
             pass.pop_debug_group();
         }
+    }
+
+    /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's view.
+    fn begin_picture<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        pass: Pass,
+        is_first: bool,
+        is_last: bool,
+    ) -> wgpu::RenderPass<'e> {
+        use wgpu::{LoadOp, StoreOp};
+        let targets = self.targets;
+        let kept = |keep| if keep { StoreOp::Store } else { StoreOp::Discard };
+        let (view, resolve_target, store) = match &targets.multisampled {
+            Some(several) => (several, is_last.then_some(self.view), kept(!is_last)),
+            None => (self.view, None, StoreOp::Store),
+        };
+        let load = if is_first { LoadOp::Clear(self.clear) } else { LoadOp::Load };
+        // Depth is reversed: 0 is far.
+        let depth_load = if is_first { LoadOp::Clear(0.0) } else { LoadOp::Load };
+        let mut begun = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(pass.label()),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target,
+                ops: wgpu::Operations { load, store },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &targets.depth,
+                depth_ops: Some(wgpu::Operations { load: depth_load, store: kept(!is_last) }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(pass)),
+            ..Default::default()
+        });
+        self.set_groups(&mut begun, &targets.for_picture);
+        begun
     }
 
     fn begin<'e>(
@@ -247,11 +278,10 @@ impl<'a> Frame<'a> {
 }
 
 /// Depth is reversed: 0 is far.
-fn depth_attachment(view: &wgpu::TextureView, keep: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    let store = if keep { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard };
+fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     wgpu::RenderPassDepthStencilAttachment {
         view,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }),
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
         stencil_ops: None,
     }
 }

@@ -201,6 +201,7 @@ impl Renderer {
         self.check(view, targets, avatars)?;
         let terms = self.config.shading.terms();
         let bounds = avatars.iter().filter_map(|(model, state)| state.bounds(model)).reduce(Bounds::union);
+        let has_hair = avatars.iter().any(|(model, _)| model.strand_count() > 0);
         let height = avatars.first().map_or(1.0, |(model, _)| model.height);
         let shadows = ShadowViews::new(&scene.light, bounds, terms.shadows);
         let irradiance = self.resources.irradiance(queue, &scene.light.environment, terms);
@@ -218,9 +219,9 @@ impl Renderer {
                 self.shadow_views.push(queue, &GpuShadowView { shadow_from_world })
             }),
             timer,
+            has_hair,
         };
-        let with_hair = avatars.iter().any(|(model, _)| model.strand_count() > 0);
-        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms, with_hair));
+        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms, has_hair));
         for pass in passes() {
             frame.record(encoder, pass);
         }
