@@ -1,7 +1,7 @@
-//! What hair costs: growth and drawing per strand at 1280×720 and four samples, and how close growth comes to copying
-//! as many bytes as it must read and write with a plain kernel, vec4 by vec4, in the same run.
+//! What hair costs: growth and drawing per strand at 1280×720 and four samples, and how close growth comes to a plain
+//! kernel that copies, vec4 by vec4, so that it reads and writes as many bytes as growth must, in the same run.
 //!
-//! `cargo bench -p avatar-render --bench hair [-- ROUNDS]`
+//! `cargo bench -p avatar-render --bench hair [-- ROUNDS] [bob|curly|…] [STRANDS]`
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
@@ -9,8 +9,8 @@ use avatar_groom::{DensityMap, Groom, SEGMENTS, Style};
 use avatar_pack::{Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Light, PartBones, PartDesc, PartTextures, PassTimer, Quality, Renderer,
-    RendererConfig, Scene, Style as Manner, Targets,
+    AvatarModel, AvatarState, Camera, Grower, HairDetail, Light, PartBones, PartDesc, PartTextures,
+    PassTimer, Quality, Renderer, RendererConfig, Scene, Style as Manner, Targets,
 };
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use std::time::Instant;
 const WIDTH: u32 = 1280;
 const HEIGHT: u32 = 720;
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-const STRANDS: [f32; 3] = [10_000.0, 50_000.0, 150_000.0];
+const STRANDS: [f32; 2] = [10_000.0, 100_000.0];
 /// A root as the GPU reads it.
 const ROOT_BYTES: usize = 64;
 /// A deformed vertex: position and normal.
@@ -36,7 +36,17 @@ impl Source for Folder {
 }
 
 fn main() {
-    let rounds = std::env::args().filter_map(|arg| arg.parse().ok()).next().unwrap_or(9usize);
+    let numbers: Vec<usize> = std::env::args().filter_map(|arg| arg.parse().ok()).collect();
+    let rounds = numbers.first().copied().unwrap_or(5);
+    let counts: Vec<f32> = match numbers.get(1..) {
+        Some(counts @ [_, ..]) => counts.iter().map(|count| *count as f32).collect(),
+        _ => STRANDS.to_vec(),
+    };
+    let named: Vec<String> = std::env::args().skip(1).collect();
+    let is_asked = |name: &str| match Style::PRESETS.iter().any(|(name, _)| named.iter().any(|n| n == name)) {
+        true => named.iter().any(|n| n == name),
+        false => name == "bob",
+    };
     let gpu = open_blocking(GpuOptions::default()).expect("an adapter");
     println!("{} ({:?}, {})\n", gpu.info.name, gpu.info.backend, gpu.info.driver_info);
     let folder = Folder(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne"));
@@ -50,8 +60,8 @@ fn main() {
     let renderer = Renderer::new(&gpu.device, &gpu.queue, config).expect("a renderer");
     let targets = Targets::new(&gpu.device, &renderer, WIDTH, HEIGHT).expect("targets");
     let mut bald = None;
-    for (name, style) in Style::PRESETS.into_iter().filter(|(name, _)| ["bob", "curly"].contains(name)) {
-        for strands in STRANDS {
+    for (name, style) in Style::PRESETS.into_iter().filter(|(name, _)| is_asked(name)) {
+        for &strands in &counts {
             let (model, state, scene, bytes) = avatar(&gpu, &pack, &density, style, strands);
             let bench = Bench { gpu: &gpu, renderer: &renderer, targets: &targets, scene: &scene };
             let bald = *bald.get_or_insert_with(|| {
@@ -65,20 +75,16 @@ fn main() {
             for (pass, ms) in &passes {
                 println!("  {pass:<20}{ms:>9.2} ms{:>9.0} ns per strand", per(*ms));
             }
-            let grow = passes.iter().find(|(pass, _)| pass == "grow hair").map(|(_, ms)| *ms);
-            let copied = copy_bytes_per_second(&gpu, bytes / 2, rounds);
-            match grow {
-                Some(ms) => {
-                    let grown = bytes as f64 / (ms * 1e-3);
-                    println!(
-                        "  growth {:.2} GB/s, copying {:.2} GB/s: {:.2} of it\n",
-                        grown * 1e-9,
-                        copied * 1e-9,
-                        grown / copied
-                    );
-                }
-                None => println!("  no timestamps; copying {:.2} GB/s\n", copied * 1e-9),
-            }
+            let (growing, copying) = growth_and_copy(&gpu, &model, &state, bytes, rounds);
+            let rate = |seconds: f64| bytes as f64 / seconds * 1e-9;
+            println!(
+                "  growth alone {:.2} ms, {:.0} ns per strand, {:.2} GB/s; copying {:.2} GB/s: {:.2} of it\n",
+                growing * 1e3,
+                per(growing * 1e3),
+                rate(growing),
+                rate(copying),
+                copying / growing
+            );
         }
     }
 }
@@ -105,7 +111,8 @@ fn avatar(
         ["right-eyeball", "left-eyeball"].iter().filter_map(|name| pack.part(name)?.mesh.bounds()).collect();
     let groom = Groom::new(&skin.mesh, density, &eyes, style, strands, 1);
     model.set_hair(&gpu.device, 0, &skin.mesh, Some(&groom)).expect("hair");
-    let state = AvatarState::new(&gpu.device, &model);
+    let mut state = AvatarState::new(&gpu.device, &model);
+    state.set_hair_detail(HairDetail { is_automatic: false, ..HairDetail::default() });
     let mut corners: Vec<u32> = groom.roots.iter().flat_map(|root| root.corners).collect();
     corners.sort_unstable();
     corners.dedup();
@@ -189,19 +196,39 @@ fn copy_main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) 
 }
 ";
 
-/// Bytes that a plain kernel reads and writes per second, as the median over rounds of copying `bytes`.
-fn copy_bytes_per_second(gpu: &Gpu, bytes: usize, rounds: usize) -> f64 {
+/// Kernels per submission: what a submission costs by itself is little beside them.
+const REPEATS: u32 = 8;
+
+/// A submission's time by the clock; software adapters do not wait for compute passes to note their end.
+fn timed(gpu: &Gpu, record: impl Fn(&mut wgpu::CommandEncoder)) -> f64 {
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    record(&mut encoder);
+    let commands = encoder.finish();
+    let start = Instant::now();
+    gpu.queue.submit([commands]);
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("done");
+    start.elapsed().as_secs_f64()
+}
+
+/// Seconds that growth and a plain kernel take that reads and writes as many bytes, medians of rounds in turns.
+fn growth_and_copy(
+    gpu: &Gpu,
+    model: &AvatarModel,
+    state: &AvatarState,
+    bytes: usize,
+    rounds: usize,
+) -> (f64, f64) {
     let device = &gpu.device;
-    let size = (bytes as u64).next_multiple_of(16);
-    let buffer = |usage| {
+    let size = (bytes as u64 / 2).next_multiple_of(16);
+    let buffer = || {
         device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("bench: copy"),
             size,
-            usage,
+            usage: wgpu::BufferUsages::STORAGE,
             mapped_at_creation: false,
         })
     };
-    let [source, copied] = [0; 2].map(|_| buffer(wgpu::BufferUsages::STORAGE));
+    let (source, copied) = (buffer(), buffer());
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("bench: copy"),
         source: wgpu::ShaderSource::Wgsl(COPY.into()),
@@ -222,60 +249,29 @@ fn copy_bytes_per_second(gpu: &Gpu, bytes: usize, rounds: usize) -> f64 {
             wgpu::BindGroupEntry { binding: 1, resource: copied.as_entire_binding() },
         ],
     });
-    let queries = device.features().contains(wgpu::Features::TIMESTAMP_QUERY).then(|| {
-        let ty = wgpu::QueryType::Timestamp;
-        device.create_query_set(&wgpu::QuerySetDescriptor { label: Some("bench: copy"), ty, count: 2 })
-    });
-    let resolved = buffer_of_times(device, wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC);
-    let readable = buffer_of_times(device, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
-    let mut times = Vec::new();
-    for round in 0..=rounds {
-        let start = Instant::now();
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let timestamp_writes = queries.as_ref().map(|query_set| wgpu::ComputePassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index: Some(0),
-            end_of_pass_write_index: Some(1),
-        });
-        {
-            let label = Some("bench: copy");
-            let mut pass =
-                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes });
+    let copy = |encoder: &mut wgpu::CommandEncoder| {
+        for _ in 0..REPEATS {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.dispatch_workgroups((size / 16).div_ceil(64).min(65_535) as u32, 1, 1);
         }
-        if let Some(queries) = &queries {
-            encoder.resolve_query_set(queries, 0..2, &resolved, 0);
-            encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, readable.size());
-        }
-        gpu.queue.submit([encoder.finish()]);
-        readable.map_async(wgpu::MapMode::Read, .., |result| result.expect("mapped"));
-        device.poll(wgpu::PollType::wait_indefinitely()).expect("copied");
-        let wall = start.elapsed().as_secs_f64();
-        let ticks: [u64; 2] = {
-            let view = readable.get_mapped_range(..).expect("mapped");
-            [0, 8].map(|at| u64::from_le_bytes(view[at..at + 8].try_into().expect("eight bytes")))
-        };
-        readable.unmap();
-        let seconds = match &queries {
-            Some(_) => (ticks[1] - ticks[0]) as f64 * f64::from(gpu.queue.get_timestamp_period()) * 1e-9,
-            None => wall,
-        };
-        if round > 0 {
-            times.push(seconds);
-        }
+    };
+    let grower = Grower::new(device);
+    let grow = |encoder: &mut wgpu::CommandEncoder| {
+        (0..REPEATS).for_each(|_| grower.grow(encoder, model, state));
+    };
+    let (mut empty, mut growing, mut copying) = (Vec::new(), Vec::new(), Vec::new());
+    // The first of each makes what is made at the first use.
+    (timed(gpu, grow), timed(gpu, copy));
+    for _ in 0..2 * rounds {
+        empty.push(timed(gpu, |_| {}));
+        growing.push(timed(gpu, grow));
+        copying.push(timed(gpu, copy));
     }
-    2.0 * size as f64 / median(&mut times)
-}
-
-fn buffer_of_times(device: &wgpu::Device, usage: wgpu::BufferUsages) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("bench: times"),
-        size: 16,
-        usage,
-        mapped_at_creation: false,
-    })
+    let floor = median(&mut empty);
+    let each = |times: &mut [f64]| (median(times) - floor).max(1e-9) / f64::from(REPEATS);
+    (each(&mut growing), each(&mut copying))
 }
 
 fn median(times: &mut [f64]) -> f64 {

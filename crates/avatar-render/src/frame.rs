@@ -58,7 +58,8 @@ pub(crate) struct GpuFrame {
     pub(crate) occlusion_radius: f32,
     pub(crate) shadow_softness: f32,
     pub(crate) reflection_levels: f32,
-    pub(crate) pad: [f32; 2],
+    pub(crate) hair_shadow: f32,
+    pub(crate) pad: f32,
 }
 
 impl GpuLamp {
@@ -107,7 +108,8 @@ impl GpuFrame {
             occlusion_radius: OCCLUSION_RADIUS * height,
             shadow_softness: SHADOW_SOFTNESS * height,
             reflection_levels: (REFLECTION_LEVELS - 1) as f32,
-            pad: [0.0; 2],
+            hair_shadow: 0.0,
+            pad: 0.0,
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::Terms;
 use crate::deformer::GpuDeformedVertex;
 use crate::frame::{GpuFrame, GpuLamp};
 use crate::hair::{GpuHair, GpuHairRegion, GpuRoot};
+use crate::hair_detail::GpuHairView;
 use crate::material::{GpuIris, GpuMaterial};
 use crate::part::{GpuPart, GpuShapeOffset, GpuVertex, GpuVertexBones};
 use crate::renderer::GpuShadowView;
@@ -77,6 +78,7 @@ fn layouts() -> Vec<Layout> {
             noise
         ),
         layout!("Hair", GpuHair, regions, hull_center, margin, head_bone, strand_count, width_factor),
+        layout!("HairView", GpuHairView, strands, fading, width, least_pixels, layer),
         layout!("Root", GpuRoot, corners, region, barycentric, tuft, random, comb),
         layout!("ShadowView", GpuShadowView, shadow_from_world),
         layout!(
@@ -99,7 +101,8 @@ fn layouts() -> Vec<Layout> {
             pixels_per_unit,
             occlusion_radius,
             shadow_softness,
-            reflection_levels
+            reflection_levels,
+            hair_shadow
         ),
         layout!(
             "Iris",

@@ -24,6 +24,7 @@
 //!  deform               compute: shapes and bones, every part once
 //!  grow hair            compute: every strand anew on the deformed skin, where a model has hair
 //!  shadows              depth that the key and rim lamps see
+//!  shadow of hair       how much of the key's light strands keep off
 //!  depth and normals    one sample a pixel ┐ medium and high
 //!  ambient occlusion    from both          ┘
 //!  light on skin        before its colour  ┐ high
@@ -76,6 +77,8 @@ mod eye;
 mod frame;
 mod grower;
 mod hair;
+mod hair_detail;
+mod hair_pipelines;
 pub mod headless;
 mod image;
 #[cfg(test)]
@@ -89,6 +92,7 @@ mod pipelines;
 mod pores;
 mod readback;
 mod record;
+mod record_hair;
 mod renderer;
 mod resources;
 mod scene;
@@ -106,6 +110,7 @@ pub use color::linear_from_srgb8;
 pub use deformer::{Deformer, DeformerError};
 pub use grower::{Grower, GrowerError};
 pub use hair::HairError;
+pub use hair_detail::HairDetail;
 pub use image::{Image, ImageSizeError};
 pub use model::{AvatarModel, ModelError, PartBones, PartDesc, PartProblem, PartTextures};
 pub use readback::ReadbackError;

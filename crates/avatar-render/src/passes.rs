@@ -13,6 +13,8 @@ pub(crate) enum Pass {
     GrowHair,
     /// What the key and rim lamps see: depth.
     Shadows,
+    /// How much of the key's light hair keeps off.
+    HairShadow,
     /// Depth and normals, one sample a pixel.
     Prepass,
     /// How much ambient light arrives at each pixel.
@@ -30,10 +32,11 @@ pub(crate) enum Pass {
 }
 
 /// The order of a frame's passes. Each reads only what those before it wrote.
-pub(crate) const FRAME_PASSES: [Pass; 10] = [
+pub(crate) const FRAME_PASSES: [Pass; 11] = [
     Pass::Deform,
     Pass::GrowHair,
     Pass::Shadows,
+    Pass::HairShadow,
     Pass::Prepass,
     Pass::Occlusion,
     Pass::SkinLight,
@@ -50,6 +53,7 @@ impl Pass {
             Self::Deform => "deform",
             Self::GrowHair => "grow hair",
             Self::Shadows => "shadows",
+            Self::HairShadow => "shadow of hair",
             Self::Prepass => "depth and normals",
             Self::Occlusion => "ambient occlusion",
             Self::SkinLight => "light on skin",
@@ -66,6 +70,7 @@ impl Pass {
             Self::GrowHair | Self::Hair | Self::Clear => with_hair,
             Self::Deform | Self::Picture => true,
             Self::Shadows => terms.shadows.lamps() > 0,
+            Self::HairShadow => terms.shadows.lamps() > 0 && with_hair,
             Self::Prepass => terms.prepass(),
             Self::Occlusion => terms.occlusion,
             Self::SkinLight | Self::ScatterAcross => terms.separable(),

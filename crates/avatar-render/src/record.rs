@@ -1,13 +1,11 @@
 //! Records the passes of one frame.
 
 use crate::frame::SHADOW_COUNT;
-use crate::hair::HairState;
 use crate::model::ModelPart;
 use crate::passes::{Drawable, Pass};
 use crate::pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, POSED_SLOT};
 use crate::state::{GpuBone, PosedPart};
 use crate::{AvatarModel, AvatarState, PassTimer, Renderer, Scene, Targets};
-use avatar_groom::SEGMENTS;
 use avatar_mesh::PartKind;
 
 /// Everything that the passes of one frame share.
@@ -21,8 +19,11 @@ pub(crate) struct Frame<'a> {
     pub(crate) frame_offset: u32,
     pub(crate) shadow_offsets: [u32; SHADOW_COUNT],
     pub(crate) timer: Option<&'a PassTimer>,
-    /// Whether any of the avatars has hair.
+    /// Whether any of the avatars has hair in this view.
     pub(crate) has_hair: bool,
+    /// Pixels that a unit of the world covers at distance 1.
+    pub(crate) pixels_per_unit: f32,
+    pub(crate) queue: &'a wgpu::Queue,
 }
 
 /// A part of an avatar.
@@ -39,9 +40,10 @@ impl<'a> Frame<'a> {
             }
             Pass::GrowHair => {
                 let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
-                renderer.grower.record(encoder, timestamps, self.avatars);
+                renderer.grower.record(encoder, timestamps, self.growing());
             }
             Pass::Shadows => self.shadows(encoder),
+            Pass::HairShadow => self.hair_shadow(encoder),
             Pass::Prepass => {
                 let Some([front, both]) = &pipelines.prepass else { return };
                 let depth = depth_attachment(&targets.single_depth);
@@ -97,24 +99,6 @@ impl<'a> Frame<'a> {
         self.draw_kind(&mut pass, PartKind::Skin);
     }
 
-    /// How many strands each avatar with hair has, and where.
-    fn with_hair(&self) -> impl Iterator<Item = (u32, &'a HairState)> {
-        let hair = |(model, state): &(&'a AvatarModel, &'a AvatarState)| {
-            Some((model.hair.as_ref()?.strand_count, state.hair.as_ref()?))
-        };
-        self.avatars.iter().filter_map(hair)
-    }
-
-    /// Hair writes depth, so that corneas lie rightly before or behind it.
-    fn strands(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = self.begin_picture(encoder, Pass::Hair, false, false);
-        pass.set_pipeline(&self.renderer.strands);
-        for (strands, hair) in self.with_hair() {
-            pass.set_bind_group(2, &hair.draw, &[]);
-            pass.draw(0..2 * (SEGMENTS as u32 + 1), 0..strands);
-        }
-    }
-
     fn shadows(&self, encoder: &mut wgpu::CommandEncoder) {
         let renderer = self.renderer;
         let Some(pipeline) = &renderer.passes.shadow else { return };
@@ -152,14 +136,19 @@ impl<'a> Frame<'a> {
     }
 
     fn picture(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = self.begin_picture(encoder, Pass::Picture, true, !self.has_hair);
+        let mut pass =
+            self.begin_picture(encoder, Pass::Picture, true, !self.has_hair, self.times(Pass::Picture));
         // One pass where it is enough: the picture is not stored and loaded in between.
         self.draw_picture(&mut pass, |drawable| !(self.has_hair && drawable.is_transparent));
     }
 
     fn clear_parts(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = self.begin_picture(encoder, Pass::Clear, false, true);
+        let mut pass = self.begin_picture(encoder, Pass::Clear, false, true, self.times(Pass::Clear));
         self.draw_picture(&mut pass, |drawable| drawable.is_transparent);
+    }
+
+    fn times(&self, pass: Pass) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
+        self.timer.and_then(|timer| timer.render_pass(pass))
     }
 
     fn draw_picture(&self, pass: &mut wgpu::RenderPass<'_>, is_drawn: impl Fn(&Drawable) -> bool) {
@@ -175,12 +164,13 @@ impl<'a> Frame<'a> {
     }
 
     /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's view.
-    fn begin_picture<'e>(
+    pub(crate) fn begin_picture<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
         pass: Pass,
         is_first: bool,
         is_last: bool,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) -> wgpu::RenderPass<'e> {
         use wgpu::{LoadOp, StoreOp};
         let targets = self.targets;
@@ -205,14 +195,14 @@ impl<'a> Frame<'a> {
                 depth_ops: Some(wgpu::Operations { load: depth_load, store: kept(!is_last) }),
                 stencil_ops: None,
             }),
-            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(pass)),
+            timestamp_writes: timestamps,
             ..Default::default()
         });
         self.set_groups(&mut begun, &targets.for_picture);
         begun
     }
 
-    fn begin<'e>(
+    pub(crate) fn begin<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
         pass: Pass,
@@ -236,7 +226,7 @@ impl<'a> Frame<'a> {
         })
     }
 
-    fn set_groups(&self, pass: &mut wgpu::RenderPass<'_>, view: &wgpu::BindGroup) {
+    pub(crate) fn set_groups(&self, pass: &mut wgpu::RenderPass<'_>, view: &wgpu::BindGroup) {
         pass.set_bind_group(0, &self.renderer.resources.bind_group, &[self.frame_offset]);
         pass.set_bind_group(1, view, &[]);
     }
