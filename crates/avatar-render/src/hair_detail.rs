@@ -32,16 +32,12 @@ pub(crate) struct GpuHairView {
     /// Widths by those that the model has for all its strands.
     pub(crate) width: f32,
     pub(crate) least_pixels: f32,
-    /// Depth over which the nearest strands hide those behind them, in the world.
-    pub(crate) layer: f32,
 }
 
 const STRANDS_PER_PIXEL: f32 = 200.0;
 const FEWEST_STRANDS: f32 = 1000.0;
 /// Share of the strands that fade.
 const FADING: f32 = 0.15;
-/// Depth over which strands hide one another, as a fraction of the height of the skin, where a pixel has one sample.
-const LAYER: f32 = 0.01;
 /// The widest strands become for a small share.
 const WIDEST: f32 = 8.0;
 
@@ -54,11 +50,11 @@ impl Default for HairDetail {
 impl HairDetail {
     /// How many of a model's strands are grown and drawn where its head is this many pixels high.
     pub fn strands(self, of: usize, head_pixels: f32) -> usize {
-        self.view(of as u32, 1.0, head_pixels, f32::INFINITY).count()
+        self.view(of as u32, head_pixels, f32::INFINITY).count()
     }
 
-    /// The same for a pass that affords no more than `most` strands; `height` is that of the skin.
-    pub(crate) fn view(self, of: u32, height: f32, head_pixels: f32, most: f32) -> GpuHairView {
+    /// The same for a pass that affords no more than `most` strands.
+    pub(crate) fn view(self, of: u32, head_pixels: f32, most: f32) -> GpuHairView {
         let all = of as f32;
         let share = if self.share.is_nan() { 1.0 } else { self.share.clamp(0.0, 1.0) };
         let kept = all * share;
@@ -72,13 +68,7 @@ impl HairDetail {
         let whole = (strands - 0.5 * fading).max(1.0);
         let for_share = if kept > 0.0 { (all / kept).min(WIDEST) } else { 1.0 };
         let least_pixels = if self.least_pixels >= 0.0 { self.least_pixels.min(16.0) } else { 1.0 };
-        GpuHairView {
-            strands,
-            fading,
-            width: for_share * kept.max(1.0) / whole,
-            least_pixels,
-            layer: (LAYER * height).max(1e-9),
-        }
+        GpuHairView { strands, fading, width: for_share * kept.max(1.0) / whole, least_pixels }
     }
 }
 
@@ -103,7 +93,7 @@ mod tests {
     proptest! {
         #[test]
         fn any_number_of_strands_covers_as_much(of in 20_000u32..160_000, pixels in 0.0f32..1200.0, share in 0.2f32..1.0) {
-            let view = HairDetail { share, ..HairDetail::default() }.view(of, 1.0, pixels, f32::INFINITY);
+            let view = HairDetail { share, ..HairDetail::default() }.view(of, pixels, f32::INFINITY);
             prop_assert!(view.count() <= of as usize);
             let off = area(view) / f64::from(of) - 1.0;
             prop_assert!(off.abs() < 2e-3, "{view:?}: {off}");
@@ -112,7 +102,7 @@ mod tests {
         #[test]
         fn anything_is_a_number_of_strands(of in 0u32..1000, pixels in any::<f32>(), share in any::<f32>(), least in any::<f32>()) {
             for is_automatic in [false, true] {
-                let view = HairDetail { share, is_automatic, least_pixels: least }.view(of, 1.0, pixels, f32::INFINITY);
+                let view = HairDetail { share, is_automatic, least_pixels: least }.view(of, pixels, f32::INFINITY);
                 prop_assert!(view.count() <= of as usize && view.width.is_finite() && view.width >= 0.0, "{view:?}");
                 prop_assert!((0.0..=16.0).contains(&view.least_pixels) && view.fading >= 0.0, "{view:?}");
             }
@@ -121,7 +111,7 @@ mod tests {
         #[test]
         fn strands_do_not_pop(of in 50_000u32..150_000, pixels in 20.0f32..700.0) {
             let detail = HairDetail::default();
-            let [one, other] = [pixels, pixels * 1.001].map(|pixels| detail.view(of, 1.0, pixels, f32::INFINITY));
+            let [one, other] = [pixels, pixels * 1.001].map(|pixels| detail.view(of, pixels, f32::INFINITY));
             let width = |view: GpuHairView, strand: usize| {
                 ((view.strands - strand as f32) / view.fading.max(1e-3)).clamp(0.0, 1.0) * view.width
             };

@@ -5,7 +5,7 @@ use crate::renderer::RendererConfig;
 use crate::resources::HAIR_MAP_FORMAT;
 use crate::shaders::{
     COMPOSE_HAIR, COMPOSE_HAIR_DEPTH, Constants, HAIR_SHADOW_PASS, LAYERED_STRANDS, MASKED_STRANDS,
-    STRAND_DEPTH,
+    STRAND_LAYERS,
 };
 use crate::targets::{HAIR_CLEAR_FORMAT, HAIR_SUM_FORMAT};
 
@@ -22,9 +22,13 @@ pub(crate) struct HairPipelines {
 pub(crate) enum Strands {
     /// Each covers some of a pixel's samples.
     Masked(wgpu::RenderPipeline),
-    /// Where pixels have one sample: the depth of the nearest, all of them blended, and the two steps that lay them over
+    /// Where pixels have one sample: where they lie, all of them blended, and the two steps that lay them over
     /// the picture: colour and depth.
-    Layered { depth: wgpu::RenderPipeline, blended: wgpu::RenderPipeline, compose: [wgpu::RenderPipeline; 2] },
+    Layered {
+        layers: wgpu::RenderPipeline,
+        blended: wgpu::RenderPipeline,
+        compose: [wgpu::RenderPipeline; 2],
+    },
 }
 
 impl HairPipelines {
@@ -77,7 +81,12 @@ impl HairPipelines {
             }),
             ..compose.again()
         };
-        let depth = Recipe { program: &STRAND_DEPTH, target: None, ..ribbons.again() };
+        let layers = Recipe {
+            program: &STRAND_LAYERS,
+            depth: Some((Greater, false)),
+            target: blended(HAIR_SUM_FORMAT, added(), largest()),
+            ..ribbons.again()
+        };
         let layered = Recipe {
             program: &LAYERED_STRANDS,
             depth: Some((Greater, false)),
@@ -86,7 +95,7 @@ impl HairPipelines {
             ..ribbons.again()
         };
         let strands = Strands::Layered {
-            depth: depth.build(device, &constants),
+            layers: layers.build(device, &constants),
             blended: layered.build(device, &constants),
             compose: [compose, compose_depth].map(|recipe| recipe.build(device, &constants)),
         };

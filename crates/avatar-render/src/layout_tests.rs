@@ -78,7 +78,7 @@ fn layouts() -> Vec<Layout> {
             noise
         ),
         layout!("Hair", GpuHair, regions, hull_center, margin, head_bone, strand_count, width_factor),
-        layout!("HairView", GpuHairView, strands, fading, width, least_pixels, layer),
+        layout!("HairView", GpuHairView, strands, fading, width, least_pixels),
         layout!("Root", GpuRoot, corners, region, barycentric, tuft, random, comb),
         layout!("ShadowView", GpuShadowView, shadow_from_world),
         layout!(
@@ -102,7 +102,9 @@ fn layouts() -> Vec<Layout> {
             occlusion_radius,
             shadow_softness,
             reflection_levels,
-            hair_shadow
+            hair_shadow,
+            hair_far,
+            hair_per_depth
         ),
         layout!(
             "Iris",

@@ -23,7 +23,7 @@ pub(crate) fn strands_in_view<'a>(
     let skin = model.parts.get(hair.part)?;
     let distance = state.center_of(&skin.geometry).distance(scene.camera.eye());
     let head_pixels = model.height * pixels_per_unit / distance.max(1e-6);
-    let view = state.hair_detail.view(hair.strand_count, model.height, head_pixels, most);
+    let view = state.hair_detail.view(hair.strand_count, head_pixels, most);
     (view.count() > 0).then_some((view, grown))
 }
 
@@ -71,8 +71,8 @@ impl<'a> Frame<'a> {
                 pass.set_pipeline(pipeline);
                 self.draw_strands(&mut pass, f32::INFINITY);
             }
-            Strands::Layered { depth, blended, compose } => {
-                self.nearest_strands(encoder, depth);
+            Strands::Layered { layers, blended, compose } => {
+                self.strand_layers(encoder, layers);
                 self.blended_strands(encoder, blended);
                 let times = self.timer.and_then(|timer| timer.render_pass_part(Pass::Hair, false, true));
                 let mut pass = self.begin_picture(encoder, Pass::Hair, false, false, times);
@@ -85,17 +85,12 @@ impl<'a> Frame<'a> {
         }
     }
 
-    fn nearest_strands(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+    /// Where strands lie in each pixel.
+    fn strand_layers(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("hair: depth"),
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.targets.hair_depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
+            label: Some("hair: layers"),
+            color_attachments: &[cleared(&self.targets.hair_layers, wgpu::Color::TRANSPARENT)],
+            depth_stencil_attachment: Some(self.depth_to_compare()),
             timestamp_writes: self.timer.and_then(|timer| timer.render_pass_part(Pass::Hair, true, false)),
             ..Default::default()
         });
@@ -104,31 +99,37 @@ impl<'a> Frame<'a> {
         self.draw_strands(&mut pass, f32::INFINITY);
     }
 
+    /// The depth of what is opaque, not to be written.
+    fn depth_to_compare(&self) -> wgpu::RenderPassDepthStencilAttachment<'a> {
+        wgpu::RenderPassDepthStencilAttachment {
+            view: &self.targets.depth,
+            depth_ops: None,
+            stencil_ops: None,
+        }
+    }
+
     fn blended_strands(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
-        let cleared = |view, color| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(color), store: wgpu::StoreOp::Store },
-            })
-        };
         let targets = self.targets;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("hair: layers"),
+            label: Some("hair: blended"),
             color_attachments: &[
                 cleared(&targets.hair_sum, wgpu::Color::TRANSPARENT),
                 cleared(&targets.hair_clear, wgpu::Color::WHITE),
             ],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &targets.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
-                stencil_ops: None,
-            }),
+            depth_stencil_attachment: Some(self.depth_to_compare()),
             ..Default::default()
         });
         self.set_groups(&mut pass, &targets.for_hair);
         pass.set_pipeline(pipeline);
         self.draw_strands(&mut pass, f32::INFINITY);
     }
+}
+
+fn cleared(view: &wgpu::TextureView, color: wgpu::Color) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+    Some(wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(color), store: wgpu::StoreOp::Store },
+    })
 }

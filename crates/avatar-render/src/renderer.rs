@@ -226,7 +226,9 @@ impl Renderer {
         let has_hair = avatars.iter().any(|(model, state)| {
             strands_in_view(model, state, scene, pixels_per_unit, f32::INFINITY).is_some()
         });
-        gpu_frame.hair_shadow = if Pass::HairShadow.runs(terms, has_hair) { 1.0 } else { 0.0 };
+        if has_hair {
+            gpu_frame.set_hair(&scene.camera, bounds, Pass::HairShadow.runs(terms, has_hair));
+        }
         let frame = Frame {
             renderer: self,
             view,

@@ -253,11 +253,15 @@ pub(crate) const LAYERED_STRANDS: Program = strand_program!(
     "hair in layers",
     "strand_main",
     Some("strand_layered_main"),
-    [OUTPUT, AMBIENT, BRDF, module!("strands/draw"), module!("strands/layered")]
+    [OUTPUT, AMBIENT, BRDF, module!("strands/draw"), module!("strands/coverage"), module!("strands/layered")]
 );
 
-pub(crate) const STRAND_DEPTH: Program =
-    strand_program!("depth of hair", "strand_depth_main", None, [module!("strands/depth")]);
+pub(crate) const STRAND_LAYERS: Program = strand_program!(
+    "layers of hair",
+    "strand_layers_main",
+    Some("strand_layers_fragment_main"),
+    [module!("strands/coverage"), module!("strands/layers")]
+);
 
 pub(crate) const HAIR_SHADOW_PASS: Program = strand_program!(
     "shadow of hair",
@@ -368,7 +372,7 @@ pub(crate) mod tests {
             GROW_PASS,
             MASKED_STRANDS,
             LAYERED_STRANDS,
-            STRAND_DEPTH,
+            STRAND_LAYERS,
             HAIR_SHADOW_PASS,
             COMPOSE_HAIR,
             COMPOSE_HAIR_DEPTH,

@@ -29,8 +29,8 @@ pub struct Targets {
     pub(crate) occlusion: wgpu::TextureView,
     pub(crate) skin_light: wgpu::TextureView,
     pub(crate) scattered: wgpu::TextureView,
-    /// Depth of the nearest strands, their colours, and what they leave clear, where pixels have one sample.
-    pub(crate) hair_depth: wgpu::TextureView,
+    /// Where strands lie, their colours, and what they leave clear, where pixels have one sample.
+    pub(crate) hair_layers: wgpu::TextureView,
     pub(crate) hair_sum: wgpu::TextureView,
     pub(crate) hair_clear: wgpu::TextureView,
     /// What passes read, each without what it writes.
@@ -100,7 +100,7 @@ impl Targets {
         let no_occlusion = attachment("nothing", OCCLUSION_FORMAT, 1, false, true);
         let no_light = attachment("nothing", SKIN_LIGHT_FORMAT, 1, false, true);
         let no_depth = attachment("nothing", DEPTH_FORMAT, 1, false, true);
-        let hair_depth = attachment("depth of hair", DEPTH_FORMAT, 1, !several, true);
+        let hair_layers = attachment("layers of hair", HAIR_SUM_FORMAT, 1, !several, true);
         let hair_sum = attachment("hair", HAIR_SUM_FORMAT, 1, !several, true);
         let hair_clear = attachment("hair: what it leaves clear", HAIR_CLEAR_FORMAT, 1, !several, true);
         let hair_map = &renderer.resources.hair_map;
@@ -120,13 +120,13 @@ impl Targets {
             for_hair: renderer.view_group(
                 device,
                 "view: for hair",
-                [&hair_depth, &no_light, &no_occlusion, &no_light],
+                [&no_depth, &no_light, &no_occlusion, &hair_layers],
                 hair_map,
             ),
             for_composing: renderer.view_group(
                 device,
                 "view: hair",
-                [&hair_depth, &no_light, &hair_clear, &hair_sum],
+                [&no_depth, &hair_layers, &hair_clear, &hair_sum],
                 hair_map,
             ),
             for_occlusion: group("view: for occlusion", &no_occlusion, &no_light),
@@ -138,7 +138,7 @@ impl Targets {
             occlusion,
             skin_light,
             scattered,
-            hair_depth,
+            hair_layers,
             hair_sum,
             hair_clear,
         })

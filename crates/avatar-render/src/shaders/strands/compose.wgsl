@@ -1,5 +1,5 @@
 // Lays the strands of all pixels over the picture, and notes the depth of those that hide what lies behind them.
-// The view holds their depth, what they leave clear, and their weighted sum.
+// The view holds where they lie, what they leave clear, and their weighted sum.
 
 @vertex
 fn compose_vertex_main(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {

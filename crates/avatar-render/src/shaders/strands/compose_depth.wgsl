@@ -6,5 +6,7 @@ fn compose_depth_main(@builtin(position) position_clip: vec4f) -> @builtin(frag_
     if textureLoad(occlusion_view, pixel, 0).r > 0.5 {
         discard;
     }
-    return textureLoad(depth_texture, pixel, 0);
+    let near = textureLoad(normal_texture_view, pixel, 0).a;
+    let distance = frame.hair_far - near / max(frame.hair_per_depth, 1e-12);
+    return saturate(frame.near / max(distance, frame.near));
 }

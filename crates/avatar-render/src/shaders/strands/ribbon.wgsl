@@ -10,8 +10,6 @@ struct HairView {
     width: f32,
     // Width in pixels below which a strand fades instead of getting thinner.
     least_pixels: f32,
-    // Depth over which the nearest strands hide those behind them, in the world.
-    layer: f32,
 }
 
 @group(2) @binding(0) var<uniform> hair: Hair;
@@ -77,7 +75,7 @@ fn ribbon_corner(point: StrandPoint, corner: u32) -> RibbonCorner {
     let per_pixel = max(middle.w, 1e-6) / frame.pixels_per_unit;
     let pixels = 2.0 * point.radius / per_pixel;
     let least = hair_view.least_pixels;
-    let drawn = select(pixels + least, max(pixels, least), COVERAGE_MASK);
+    let drawn = select(pixels + least, max(pixels, 0.35 * least), COVERAGE_MASK);
     let to_eye = normalize(frame.eye_world - point.position);
     let side = strand_side(point.tangent, to_eye) * corner_sign(corner);
     let position = point.position + side * (0.5 * drawn * per_pixel);
