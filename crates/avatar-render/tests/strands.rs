@@ -3,11 +3,12 @@
 
 mod common;
 
-use avatar_groom::Style;
+use avatar_groom::{DensityMap, Groom, RegionStyle, Style};
+use avatar_mesh::PartKind;
 use avatar_render::headless::{Canvas, Gpu};
-use avatar_render::{AvatarModel, AvatarState, HairDetail, Scene};
-use common::gpu;
+use avatar_render::{AvatarModel, AvatarState, Camera, HairDetail, Light, PartTextures, Scene};
 use common::head::{Head, PLAIN, canvas, linear, luma, shrunk, ssim};
+use common::{gpu, model, part, square};
 use glam::Vec3;
 
 type Avatar = (AvatarModel, AvatarState);
@@ -27,6 +28,11 @@ fn bald(detail: HairDetail) -> HairDetail {
 fn changed(with: &[[f32; 4]], without: &[[f32; 4]]) -> Vec<bool> {
     let differs = |(a, b): (&[f32; 4], &[f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 0.02);
     with.iter().zip(without).map(differs).collect()
+}
+
+/// How much of the background hair hides beside the head, in pixels.
+fn covered(with: &[[f32; 4]], without: &[[f32; 4]]) -> f32 {
+    with.iter().zip(without).map(|(a, b)| a[3] - b[3]).sum()
 }
 
 fn mean<'a>(values: impl Iterator<Item = (&'a f64, &'a bool)>) -> f64 {
@@ -90,19 +96,17 @@ fn far_heads_have_a_quarter_of_the_strands_and_look_alike() {
             let bare = draw(gpu, &canvas, &scene, &mut avatar, bald(automatic));
             let full = draw(gpu, &canvas, &scene, &mut avatar, ALL);
             let fewer = draw(gpu, &canvas, &scene, &mut avatar, automatic);
-            let area = |light: &[[f32; 4]]| changed(light, &bare).iter().filter(|is| **is).count() as f32;
+            let area = |light: &[[f32; 4]]| covered(light, &bare);
             let is_hair = changed(&full, &bare);
-            let color = |light: &[[f32; 4]]| {
+            let light = |light: &[[f32; 4]]| {
                 let hair = light.iter().zip(&is_hair).filter(|(_, is)| **is);
-                hair.map(|(p, _)| Vec3::new(p[0], p[1], p[2])).sum::<Vec3>() / area(&full)
+                hair.map(|(p, _)| 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]).sum::<f32>()
             };
-            let (area, color) = (area(&fewer) / area(&full), color(&fewer) / color(&full));
-            println!("{name} {samples} {yaw}: area {area} color {color}");
+            let (area, light) = (area(&fewer) / area(&full), light(&fewer) / light(&full));
+            println!("{name}, {samples} samples, yaw {yaw}: area {area}, light {light}");
             assert!((area - 1.0).abs() < 0.03, "{name}, {samples} samples, yaw {yaw}: area {area}");
-            assert!(
-                (color - 1.0).abs().max_element() < 0.05,
-                "{name}, {samples} samples, yaw {yaw}: {color}"
-            );
+            // All strands of a model stand more evenly than some of them, which leave a few more gaps.
+            assert!((light - 1.0).abs() < 0.05, "{name}, {samples} samples, yaw {yaw}: light {light}");
         }
     }
 }
@@ -189,35 +193,56 @@ fn views_of_one_submission_have_their_own_strands() {
     assert!(textures.iter().map(bytes).eq(alone), "together as alone");
 }
 
+/// Thin strands that stand in all directions on a small plate.
+fn brush(gpu: &Gpu) -> Avatar {
+    let plate = square(Vec3::ZERO, 0.5);
+    let white = DensityMap::new(1, 1, vec![255]).expect("a map");
+    let scalp = RegionStyle {
+        length: 12.0,
+        length_variation: 0.5,
+        root_radius: 0.03,
+        tip_radius: 0.03,
+        bend: 0.4,
+        gravity: 0.0,
+        comb: [0.0, 0.0, 1.0],
+        noise: 1.5,
+        clump: 0.0,
+        ..Style::SHORT.scalp
+    };
+    let style = Style { scalp, ..Style::SHORT };
+    let groom = Groom::new(&plate, &white, &[], style, 24.0, 5);
+    let (mut model, _) = model(gpu, &[part(&plate, PartKind::Skin, PartTextures::default())]);
+    model.set_hair(&gpu.device, 0, &plate, Some(&groom)).expect("hair");
+    let state = AvatarState::new(&gpu.device, &model);
+    assert!(model.strand_count() > 10, "{}", model.strand_count());
+    (model, state)
+}
+
 #[test]
 fn thin_strands_keep_what_they_cover_while_they_move_by_parts_of_a_pixel() {
     const SIZE: u32 = 64;
     const STEPS: u16 = 16;
     let Some(gpu) = gpu() else { return };
-    let head = Head::new();
-    // So few that they cover one another little, and so thin that pixels are larger.
-    let mut avatar = head.with_hair(gpu, Style::BOB, 40.0);
+    let mut avatar = brush(gpu);
     let [one, four] = [1, 4].map(|samples| canvas(gpu, SIZE, samples));
-    let scene = head.scene(1.3, 0.3);
-    let pixel = {
-        let distance =
-            scene.camera.eye().distance(head.pack.parts[0].mesh.bounds().expect("a skin").center());
-        2.0 * distance * (scene.camera.vertical_fov_rad * 0.5).tan() / SIZE as f32
-    };
+    let camera = Camera::orbit(Vec3::Z * 6.0, 50.0, 1.2, 0.1, 0.6, 1.0);
+    let scene = Scene { camera, background: [0.0; 4], light: Light::default() };
+    let pixel = 2.0 * 50.0 * 0.3f32.tan() / SIZE as f32;
     let mut largest_step = |canvas: &Canvas, detail: HairDetail| {
-        let covered: Vec<f32> = (0..STEPS)
+        let areas: Vec<f32> = (0..STEPS)
             .map(|step| {
                 let mut scene = scene;
                 let right = scene.camera.world_from_camera.matrix3.x_axis;
                 scene.camera.world_from_camera.translation += right * (pixel * f32::from(step) / 8.0);
                 let [with, without] =
                     [detail, bald(detail)].map(|detail| draw(gpu, canvas, &scene, &mut avatar, detail));
-                with.iter().zip(&without).map(|(a, b)| (0..4).map(|c| (a[c] - b[c]).abs()).sum::<f32>()).sum()
+                covered(&with, &without)
             })
             .collect();
-        let mean = covered.iter().sum::<f32>() / f32::from(STEPS);
-        assert!(mean > 1.0, "{mean}");
-        covered.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max) / mean
+        println!("{areas:?}");
+        let mean = areas.iter().sum::<f32>() / f32::from(STEPS);
+        assert!(mean > 5.0, "{mean}");
+        areas.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max) / mean
     };
     let (ours, plain) = (largest_step(&one, ALL), largest_step(&four, PLAIN));
     println!("largest step {ours} at one sample, {plain} of plain lines at four");
