@@ -2,7 +2,8 @@
 
 use crate::resources::REFLECTION_LEVELS;
 use crate::shadows::ShadowViews;
-use crate::{Lamp, Scene, ToneMap};
+use crate::{Camera, Lamp, Scene, ToneMap};
+use avatar_mesh::Bounds;
 use bytemuck::Zeroable;
 use glam::Vec3;
 use std::num::NonZeroU64;
@@ -58,7 +59,10 @@ pub(crate) struct GpuFrame {
     pub(crate) occlusion_radius: f32,
     pub(crate) shadow_softness: f32,
     pub(crate) reflection_levels: f32,
-    pub(crate) pad: [f32; 2],
+    pub(crate) hair_shadow: f32,
+    pub(crate) hair_far: f32,
+    pub(crate) hair_per_depth: f32,
+    pub(crate) pad: [f32; 3],
 }
 
 impl GpuLamp {
@@ -107,8 +111,23 @@ impl GpuFrame {
             occlusion_radius: OCCLUSION_RADIUS * height,
             shadow_softness: SHADOW_SOFTNESS * height,
             reflection_levels: (REFLECTION_LEVELS - 1) as f32,
-            pad: [0.0; 2],
+            hair_shadow: 0.0,
+            hair_far: 0.0,
+            hair_per_depth: 0.0,
+            pad: [0.0; 3],
         }
+    }
+
+    /// Tells that there is hair around these bounds, and whether it casts shadows.
+    pub(crate) fn set_hair(&mut self, camera: &Camera, bounds: Option<Bounds>, has_shadow: bool) {
+        let Some(bounds) = bounds else { return };
+        let ahead = -Vec3::from(camera.world_from_camera.matrix3.z_axis);
+        let middle = (bounds.center() - camera.eye()).dot(ahead);
+        // Hair reaches beyond the skin.
+        let half = (0.65 * bounds.size().length()).max(1e-6);
+        self.hair_shadow = if has_shadow { 1.0 } else { 0.0 };
+        self.hair_far = middle + half;
+        self.hair_per_depth = 0.5 / half;
     }
 }
 

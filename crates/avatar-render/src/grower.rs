@@ -32,31 +32,37 @@ impl Grower {
         Self { pipeline }
     }
 
-    /// Grows the hair of avatars on their deformed skins.
-    pub(crate) fn record(
+    /// Grows as many strands of avatars on their deformed skins.
+    pub(crate) fn record<'a>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
-        avatars: &[(&AvatarModel, &AvatarState)],
+        avatars: impl Iterator<Item = (&'a AvatarState, u32)>,
     ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some(GROW_PASS.label),
             timestamp_writes: timestamps,
         });
         pass.set_pipeline(&self.pipeline);
-        for (model, state) in avatars {
-            if let (Some(hair), Some(grown)) = (&model.hair, &state.hair) {
+        for (state, strands) in avatars {
+            if let Some(grown) = &state.hair {
                 pass.set_bind_group(1, &state.bind_group, &[]);
                 pass.set_bind_group(2, &grown.skin, &[]);
                 // Strands read their guides: each dispatch sees what the one before it wrote.
-                for (group, strands) in
-                    [(&grown.grow_guides, hair.guide_count), (&grown.grow, hair.strand_count)]
-                {
+                for (group, strands) in [(&grown.grow_guides, grown.guide_count), (&grown.grow, strands)] {
                     pass.set_bind_group(0, group, &[]);
                     pass.dispatch_workgroups(strands.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
                 }
             }
         }
+    }
+
+    /// Records the growth of all strands of an avatar on its skin as it was deformed last. Frames do that by themselves;
+    /// alone it can be measured. A state of another model is left as it is.
+    pub fn grow(&self, encoder: &mut wgpu::CommandEncoder, model: &AvatarModel, state: &AvatarState) {
+        let fits = state.fits(model);
+        let strands = u32::try_from(model.strand_count()).unwrap_or(u32::MAX);
+        self.record(encoder, None, fits.then_some((state, strands)).into_iter());
     }
 
     /// Deforms an avatar, grows its hair and waits for it: the points of each strand, from the root to the tip, from the
@@ -102,7 +108,8 @@ impl Grower {
         let mut encoder = device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("grow and read back") });
         deformer.record(&mut encoder, None, &[(model, state)]);
-        self.record(&mut encoder, None, &[(model, state)]);
+        let strands = u32::try_from(model.strand_count()).unwrap_or(u32::MAX);
+        self.record(&mut encoder, None, [(state, strands)].into_iter());
         encoder.copy_buffer_to_buffer(&grown.points, 0, &readable, 0, size);
         queue.submit([encoder.finish()]);
         let view = mapped(device, &readable).await?;

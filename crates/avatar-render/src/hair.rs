@@ -143,6 +143,7 @@ pub(crate) struct HairModel {
 pub(crate) struct HairState {
     pub(crate) points: wgpu::Buffer,
     /// Group 0 of the growing pass: of guides, and of all strands.
+    pub(crate) guide_count: u32,
     pub(crate) grow_guides: wgpu::BindGroup,
     pub(crate) grow: wgpu::BindGroup,
     /// Group 2 of the growing pass: the deformed skin.
@@ -361,6 +362,7 @@ impl HairState {
         let of_guides = [&hair.hair, &hair.guide_roots, &hair.field, &guides, &hair.roots];
         let of_strands = [&hair.hair, &hair.roots, &hair.field, &points, &guides];
         Self {
+            guide_count: hair.guide_count,
             // Guides follow no guides: anything is bound in their place.
             grow_guides: group("grow guides of hair", &grow_layout, &of_guides),
             grow: group("grow hair", &grow_layout, &of_strands),

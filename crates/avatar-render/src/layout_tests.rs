@@ -4,6 +4,7 @@ use crate::Terms;
 use crate::deformer::GpuDeformedVertex;
 use crate::frame::{GpuFrame, GpuLamp};
 use crate::hair::{GpuHair, GpuHairRegion, GpuRoot};
+use crate::hair_detail::GpuHairView;
 use crate::material::{GpuIris, GpuMaterial};
 use crate::part::{GpuPart, GpuShapeOffset, GpuVertex, GpuVertexBones};
 use crate::renderer::GpuShadowView;
@@ -93,6 +94,7 @@ fn layouts() -> Vec<Layout> {
             field_range
         ),
         layout!("Root", GpuRoot, corners, region, barycentric, guide, comb, length, random, phase),
+        layout!("HairView", GpuHairView, strands, fading, width, least_pixels),
         layout!("ShadowView", GpuShadowView, shadow_from_world),
         layout!(
             "Frame",
@@ -114,7 +116,10 @@ fn layouts() -> Vec<Layout> {
             pixels_per_unit,
             occlusion_radius,
             shadow_softness,
-            reflection_levels
+            reflection_levels,
+            hair_shadow,
+            hair_far,
+            hair_per_depth
         ),
         layout!(
             "Iris",

@@ -24,6 +24,7 @@
 //!  deform               compute: shapes and bones, every part once
 //!  grow hair            compute: every strand anew on the deformed skin, where a model has hair
 //!  shadows              depth that the key and rim lamps see
+//!  shadow of hair       how much of the key's light strands keep off
 //!  depth and normals    one sample a pixel ┐ medium and high
 //!  ambient occlusion    from both          ┘
 //!  light on skin        before its colour  ┐ high
@@ -34,8 +35,9 @@
 //!    eyeball            front sides
 //!    skin back          what shows at the rim of the neck, lids and lips: a hollow in ambient light
 //!    outlines           toon only
-//!    hair               strands as ribbons
-//!    cornea             front sides, blended, far to near, depth tested but not written
+//!  hair                 strands as ribbons, where a model has hair
+//!  corneas              front sides, blended, far to near, depth tested but not written; without hair in one pass
+//!                       with the avatars
 //! ```
 //!
 //! Which passes run and which terms programs have, [`Shading`] says; [`Quality`] and [`Style`] choose one.
@@ -75,6 +77,8 @@ mod eye;
 mod frame;
 mod grower;
 mod hair;
+mod hair_detail;
+mod hair_pipelines;
 pub mod headless;
 mod image;
 #[cfg(test)]
@@ -88,6 +92,7 @@ mod pipelines;
 mod pores;
 mod readback;
 mod record;
+mod record_hair;
 mod renderer;
 mod resources;
 mod scene;
@@ -105,6 +110,7 @@ pub use color::linear_from_srgb8;
 pub use deformer::{Deformer, DeformerError};
 pub use grower::{Grower, GrowerError};
 pub use hair::HairError;
+pub use hair_detail::HairDetail;
 pub use image::{Image, ImageSizeError};
 pub use model::{AvatarModel, ModelError, PartBones, PartDesc, PartProblem, PartTextures};
 pub use readback::ReadbackError;

@@ -3,13 +3,14 @@
 use crate::deformer::GpuDeformedVertex;
 use crate::frame::{Ring, uniform_entry};
 use crate::hair::draw_layout;
+use crate::hair_detail::GpuHairView;
 use crate::model::look_layout;
 use crate::part::GpuVertex;
 use crate::passes::Drawable;
 use crate::renderer::{GpuShadowView, RendererConfig};
 use crate::resources::Resources;
 use crate::shaders::{
-    Constants, OCCLUSION_PASS, PREPASS, Program, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS, STRANDS,
+    Constants, OCCLUSION_PASS, PREPASS, Program, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS,
 };
 use crate::state::GpuBone;
 use crate::targets::{DEPTH_FORMAT, NORMAL_FORMAT, OCCLUSION_FORMAT, SKIN_LIGHT_FORMAT};
@@ -33,8 +34,10 @@ pub(crate) struct Layouts {
     pub(crate) shadow: wgpu::BindGroupLayout,
     pipeline: wgpu::PipelineLayout,
     /// Passes over the whole picture know no parts.
-    whole_picture: wgpu::PipelineLayout,
-    hair: wgpu::PipelineLayout,
+    pub(crate) whole_picture: wgpu::PipelineLayout,
+    /// Group 3 of passes that draw strands: which of them.
+    pub(crate) hair_view: wgpu::BindGroupLayout,
+    pub(crate) hair: wgpu::PipelineLayout,
     shadow_pipeline: wgpu::PipelineLayout,
 }
 
@@ -45,6 +48,10 @@ impl Layouts {
             label: Some("shadow view"),
             entries: &[uniform_entry(wgpu::ShaderStages::VERTEX, Ring::<GpuShadowView>::BYTES)],
         });
+        let hair_view = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("view of hair"),
+            entries: &[uniform_entry(wgpu::ShaderStages::VERTEX_FRAGMENT, Ring::<GpuHairView>::BYTES)],
+        });
         let layout = |label, groups: &[Option<&wgpu::BindGroupLayout>]| {
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(label),
@@ -54,11 +61,12 @@ impl Layouts {
         };
         Self {
             pipeline: layout("parts of avatars", &[Some(frame), Some(&view), Some(&look_layout(device))]),
-            hair: layout("hair", &[Some(frame), Some(&view), Some(&draw_layout(device))]),
+            hair: layout("hair", &[Some(frame), Some(&view), Some(&draw_layout(device)), Some(&hair_view)]),
             whole_picture: layout("whole picture", &[Some(frame), Some(&view)]),
             shadow_pipeline: layout("shadow", &[Some(&shadow)]),
             view,
             shadow,
+            hair_view,
         }
     }
 }
@@ -86,6 +94,7 @@ fn view_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             texture(3, color, flat),
             texture(4, color, flat),
             texture(5, color, flat),
+            texture(6, color, flat),
         ],
     })
 }
@@ -101,47 +110,20 @@ pub(crate) struct PassPipelines {
     pub(crate) scatter_across: Option<wgpu::RenderPipeline>,
 }
 
-/// Builds the pipeline that draws strands.
-pub(crate) fn strand_pipeline(
-    device: &wgpu::Device,
-    layouts: &Layouts,
-    config: RendererConfig,
-) -> wgpu::RenderPipeline {
-    let several = config.samples > 1;
-    let blend = (!several).then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-    let recipe = Recipe {
-        program: &STRANDS,
-        layout: &layouts.hair,
-        buffers: &[],
-        // Ribbons have no sides.
-        cull_mode: None,
-        depth: Some((wgpu::CompareFunction::Greater, true)),
-        bias: Default::default(),
-        samples: config.samples,
-        target: Some(wgpu::ColorTargetState {
-            format: config.color_format,
-            blend,
-            write_mask: wgpu::ColorWrites::ALL,
-        }),
-    };
-    let constants = Constants {
-        terms: config.shading.terms(),
-        encode_srgb: config.encodes_in_shader(),
-        coverage_mask: several,
-    };
-    recipe.build(device, &constants)
-}
-
 /// What distinguishes a pipeline.
-struct Recipe<'a> {
-    program: &'a Program,
-    layout: &'a wgpu::PipelineLayout,
-    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
-    cull_mode: Option<wgpu::Face>,
-    depth: Option<(wgpu::CompareFunction, bool)>,
-    bias: wgpu::DepthBiasState,
-    samples: u32,
-    target: Option<wgpu::ColorTargetState>,
+pub(crate) struct Recipe<'a> {
+    pub(crate) program: &'a Program,
+    pub(crate) layout: &'a wgpu::PipelineLayout,
+    pub(crate) topology: wgpu::PrimitiveTopology,
+    pub(crate) buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    pub(crate) cull_mode: Option<wgpu::Face>,
+    /// How depths are compared, and whether they are written.
+    pub(crate) depth: Option<(wgpu::CompareFunction, bool)>,
+    pub(crate) bias: wgpu::DepthBiasState,
+    pub(crate) samples: u32,
+    pub(crate) target: Option<wgpu::ColorTargetState>,
+    /// A second target beside the first.
+    pub(crate) beside: Option<wgpu::ColorTargetState>,
 }
 
 impl PassPipelines {
@@ -156,12 +138,14 @@ impl PassPipelines {
         let front = Recipe {
             program: &PREPASS,
             layout: &layouts.pipeline,
+            topology: wgpu::PrimitiveTopology::TriangleList,
             buffers: &part,
             cull_mode: Some(wgpu::Face::Back),
             depth: Some((wgpu::CompareFunction::Greater, true)),
             bias: Default::default(),
             samples: 1,
             target: to(NORMAL_FORMAT),
+            beside: None,
         };
         let on_skin = |program| Recipe {
             program,
@@ -189,7 +173,9 @@ impl PassPipelines {
                     depth: Some((wgpu::CompareFunction::Less, true)),
                     bias: wgpu::DepthBiasState { constant: 0, slope_scale: 1.0, clamp: 0.0 },
                     samples: 1,
+                    topology: wgpu::PrimitiveTopology::TriangleList,
                     target: None,
+                    beside: None,
                 },
             ),
             prepass: terms.prepass().then(|| {
@@ -230,6 +216,7 @@ pub(crate) fn picture_pipeline(
     let recipe = Recipe {
         program: &drawable.program,
         layout: &layouts.pipeline,
+        topology: wgpu::PrimitiveTopology::TriangleList,
         buffers: &part,
         cull_mode: drawable.cull_mode,
         // Depth is reversed: nearer is greater.
@@ -241,6 +228,7 @@ pub(crate) fn picture_pipeline(
             blend,
             write_mask: wgpu::ColorWrites::ALL,
         }),
+        beside: None,
     };
     let constants = Constants {
         terms: config.shading.terms(),
@@ -251,18 +239,14 @@ pub(crate) fn picture_pipeline(
 }
 
 impl Recipe<'_> {
-    fn again(&self) -> Self {
-        Self { target: self.target.clone(), ..*self }
+    pub(crate) fn again(&self) -> Self {
+        Self { target: self.target.clone(), beside: self.beside.clone(), ..*self }
     }
 
-    /// Strands are ribbons, everything else lists of triangles.
-    fn is_strip(&self) -> bool {
-        self.program.label == STRANDS.label
-    }
-
-    fn build(&self, device: &wgpu::Device, constants: &Constants) -> wgpu::RenderPipeline {
+    pub(crate) fn build(&self, device: &wgpu::Device, constants: &Constants) -> wgpu::RenderPipeline {
         let module = self.program.module(device, constants);
-        let targets = [self.target.clone()];
+        let targets = [self.target.clone(), self.beside.clone()];
+        let count = if self.beside.is_some() { 2 } else { 1 };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.program.label),
             layout: Some(self.layout),
@@ -274,10 +258,7 @@ impl Recipe<'_> {
             },
             primitive: wgpu::PrimitiveState {
                 cull_mode: self.cull_mode,
-                topology: match self.is_strip() {
-                    true => wgpu::PrimitiveTopology::TriangleStrip,
-                    false => wgpu::PrimitiveTopology::TriangleList,
-                },
+                topology: self.topology,
                 ..Default::default()
             },
             depth_stencil: self.depth.map(|(compare, writes)| wgpu::DepthStencilState {
@@ -292,7 +273,7 @@ impl Recipe<'_> {
                 module: &module,
                 entry_point: Some(entry),
                 compilation_options: Default::default(),
-                targets: &targets,
+                targets: &targets[..count],
             }),
             multiview_mask: None,
             cache: None,
@@ -363,6 +344,7 @@ pub(crate) fn view_group(
     resources: &Resources,
     label: &str,
     views: [&wgpu::TextureView; 4],
+    hair_map: &wgpu::TextureView,
 ) -> wgpu::BindGroup {
     let texture = |binding: u32, view| wgpu::BindGroupEntry {
         binding,
@@ -381,6 +363,7 @@ pub(crate) fn view_group(
             texture(3, views[1]),
             texture(4, views[2]),
             texture(5, views[3]),
+            texture(6, hair_map),
         ],
     })
 }

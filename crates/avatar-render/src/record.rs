@@ -1,13 +1,11 @@
 //! Records the passes of one frame.
 
 use crate::frame::SHADOW_COUNT;
-use crate::hair::HairState;
 use crate::model::ModelPart;
 use crate::passes::{Drawable, Pass};
 use crate::pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, POSED_SLOT};
 use crate::state::{GpuBone, PosedPart};
 use crate::{AvatarModel, AvatarState, PassTimer, Renderer, Scene, Targets};
-use avatar_groom::SEGMENTS;
 use avatar_mesh::PartKind;
 
 /// Everything that the passes of one frame share.
@@ -21,6 +19,11 @@ pub(crate) struct Frame<'a> {
     pub(crate) frame_offset: u32,
     pub(crate) shadow_offsets: [u32; SHADOW_COUNT],
     pub(crate) timer: Option<&'a PassTimer>,
+    /// Whether any of the avatars has hair in this view.
+    pub(crate) has_hair: bool,
+    /// Pixels that a unit of the world covers at distance 1.
+    pub(crate) pixels_per_unit: f32,
+    pub(crate) queue: &'a wgpu::Queue,
 }
 
 /// A part of an avatar.
@@ -37,12 +40,13 @@ impl<'a> Frame<'a> {
             }
             Pass::GrowHair => {
                 let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
-                renderer.grower.record(encoder, timestamps, self.avatars);
+                renderer.grower.record(encoder, timestamps, self.growing());
             }
             Pass::Shadows => self.shadows(encoder),
+            Pass::HairShadow => self.hair_shadow(encoder),
             Pass::Prepass => {
                 let Some([front, both]) = &pipelines.prepass else { return };
-                let depth = depth_attachment(&targets.single_depth, true);
+                let depth = depth_attachment(&targets.single_depth);
                 let mut pass = self.begin(encoder, pass, Some(&targets.normals), Some(depth));
                 self.set_groups(&mut pass, &targets.for_prepass);
                 for (kind, pipeline) in
@@ -68,6 +72,8 @@ impl<'a> Frame<'a> {
                 self.on_skin(encoder, pass, pipelines.scatter_across.as_ref(), &targets.scattered, group);
             }
             Pass::Picture => self.picture(encoder),
+            Pass::Hair => self.strands(encoder),
+            Pass::Clear => self.clear_parts(encoder),
         }
     }
 
@@ -91,25 +97,6 @@ impl<'a> Frame<'a> {
         self.set_groups(&mut pass, group);
         pass.set_pipeline(pipeline);
         self.draw_kind(&mut pass, PartKind::Skin);
-    }
-
-    /// How many strands each avatar with hair has, and where.
-    fn with_hair(&self) -> impl Iterator<Item = (u32, &'a HairState)> {
-        let hair = |(model, state): &(&'a AvatarModel, &'a AvatarState)| {
-            Some((model.hair.as_ref()?.strand_count, state.hair.as_ref()?))
-        };
-        self.avatars.iter().filter_map(hair)
-    }
-
-    /// After what is opaque and before what is clear: hair writes depth, so that corneas lie rightly before or behind it.
-    fn strands(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.push_debug_group("hair");
-        pass.set_pipeline(&self.renderer.strands);
-        for (strands, hair) in self.with_hair() {
-            pass.set_bind_group(2, &hair.draw, &[]);
-            pass.draw(0..2 * (SEGMENTS as u32 + 1), 0..strands);
-        }
-        pass.pop_debug_group();
     }
 
     fn shadows(&self, encoder: &mut wgpu::CommandEncoder) {
@@ -149,39 +136,73 @@ impl<'a> Frame<'a> {
     }
 
     fn picture(&self, encoder: &mut wgpu::CommandEncoder) {
-        let targets = self.targets;
-        let (color, resolve_target, store) = match &targets.multisampled {
-            Some(multisampled) => (multisampled, Some(self.view), wgpu::StoreOp::Discard),
-            None => (self.view, None, wgpu::StoreOp::Store),
-        };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(Pass::Picture.label()),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: color,
-                depth_slice: None,
-                resolve_target,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(self.clear), store },
-            })],
-            depth_stencil_attachment: Some(depth_attachment(&targets.depth, false)),
-            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(Pass::Picture)),
-            ..Default::default()
-        });
-        self.set_groups(&mut pass, &targets.for_picture);
-        for (drawable, pipeline) in &self.renderer.picture {
-            if drawable.is_transparent {
-                self.strands(&mut pass);
-            }
+        let mut pass =
+            self.begin_picture(encoder, Pass::Picture, true, !self.has_hair, self.times(Pass::Picture));
+        // One pass where it is enough: the picture is not stored and loaded in between.
+        self.draw_picture(&mut pass, |drawable| !(self.has_hair && drawable.is_transparent));
+    }
+
+    fn clear_parts(&self, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass = self.begin_picture(encoder, Pass::Clear, false, true, self.times(Pass::Clear));
+        self.draw_picture(&mut pass, |drawable| drawable.is_transparent);
+    }
+
+    fn times(&self, pass: Pass) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
+        self.timer.and_then(|timer| timer.render_pass(pass))
+    }
+
+    fn draw_picture(&self, pass: &mut wgpu::RenderPass<'_>, is_drawn: impl Fn(&Drawable) -> bool) {
+        for (drawable, pipeline) in self.renderer.picture.iter().filter(|(drawable, _)| is_drawn(drawable)) {
             pass.push_debug_group(drawable.label);
             pass.set_pipeline(pipeline);
             match drawable.is_transparent {
-                false => self.draw_kind(&mut pass, drawable.kind),
-                true => self.draw_far_to_near(&mut pass, drawable),
+                false => self.draw_kind(pass, drawable.kind),
+                true => self.draw_far_to_near(pass, drawable),
             }
             pass.pop_debug_group();
         }
     }
 
-    fn begin<'e>(
+    /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's view.
+    pub(crate) fn begin_picture<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        pass: Pass,
+        is_first: bool,
+        is_last: bool,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) -> wgpu::RenderPass<'e> {
+        use wgpu::{LoadOp, StoreOp};
+        let targets = self.targets;
+        let kept = |keep| if keep { StoreOp::Store } else { StoreOp::Discard };
+        let (view, resolve_target, store) = match &targets.multisampled {
+            Some(several) => (several, is_last.then_some(self.view), kept(!is_last)),
+            None => (self.view, None, StoreOp::Store),
+        };
+        let load = if is_first { LoadOp::Clear(self.clear) } else { LoadOp::Load };
+        // Depth is reversed: 0 is far.
+        let depth_load = if is_first { LoadOp::Clear(0.0) } else { LoadOp::Load };
+        let mut begun = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(pass.label()),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target,
+                ops: wgpu::Operations { load, store },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &targets.depth,
+                depth_ops: Some(wgpu::Operations { load: depth_load, store: kept(!is_last) }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: timestamps,
+            ..Default::default()
+        });
+        self.set_groups(&mut begun, &targets.for_picture);
+        begun
+    }
+
+    pub(crate) fn begin<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
         pass: Pass,
@@ -205,7 +226,7 @@ impl<'a> Frame<'a> {
         })
     }
 
-    fn set_groups(&self, pass: &mut wgpu::RenderPass<'_>, view: &wgpu::BindGroup) {
+    pub(crate) fn set_groups(&self, pass: &mut wgpu::RenderPass<'_>, view: &wgpu::BindGroup) {
         pass.set_bind_group(0, &self.renderer.resources.bind_group, &[self.frame_offset]);
         pass.set_bind_group(1, view, &[]);
     }
@@ -247,11 +268,10 @@ impl<'a> Frame<'a> {
 }
 
 /// Depth is reversed: 0 is far.
-fn depth_attachment(view: &wgpu::TextureView, keep: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    let store = if keep { wgpu::StoreOp::Store } else { wgpu::StoreOp::Discard };
+fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     wgpu::RenderPassDepthStencilAttachment {
         view,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }),
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
         stencil_ops: None,
     }
 }

@@ -2,9 +2,12 @@ use crate::color::srgb_from_linear;
 use crate::deformer::Deformer;
 use crate::frame::{GpuFrame, Ring, SHADOW_COUNT};
 use crate::grower::Grower;
-use crate::passes::{Drawable, FRAME_PASSES, draw_order};
-use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, strand_pipeline, view_group};
+use crate::hair_detail::GpuHairView;
+use crate::hair_pipelines::HairPipelines;
+use crate::passes::{Drawable, FRAME_PASSES, Pass, draw_order};
+use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, view_group};
 use crate::record::Frame;
+use crate::record_hair::strands_in_view;
 use crate::resources::Resources;
 use crate::shadows::ShadowViews;
 use crate::{AvatarModel, AvatarState, PassTimer, Scene, Shading, Targets};
@@ -91,6 +94,9 @@ pub(crate) struct GpuShadowView {
     pub(crate) shadow_from_world: [[f32; 4]; 4],
 }
 
+/// Two for each avatar with hair: its shadow and itself.
+const HAIR_VIEWS_PER_FRAME: u32 = 48;
+
 /// Draws avatars into texture views of one format.
 #[derive(Debug)]
 pub struct Renderer {
@@ -103,7 +109,9 @@ pub struct Renderer {
     /// In the order of drawing.
     pub(crate) picture: Vec<(Drawable, wgpu::RenderPipeline)>,
     pub(crate) grower: Grower,
-    pub(crate) strands: wgpu::RenderPipeline,
+    pub(crate) hair: HairPipelines,
+    pub(crate) hair_views: Ring<GpuHairView>,
+    pub(crate) hair_view_group: wgpu::BindGroup,
     pub(crate) shadow_views: Ring<GpuShadowView>,
     pub(crate) shadow_group: wgpu::BindGroup,
 }
@@ -128,12 +136,20 @@ impl Renderer {
             layout: &layouts.shadow,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: shadow_views.binding() }],
         });
+        let hair_views = Ring::new(device, "views of hair", HAIR_VIEWS_PER_FRAME);
+        let hair_view_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("view of hair"),
+            layout: &layouts.hair_view,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: hair_views.binding() }],
+        });
         Ok(Self {
             id: NEXT.fetch_add(1, Ordering::Relaxed),
             config,
             deformer: Deformer::new(device),
             grower: Grower::new(device),
-            strands: strand_pipeline(device, &layouts, config),
+            hair: HairPipelines::new(device, &layouts, config),
+            hair_views,
+            hair_view_group,
             passes: PassPipelines::new(device, &layouts, config),
             picture: (draw_order(config.shading).into_iter())
                 .map(|drawable| (drawable, picture_pipeline(device, &layouts, &drawable, config)))
@@ -160,14 +176,15 @@ impl Renderer {
         device: &wgpu::Device,
         label: &str,
         views: [&wgpu::TextureView; 4],
+        hair_map: &wgpu::TextureView,
     ) -> wgpu::BindGroup {
-        view_group(device, &self.layouts, &self.resources, label, views)
+        view_group(device, &self.layouts, &self.resources, label, views, hair_map)
     }
 
     /// Records one frame: clears `view`, then draws all avatars. Colours are premultiplied by alpha in the view.
     ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be recorded before a
-    /// submission; they share one environment, the last one's. A change of the environment takes some milliseconds.
+    /// submission, with 4096 heads of hair in all; they share one environment, the last one's. A change of the environment takes some milliseconds.
     ///
     /// # Errors
     /// A view, targets or states that do not belong together; nothing is recorded then.
@@ -204,7 +221,14 @@ impl Renderer {
         let height = avatars.first().map_or(1.0, |(model, _)| model.height);
         let shadows = ShadowViews::new(&scene.light, bounds, terms.shadows);
         let irradiance = self.resources.irradiance(queue, &scene.light.environment, terms);
-        let gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), height);
+        let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), height);
+        let pixels_per_unit = gpu_frame.pixels_per_unit;
+        let has_hair = avatars.iter().any(|(model, state)| {
+            strands_in_view(model, state, scene, pixels_per_unit, f32::INFINITY).is_some()
+        });
+        if has_hair {
+            gpu_frame.set_hair(&scene.camera, bounds, Pass::HairShadow.runs(terms, has_hair));
+        }
         let frame = Frame {
             renderer: self,
             view,
@@ -218,9 +242,11 @@ impl Renderer {
                 self.shadow_views.push(queue, &GpuShadowView { shadow_from_world })
             }),
             timer,
+            has_hair,
+            pixels_per_unit,
+            queue,
         };
-        let with_hair = avatars.iter().any(|(model, _)| model.strand_count() > 0);
-        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms, with_hair));
+        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms, has_hair));
         for pass in passes() {
             frame.record(encoder, pass);
         }

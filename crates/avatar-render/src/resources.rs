@@ -17,6 +17,8 @@ pub(crate) const REFLECTION_LEVELS: u32 = 7;
 const SPLIT_SUM_SIZE: u32 = 32;
 /// Texels of the scattering table.
 const SCATTER_SIZE: (u32, u32) = (128, 32);
+/// What the key sees of hair.
+pub(crate) const HAIR_MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 const SHADOW_FORMAT: wgpu::TextureFormat = crate::targets::DEPTH_FORMAT;
 
 /// See the module.
@@ -30,6 +32,8 @@ pub(crate) struct Resources {
     /// The same maps one by one, for drawing into.
     pub(crate) shadow_layers: Vec<wgpu::TextureView>,
     pub(crate) shadow_sampler: wgpu::Sampler,
+    /// What hair keeps off; a single texel where no lamp casts shadows.
+    pub(crate) hair_map: wgpu::TextureView,
     reflections: wgpu::Texture,
     /// The environment that is uploaded, and its diffuse light.
     uploaded: Mutex<Option<(Environment, [Vec3; 9])>>,
@@ -123,6 +127,7 @@ impl Resources {
             shadow_map,
             shadow_layers,
             shadow_sampler,
+            hair_map: hair_map(device, terms),
             reflections,
             uploaded: Mutex::new(None),
         }
@@ -246,6 +251,21 @@ fn table(
         bytes,
     );
     texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() })
+}
+
+fn hair_map(device: &wgpu::Device, terms: Terms) -> wgpu::TextureView {
+    let size = terms.shadows.hair_map_size();
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow of hair"),
+        size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: HAIR_MAP_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    texture.create_view(&Default::default())
 }
 
 fn shadow_map(device: &wgpu::Device, terms: Terms) -> (wgpu::TextureView, Vec<wgpu::TextureView>) {

@@ -57,6 +57,7 @@ const SURFACE: &str = module!("shared/surface");
 const BRDF: &str = module!("shared/brdf");
 const OUTPUT: &str = module!("shared/output");
 const SHADOW: &str = module!("shared/shadow");
+const HAIR_SHADOW: &str = module!("shared/hair_shadow");
 const AMBIENT: &str = module!("shared/ambient");
 const MATTE: &str = module!("shared/matte");
 const SKIN_DIFFUSE: &str = module!("shared/skin_diffuse");
@@ -113,21 +114,21 @@ pub(crate) const NATURAL: Programs = Programs {
         "skin",
         "vertex_main",
         "skin_main",
-        [SHADOW, AMBIENT, SKIN_DIFFUSE, NATURAL_LIGHT, SCATTER],
+        [SHADOW, HAIR_SHADOW, AMBIENT, SKIN_DIFFUSE, NATURAL_LIGHT, SCATTER],
         "natural/skin"
     ),
     teeth: surface_program!(
         "teeth",
         "vertex_main",
         "teeth_main",
-        [SHADOW, AMBIENT, MATTE, NATURAL_LIGHT],
+        [SHADOW, HAIR_SHADOW, AMBIENT, MATTE, NATURAL_LIGHT],
         "natural/teeth"
     ),
     eyeball: surface_program!(
         "eyeball",
         "eye_vertex_main",
         "eyeball_main",
-        [SHADOW, AMBIENT, MATTE, NATURAL_LIGHT, EYE],
+        [SHADOW, HAIR_SHADOW, AMBIENT, MATTE, NATURAL_LIGHT, EYE],
         "natural/eyeball"
     ),
     skin_back: surface_program!("skin back", "vertex_main", "skin_back_main", [AMBIENT], "natural/skin_back"),
@@ -135,7 +136,7 @@ pub(crate) const NATURAL: Programs = Programs {
         "cornea",
         "vertex_main",
         "cornea_main",
-        [SHADOW, AMBIENT, MATTE, NATURAL_LIGHT],
+        [SHADOW, HAIR_SHADOW, AMBIENT, MATTE, NATURAL_LIGHT],
         "natural/cornea"
     ),
 };
@@ -145,28 +146,28 @@ pub(crate) const TOON: Programs = Programs {
         "skin (toon)",
         "vertex_main",
         "skin_main",
-        [SHADOW, AMBIENT, TOON_LIGHT],
+        [SHADOW, HAIR_SHADOW, AMBIENT, TOON_LIGHT],
         "toon/skin"
     ),
     teeth: surface_program!(
         "teeth (toon)",
         "vertex_main",
         "teeth_main",
-        [SHADOW, AMBIENT, TOON_LIGHT],
+        [SHADOW, HAIR_SHADOW, AMBIENT, TOON_LIGHT],
         "toon/teeth"
     ),
     eyeball: surface_program!(
         "eyeball (toon)",
         "eye_vertex_main",
         "eyeball_main",
-        [SHADOW, AMBIENT, TOON_LIGHT, EYE],
+        [SHADOW, HAIR_SHADOW, AMBIENT, TOON_LIGHT, EYE],
         "toon/eyeball"
     ),
     cornea: surface_program!(
         "cornea (toon)",
         "vertex_main",
         "cornea_main",
-        [SHADOW, AMBIENT, TOON_LIGHT],
+        [SHADOW, HAIR_SHADOW, AMBIENT, TOON_LIGHT],
         "toon/cornea"
     ),
     ..NATURAL
@@ -207,7 +208,7 @@ pub(crate) const SKIN_LIGHT_PASS: Program = surface_program!(
     "light on skin",
     "vertex_main",
     "skin_light_main",
-    [SHADOW, AMBIENT, SKIN_DIFFUSE, NATURAL_LIGHT],
+    [SHADOW, HAIR_SHADOW, AMBIENT, SKIN_DIFFUSE, NATURAL_LIGHT],
     "passes/skin_light"
 );
 
@@ -227,11 +228,60 @@ pub(crate) const GROW_PASS: Program = Program {
     modules: &[AVATAR, HAIR, module!("strands/field"), module!("strands/grow")],
 };
 
-pub(crate) const STRANDS: Program = Program {
-    label: "hair",
-    entry: "strand_main",
-    fragment: Some("strand_fragment_main"),
-    modules: &[FRAME, VIEW, BRDF, OUTPUT, SHADOW, AMBIENT, HAIR, module!("strands/draw")],
+/// A program that draws strands: its label, entry points, and what comes after the ribbons.
+macro_rules! strand_program {
+    ($label:literal, $vertex:literal, $fragment:expr, [$($module:expr),*]) => {
+        Program {
+            label: $label,
+            entry: $vertex,
+            fragment: $fragment,
+            modules: &[FRAME, VIEW, HAIR_SHADOW, SHADOW, HAIR, module!("strands/ribbon"), $($module),*],
+        }
+    };
+}
+
+/// Where pixels have several samples.
+pub(crate) const MASKED_STRANDS: Program = strand_program!(
+    "hair",
+    "strand_main",
+    Some("strand_masked_main"),
+    [OUTPUT, AMBIENT, BRDF, module!("strands/draw"), module!("strands/masked")]
+);
+
+/// Where they have one.
+pub(crate) const LAYERED_STRANDS: Program = strand_program!(
+    "hair in layers",
+    "strand_main",
+    Some("strand_layered_main"),
+    [OUTPUT, AMBIENT, BRDF, module!("strands/draw"), module!("strands/coverage"), module!("strands/layered")]
+);
+
+pub(crate) const STRAND_LAYERS: Program = strand_program!(
+    "layers of hair",
+    "strand_layers_main",
+    Some("strand_layers_fragment_main"),
+    [module!("strands/coverage"), module!("strands/layers")]
+);
+
+pub(crate) const HAIR_SHADOW_PASS: Program = strand_program!(
+    "shadow of hair",
+    "hair_shadow_main",
+    Some("hair_shadow_fragment_main"),
+    [module!("strands/shadow")]
+);
+
+pub(crate) const COMPOSE_HAIR: Program = Program {
+    label: "hair over the picture",
+    entry: "compose_vertex_main",
+    fragment: Some("compose_main"),
+    modules: &[FRAME, VIEW, module!("strands/compose")],
+};
+
+pub(crate) const COMPOSE_HAIR_DEPTH: Program = Program {
+    label: "hair over the picture: depth",
+    entry: "compose_vertex_main",
+    fragment: Some("compose_depth_main"),
+    modules: &[FRAME, VIEW, module!("strands/compose"), module!("strands/compose_depth")],
 };
 
 impl Program {
@@ -277,6 +327,7 @@ impl Constants {
             number("SHADOW_COUNT_USED", terms.shadows.lamps()),
             format!("const SHADOW_REACH: i32 = {reach};\n"),
             float("SHADOW_SIZE", terms.shadows.map_size() as f32),
+            float("HAIR_MAP_SIZE", terms.shadows.hair_map_size() as f32),
             number("PROFILE_ROWS", PROFILE_LEN as u32 / 4),
             float("PATH_PER_DISTANCE", 1.0 / diffusion_distance(1.0, SKIN_ALBEDO)),
             number("WRAPPED", Scattering::Wrapped as u32),
@@ -324,7 +375,12 @@ pub(crate) mod tests {
             SKIN_LIGHT_PASS,
             SCATTER_PASS,
             GROW_PASS,
-            STRANDS,
+            MASKED_STRANDS,
+            LAYERED_STRANDS,
+            STRAND_LAYERS,
+            HAIR_SHADOW_PASS,
+            COMPOSE_HAIR,
+            COMPOSE_HAIR_DEPTH,
         ];
         styles.into_iter().flat_map(of_style).chain(passes).collect()
     }

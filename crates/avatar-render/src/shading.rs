@@ -165,6 +165,26 @@ impl Shadows {
         }
     }
 
+    /// Width and height of the map of hair.
+    pub(crate) fn hair_map_size(self) -> u32 {
+        match self {
+            // Bound, and never read.
+            Self::Off => 1,
+            Self::Hard | Self::Soft => 512,
+            Self::Softer => 1024,
+        }
+    }
+
+    /// Strands that cast shadows; fewer than there are stand for all of them.
+    pub(crate) fn strands(self) -> f32 {
+        match self {
+            Self::Off => 0.0,
+            Self::Hard => 12_000.0,
+            Self::Soft => 24_000.0,
+            Self::Softer => 50_000.0,
+        }
+    }
+
     /// Lamps that cast shadows.
     pub(crate) fn lamps(self) -> u32 {
         match self {

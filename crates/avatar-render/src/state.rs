@@ -1,8 +1,8 @@
-use crate::AvatarModel;
 use crate::deformer::{GpuDeformedVertex, deformed_layout};
 use crate::hair::HairState;
 use crate::model::ModelPart;
 use crate::part::Geometry;
+use crate::{AvatarModel, HairDetail};
 use avatar_mesh::Bounds;
 use bytemuck::Zeroable;
 use glam::{Affine3A, Vec3, Vec4};
@@ -45,6 +45,7 @@ pub struct AvatarState {
     /// What the growing pass makes of the model's hair.
     pub(crate) hair: Option<HairState>,
     strand_count: usize,
+    pub(crate) hair_detail: HairDetail,
 }
 
 /// A part in its pose of now, on the GPU.
@@ -159,7 +160,13 @@ impl AvatarState {
             posed,
             hair,
             strand_count: model.strand_count(),
+            hair_detail: HairDetail::default(),
         }
+    }
+
+    /// How much of the hair is grown and drawn, from the next frame on.
+    pub fn set_hair_detail(&mut self, detail: HairDetail) {
+        self.hair_detail = detail;
     }
 
     /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a

@@ -9,6 +9,11 @@ pub(crate) const OCCLUSION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8
 /// Light under the skin.
 pub(crate) const SKIN_LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
+/// Colours of strands, weighted, and their weights.
+pub(crate) const HAIR_SUM_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// What strands leave clear.
+pub(crate) const HAIR_CLEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+
 /// Depth, multisampled colour where there are several samples, and what earlier passes of a frame leave for later ones,
 /// for pictures of one size by one renderer.
 #[derive(Debug)]
@@ -24,12 +29,19 @@ pub struct Targets {
     pub(crate) occlusion: wgpu::TextureView,
     pub(crate) skin_light: wgpu::TextureView,
     pub(crate) scattered: wgpu::TextureView,
+    /// Where strands lie, their colours, and what they leave clear, where pixels have one sample.
+    pub(crate) hair_layers: wgpu::TextureView,
+    pub(crate) hair_sum: wgpu::TextureView,
+    pub(crate) hair_clear: wgpu::TextureView,
     /// What passes read, each without what it writes.
     pub(crate) for_prepass: wgpu::BindGroup,
     pub(crate) for_occlusion: wgpu::BindGroup,
     pub(crate) for_skin_light: wgpu::BindGroup,
     pub(crate) for_scattering: wgpu::BindGroup,
     pub(crate) for_picture: wgpu::BindGroup,
+    pub(crate) for_hair_shadow: wgpu::BindGroup,
+    pub(crate) for_hair: wgpu::BindGroup,
+    pub(crate) for_composing: wgpu::BindGroup,
 }
 
 /// A picture size that the device cannot draw.
@@ -88,8 +100,12 @@ impl Targets {
         let no_occlusion = attachment("nothing", OCCLUSION_FORMAT, 1, false, true);
         let no_light = attachment("nothing", SKIN_LIGHT_FORMAT, 1, false, true);
         let no_depth = attachment("nothing", DEPTH_FORMAT, 1, false, true);
+        let hair_layers = attachment("layers of hair", HAIR_SUM_FORMAT, 1, !several, true);
+        let hair_sum = attachment("hair", HAIR_SUM_FORMAT, 1, !several, true);
+        let hair_clear = attachment("hair: what it leaves clear", HAIR_CLEAR_FORMAT, 1, !several, true);
+        let hair_map = &renderer.resources.hair_map;
         let group = |label, occlusion, light| {
-            renderer.view_group(device, label, [&single_depth, &normals, occlusion, light])
+            renderer.view_group(device, label, [&single_depth, &normals, occlusion, light], hair_map)
         };
         let nothing = [&no_depth, &no_light, &no_occlusion, &no_light];
         Ok(Self {
@@ -99,7 +115,20 @@ impl Targets {
             depth: attachment("depth", DEPTH_FORMAT, config.samples, true, false),
             multisampled: several
                 .then(|| attachment("multisampled color", config.color_format, config.samples, true, false)),
-            for_prepass: renderer.view_group(device, "view: for depth and normals", nothing),
+            for_prepass: renderer.view_group(device, "view: for depth and normals", nothing, hair_map),
+            for_hair_shadow: renderer.view_group(device, "view: for shadows of hair", nothing, &no_light),
+            for_hair: renderer.view_group(
+                device,
+                "view: for hair",
+                [&no_depth, &no_light, &no_occlusion, &hair_layers],
+                hair_map,
+            ),
+            for_composing: renderer.view_group(
+                device,
+                "view: hair",
+                [&no_depth, &hair_layers, &hair_clear, &hair_sum],
+                hair_map,
+            ),
             for_occlusion: group("view: for occlusion", &no_occlusion, &no_light),
             for_skin_light: group("view: for light on skin", &occlusion, &no_light),
             for_scattering: group("view: for scattering", &occlusion, &skin_light),
@@ -109,6 +138,9 @@ impl Targets {
             occlusion,
             skin_light,
             scattered,
+            hair_layers,
+            hair_sum,
+            hair_clear,
         })
     }
 

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test program uses its own share of this module")]
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
+pub(crate) mod head;
 pub(crate) mod nearest;
 pub(crate) mod stage;
 

@@ -35,6 +35,11 @@ struct Frame {
     shadow_softness: f32,
     // The last mip level of the reflections.
     reflection_levels: f32,
+    // 1 where hair casts shadows, else 0.
+    hair_shadow: f32,
+    // Hair is nearer than this, and 1 / (the depth of the space that it fills).
+    hair_far: f32,
+    hair_per_depth: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -31,9 +31,18 @@ fn depth_slope(layer: i32, normal: vec3f) -> vec2f {
     return vec2f(n.x, -n.y) * width / (depth * max(n.z, 0.2));
 }
 
-// Share of the lamp that is seen, over a square of samples with Gaussian weights. The pattern is its own mirror image,
-// so that a mirrored face under mirrored light is a mirrored picture.
+// Share of the lamp that is seen past everything.
 fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
+    let seen = cast_visibility(lamp, position, normal);
+    if SHADOW_REACH < 0 || lamp != KEY_LAMP || frame.hair_shadow <= 0.0 {
+        return seen;
+    }
+    return seen * hair_visibility(position, HAIR_BLOCKS, min(SHADOW_REACH, 1));
+}
+
+// Share of the lamp that is seen past everything but hair, over a square of samples with Gaussian weights. The pattern is its own mirror image,
+// so that a mirrored face under mirrored light is a mirrored picture.
+fn cast_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     let layer = shadow_of(lamp);
     if SHADOW_REACH < 0 || layer == NO_SHADOW {
         return 1.0;

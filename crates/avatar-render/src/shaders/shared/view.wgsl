@@ -7,6 +7,8 @@
 @group(1) @binding(3) var normal_texture_view: texture_2d<f32>;
 @group(1) @binding(4) var occlusion_view: texture_2d<f32>;
 @group(1) @binding(5) var skin_light: texture_2d<f32>;
+// What the key sees of hair, see hair_shadow.wgsl.
+@group(1) @binding(6) var hair_map: texture_2d<f32>;
 
 // Distance along the view direction from reversed, infinite depth.
 fn view_distance(depth: f32) -> f32 {

@@ -1,0 +1,137 @@
+//! How many strands of an avatar are grown and drawn in a view, and how wide that makes them.
+
+use bytemuck::{Pod, Zeroable};
+
+/// How much of an avatar's hair is grown and drawn. May change from frame to frame: nothing is allocated, and what is not
+/// drawn costs nothing. Fewer strands are wider, so that they cover the same area.
+///
+/// The strands of a model come in a fixed random order, and the first ones of them are drawn: any number of them is a
+/// fair sample of the whole. The last of those that are drawn are narrower the nearer they are to the cut, so that
+/// strands fade in and out where the number changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HairDetail {
+    /// Share of the model's strands, 0 (bald) to 1; what is no number counts as 1. Strands become wider by up to
+    /// eight times to make up for those that are missing.
+    pub share: f32,
+    /// Fewer strands where the head is small in the picture: 200 for each pixel of its height, but at least 1000. As
+    /// many stand behind one another in a pixel then as up close, and are as wide in pixels.
+    pub is_automatic: bool,
+    /// Width in pixels below which a strand fades instead of getting thinner. 1 is right for pictures that are looked
+    /// at; 0 draws strands as thin as they are, for pictures that are made larger than needed and averaged.
+    pub least_pixels: f32,
+}
+
+/// WGSL `HairView`: what of the hair of one avatar one pass of one view draws.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct GpuHairView {
+    /// Where the strands end, not rounded.
+    pub(crate) strands: f32,
+    /// Number of strands that fade before the end.
+    pub(crate) fading: f32,
+    /// Widths by those that the model has for all its strands.
+    pub(crate) width: f32,
+    pub(crate) least_pixels: f32,
+}
+
+const STRANDS_PER_PIXEL: f32 = 200.0;
+const FEWEST_STRANDS: f32 = 1000.0;
+/// Share of the strands that fade.
+const FADING: f32 = 0.15;
+/// The widest strands become for a small share.
+const WIDEST: f32 = 8.0;
+
+impl Default for HairDetail {
+    fn default() -> Self {
+        Self { share: 1.0, is_automatic: true, least_pixels: 1.0 }
+    }
+}
+
+impl HairDetail {
+    /// How many of a model's strands are grown and drawn where its head is this many pixels high.
+    pub fn strands(self, of: usize, head_pixels: f32) -> usize {
+        self.view(of as u32, head_pixels, f32::INFINITY).count()
+    }
+
+    /// The same for a pass that affords no more than `most` strands.
+    pub(crate) fn view(self, of: u32, head_pixels: f32, most: f32) -> GpuHairView {
+        let all = of as f32;
+        let share = if self.share.is_nan() { 1.0 } else { self.share.clamp(0.0, 1.0) };
+        let kept = all * share;
+        let needed = match self.is_automatic && head_pixels >= 0.0 {
+            true => (head_pixels * STRANDS_PER_PIXEL).max(FEWEST_STRANDS),
+            false => f32::INFINITY,
+        };
+        let strands = kept.min(needed).min(most);
+        let fading = (strands * FADING).min(all - strands);
+        // What is left of them on the whole, as those that fade are half as wide on average.
+        let whole = (strands - 0.5 * fading).max(1.0);
+        let for_share = if kept > 0.0 { (all / kept).min(WIDEST) } else { 1.0 };
+        let least_pixels = if self.least_pixels >= 0.0 { self.least_pixels.min(16.0) } else { 1.0 };
+        GpuHairView { strands, fading, width: for_share * kept.max(1.0) / whole, least_pixels }
+    }
+}
+
+impl GpuHairView {
+    /// Strands to draw.
+    pub(crate) fn count(self) -> usize {
+        self.strands.ceil() as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The widths of all strands as the shader has them, added up; 1 is that of a strand of the model.
+    fn area(view: GpuHairView) -> f64 {
+        let share = |strand: usize| ((view.strands - strand as f32) / view.fading.max(1e-3)).clamp(0.0, 1.0);
+        (0..view.count()).map(|strand| f64::from(share(strand) * view.width)).sum()
+    }
+
+    proptest! {
+        #[test]
+        fn any_number_of_strands_covers_as_much(of in 20_000u32..160_000, pixels in 0.0f32..1200.0, share in 0.2f32..1.0) {
+            let view = HairDetail { share, ..HairDetail::default() }.view(of, pixels, f32::INFINITY);
+            prop_assert!(view.count() <= of as usize);
+            let off = area(view) / f64::from(of) - 1.0;
+            prop_assert!(off.abs() < 2e-3, "{view:?}: {off}");
+        }
+
+        #[test]
+        fn anything_is_a_number_of_strands(of in 0u32..1000, pixels in any::<f32>(), share in any::<f32>(), least in any::<f32>()) {
+            for is_automatic in [false, true] {
+                let view = HairDetail { share, is_automatic, least_pixels: least }.view(of, pixels, f32::INFINITY);
+                prop_assert!(view.count() <= of as usize && view.width.is_finite() && view.width >= 0.0, "{view:?}");
+                prop_assert!((0.0..=16.0).contains(&view.least_pixels) && view.fading >= 0.0, "{view:?}");
+            }
+        }
+
+        #[test]
+        fn strands_do_not_pop(of in 50_000u32..150_000, pixels in 20.0f32..700.0) {
+            let detail = HairDetail::default();
+            let [one, other] = [pixels, pixels * 1.001].map(|pixels| detail.view(of, pixels, f32::INFINITY));
+            let width = |view: GpuHairView, strand: usize| {
+                ((view.strands - strand as f32) / view.fading.max(1e-3)).clamp(0.0, 1.0) * view.width
+            };
+            let (mut change, mut all) = (0.0, 0.0);
+            for strand in (0..of as usize).step_by(31) {
+                let (a, b) = (width(one, strand), width(other, strand));
+                change += (a - b).abs();
+                all += a;
+            }
+            prop_assert!(change <= 0.005 * all, "{change} of {all}");
+        }
+    }
+
+    #[test]
+    fn far_heads_have_fewer_strands_and_no_share_has_none() {
+        let detail = HairDetail::default();
+        assert_eq!(detail.strands(100_000, 500.0), 100_000);
+        assert_eq!(detail.strands(100_000, 100.0), 20_000);
+        assert_eq!(detail.strands(100_000, 1.0), 1000);
+        assert_eq!(HairDetail { is_automatic: false, ..detail }.strands(100_000, 1.0), 100_000);
+        assert_eq!(HairDetail { share: 0.0, ..detail }.strands(100_000, 500.0), 0);
+    }
+}

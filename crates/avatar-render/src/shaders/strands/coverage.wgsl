@@ -1,0 +1,16 @@
+// Strands where pixels have one sample: what each covers, and how deep in the hair it lies.
+
+// The share of a pixel that a straight strand covers, exact where it runs along rows or columns: E. Chan and F. Durand,
+// "Fast Prefiltered Lines", 2005, with a filter of one pixel.
+fn strand_coverage(pixels: f32, off: f32) -> f32 {
+    let least = hair_view.least_pixels;
+    if least <= 0.0 {
+        return 1.0;
+    }
+    return saturate(min(0.5 * (pixels + least) - abs(off), pixels) / least);
+}
+
+// 1 at the front of the space that hair fills, 0 at its back: half floats hold steps of a two-thousandth of it.
+fn nearness(depth: f32) -> f32 {
+    return saturate((frame.hair_far - view_distance(depth)) * frame.hair_per_depth);
+}

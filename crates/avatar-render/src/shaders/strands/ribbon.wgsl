@@ -1,0 +1,84 @@
+// Strands as ribbons, for all passes that draw them: which of them, where their points are, how wide they are.
+
+// What of the hair one pass of one view draws.
+struct HairView {
+    // Where the strands end, not rounded.
+    strands: f32,
+    // Number of strands that fade before the end.
+    fading: f32,
+    // Widths by those that the model has for all its strands.
+    width: f32,
+    // Width in pixels below which a strand fades instead of getting thinner.
+    least_pixels: f32,
+}
+
+@group(2) @binding(0) var<uniform> hair: Hair;
+@group(2) @binding(1) var<storage, read> roots: array<Root>;
+@group(2) @binding(2) var<storage, read> points: array<vec4f>;
+@group(3) @binding(0) var<uniform> hair_view: HairView;
+
+// A point of a strand.
+struct StrandPoint {
+    position: vec3f,
+    // Above the head.
+    height: f32,
+    tangent: vec3f,
+    // 0 at the root, 1 at the tip.
+    along: f32,
+    // Of the skin at the root.
+    normal: vec3f,
+    radius: f32,
+}
+
+// `corner` counts the corners of the ribbon, two at each point.
+fn strand_point(strand: u32, corner: u32, region: u32) -> StrandPoint {
+    let style = hair.regions[region];
+    let i = corner / 2u;
+    let first = strand * (SEGMENTS + 2u);
+    let here = points[first + i];
+    let before = points[first + max(i, 1u) - 1u].xyz;
+    let after = points[first + min(i + 1u, SEGMENTS)].xyz;
+    var point: StrandPoint;
+    point.position = here.xyz;
+    point.height = here.w;
+    point.tangent = normalize(after - before + vec3f(1e-9, 0.0, 0.0));
+    point.along = f32(i) / f32(SEGMENTS);
+    point.normal = points[first + SEGMENTS + 1u].xyz;
+    // Strands near the cut fade, so that they do not pop where the cut moves.
+    let share = saturate((hair_view.strands - f32(strand)) / max(hair_view.fading, 1e-3));
+    let width = hair.width_factor * hair_view.width * share;
+    point.radius = mix(style.root_radius, style.tip_radius, point.along) * width;
+    return point;
+}
+
+// From the middle of a strand to the side, across the direction of view.
+fn strand_side(tangent: vec3f, to_eye: vec3f) -> vec3f {
+    let across = cross(tangent, to_eye);
+    return across / max(length(across), 1e-4);
+}
+
+fn corner_sign(corner: u32) -> f32 {
+    return select(-1.0, 1.0, (corner & 1u) == 0u);
+}
+
+struct RibbonCorner {
+    position_clip: vec4f,
+    // Width of the strand, and distance from its middle, in pixels.
+    pixels: f32,
+    off: f32,
+}
+
+// A corner of the ribbon that is drawn for a strand. Where pixels have one sample, it reaches over all pixels that the
+// strand touches; where they have several, it is at least as wide as a pixel.
+fn ribbon_corner(point: StrandPoint, corner: u32) -> RibbonCorner {
+    let middle = frame.clip_from_world * vec4f(point.position, 1.0);
+    let per_pixel = max(middle.w, 1e-6) / frame.pixels_per_unit;
+    let pixels = 2.0 * point.radius / per_pixel;
+    let least = hair_view.least_pixels;
+    let drawn = select(pixels + least, max(pixels, 0.35 * least), COVERAGE_MASK);
+    let to_eye = normalize(frame.eye_world - point.position);
+    let side = strand_side(point.tangent, to_eye) * corner_sign(corner);
+    let position = point.position + side * (0.5 * drawn * per_pixel);
+    return RibbonCorner(
+        frame.clip_from_world * vec4f(position, 1.0), pixels, 0.5 * drawn * corner_sign(corner));
+}
