@@ -117,7 +117,7 @@ impl Groom {
         };
         let at_bind = vec![Affine3A::IDENTITY; self.head_bone as usize + 1];
         let reaches = |length: f32| {
-            let points = grow_to(self, strand, length, &triangle, &at_bind, None);
+            let points = grow_to(self, strand, length, &triangle, &at_bind, None, None);
             points.is_some_and(|points| points[SEGMENTS].y < height)
         };
         let whole = length_without_variation(root, &self.style, self.height);

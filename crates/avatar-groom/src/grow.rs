@@ -36,7 +36,10 @@ pub const LOCK_REACH: f32 = 0.06;
 pub fn grow_guide(groom: &Groom, strand: usize, triangle: &Triangle, bones: &[Affine3A]) -> Option<Strand> {
     let length = *groom.lengths.get(strand)?;
     let head = *bones.get(groom.head_bone as usize)?;
-    Some(grow_to(groom, strand, length, triangle, bones, None)?.map(|point| head.transform_point3(point)))
+    Some(
+        grow_to(groom, strand, length, triangle, bones, None, None)?
+            .map(|point| head.transform_point3(point)),
+    )
 }
 
 /// The points of a strand in the world; the twin of `grow_main` in WGSL, line by line. `guide` is what [`grow_guide`] made of
@@ -49,16 +52,13 @@ pub fn grow(
     guide: Option<&Strand>,
 ) -> Option<Strand> {
     let head = *bones.get(groom.head_bone as usize)?;
-    let style = groom.style.region(groom.roots.get(strand)?.region);
-    let mut points = grow_to(groom, strand, *groom.lengths.get(strand)?, triangle, bones, guide)?;
+    let length = *groom.lengths.get(strand)?;
     let phase = *groom.phases.get(strand)?;
-    let phase = Vec2::new(libm::cosf(phase), libm::sinf(phase));
-    let radius = curl_radius(style, groom.height, *groom.lengths.get(strand)?);
-    curl(&mut points, radius, style.curl_turn(), phase);
+    let points = grow_to(groom, strand, length, triangle, bones, guide, Some(phase))?;
     Some(points.map(|point| head.transform_point3(point)))
 }
 
-/// The middle line of a strand of a length, in the head's bind pose.
+/// A strand of a length, in the head's bind pose; without a `phase` only its middle line.
 ///
 /// It starts on the triangle, goes on along the normal for a short segment, and turns to where it is combed and pulled, outside
 /// of the skin. `bones` take the skin from bind pose to its pose of now.
@@ -69,6 +69,7 @@ pub(crate) fn grow_to(
     triangle: &Triangle,
     bones: &[Affine3A],
     guide: Option<&Strand>,
+    phase: Option<f32>,
 ) -> Option<Strand> {
     let head = *bones.get(groom.head_bone as usize)?;
     // From the head's bind pose to that of the other bones.
@@ -98,8 +99,15 @@ pub(crate) fn grow_to(
     // Strands lie over one another instead of in one shell.
     let lift = style.volume * groom.height * root.random[2] + curl_radius(style, groom.height, length);
 
+    // Curls wind around the strand: beside it is what is across the plane that it bends in.
+    let beside = normal.cross(down + comb).normalize_or(Vec3::X);
+    let radius = if phase.is_some() { curl_radius(style, groom.height, length) } else { 0.0 };
+    let mut phase = phase.map_or(Vec2::X, |phase| Vec2::new(libm::cosf(phase), libm::sinf(phase)));
+    let turn = style.curl_turn();
+
     let mut points = [start; SEGMENTS + 1];
     points[1] = start + normal * first;
+    let mut before = points[1];
     let (mut direction, mut skin_normal, mut near) = (normal, normal, 1.0f32);
     let back = others.map(|other| Mat3::from(other.matrix3).transpose());
     let mut shares = [0.0; OTHER_BONES];
@@ -112,7 +120,7 @@ pub(crate) fn grow_to(
         // What pulls straight back turns nothing: the sum would have no direction.
         let across = force - direction * force.dot(direction).min(0.0);
         direction = (direction + across * style.bend).normalize_or(direction);
-        let mut next = points[i - 1] + direction * step;
+        let mut next = before + direction * step;
         if let Some(guide) = guide {
             let toward = to_bind(guide[i]) - next;
             let share = (2.0 - toward.length() / (LOCK_REACH * groom.height)).clamp(0.0, 1.0);
@@ -133,9 +141,12 @@ pub(crate) fn grow_to(
         };
         let least = margin * (4.0 * t).min(1.0) + lift * (3.0 * t).min(1.0);
         next += outward * (least - distance).max(0.0);
-        direction = (next - points[i - 1]).normalize_or(direction);
+        direction = (next - before).normalize_or(direction);
         // Pushed back, the segment gets shorter: at its full length it would be inside again.
-        points[i] = points[i - 1] + direction * step.min(next.distance(points[i - 1]));
+        before += direction * step.min(next.distance(before));
+        phase = turn.rotate(phase);
+        let side = direction.cross(beside).normalize_or(normal);
+        points[i] = before + (beside * phase.x + side * phase.y) * (radius * (3.0 * t).min(1.0));
         skin_normal = outward;
         near = (1.0 - (distance - least) / (COMBED_REACH * groom.height)).clamp(0.0, 1.0);
     }
@@ -174,20 +185,4 @@ pub(crate) fn axes([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
 /// Short strands do not reach around a whole curl.
 fn curl_radius(style: &RegionStyle, height: f32, length: f32) -> f32 {
     (style.curl_radius * height).min(CURL_SHARE * length)
-}
-
-/// Winds a strand around itself, more toward the tip; `phase` is a direction of unit length.
-fn curl(points: &mut Strand, radius: f32, turn: Vec2, phase: Vec2) {
-    if radius <= 0.0 {
-        return;
-    }
-    let along = (points[SEGMENTS] - points[1]).normalize_or(Vec3::NEG_Y);
-    let side = along.cross(if along.x.abs() < 0.8 { Vec3::X } else { Vec3::Y }).normalize_or(Vec3::Z);
-    let other = along.cross(side);
-    let mut phase = phase;
-    for (i, point) in points.iter_mut().enumerate().skip(2) {
-        phase = turn.rotate(phase);
-        let t = (i - 1) as f32 / (SEGMENTS - 1) as f32;
-        *point += (side * phase.x + other * phase.y) * (radius * (3.0 * t).min(1.0));
-    }
 }

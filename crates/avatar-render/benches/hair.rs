@@ -110,7 +110,7 @@ fn avatar(
     let eyes: Vec<_> =
         ["right-eyeball", "left-eyeball"].iter().filter_map(|name| pack.part(name)?.mesh.bounds()).collect();
     let groom = Groom::new(&skin.mesh, density, &eyes, style, strands, 1);
-    model.set_hair(&gpu.device, 0, Some(&groom)).expect("hair");
+    model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
     let mut state = AvatarState::new(&gpu.device, &model);
     state.set_hair_detail(HairDetail { is_automatic: false, ..HairDetail::default() });
     let mut corners: Vec<u32> = groom.roots.iter().flat_map(|root| root.corners).collect();

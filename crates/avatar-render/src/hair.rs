@@ -1,7 +1,9 @@
 //! Hair on the GPU: strands grow on the deformed skin every frame, and are drawn from where they grew.
 
 use crate::deformer::GpuDeformedVertex;
-use avatar_groom::{COMBED_REACH, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle, SEGMENTS};
+use avatar_groom::{
+    COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle, SEGMENTS,
+};
 use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
 
@@ -114,6 +116,14 @@ pub enum HairError {
         /// Number of distances.
         found: usize,
     },
+    /// A field that is larger than a texture of the device.
+    #[error("expected at most {limit} places along each side of the field, found {} × {} × {}", found[0], found[1], found[2])]
+    FieldSize {
+        /// Size of the grid.
+        found: [u32; 3],
+        /// What the device allows.
+        limit: u32,
+    },
     /// More strands than a binding of the device holds.
     #[error("expected at most {limit} strands, found {found}")]
     TooMany {
@@ -135,7 +145,7 @@ pub(crate) struct HairModel {
     roots: wgpu::Buffer,
     /// The roots of the guides once more, without guides of their own.
     guide_roots: wgpu::Buffer,
-    field: wgpu::Buffer,
+    field: wgpu::TextureView,
 }
 
 /// The hair of one avatar.
@@ -155,6 +165,7 @@ pub(crate) struct HairState {
 impl HairModel {
     pub(crate) fn new(
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         part: usize,
         vertices: u32,
         bones: u32,
@@ -193,7 +204,9 @@ impl HairModel {
         if let Some(&found) = field.bones.iter().chain([&groom.head_bone]).find(|bone| **bone >= bones) {
             return Err(HairError::Bone { found, bones });
         }
-        let texels = field.texels();
+        if field.size.iter().any(|n| *n > limits.max_texture_dimension_3d) {
+            return Err(HairError::FieldSize { found: field.size, limit: limits.max_texture_dimension_3d });
+        }
         let region = |style: &RegionStyle| GpuHairRegion::new(style, groom.height);
         let hair = GpuHair {
             regions: [region(&groom.style.scalp), region(&groom.style.brows), region(&groom.style.lashes)],
@@ -224,9 +237,28 @@ impl HairModel {
             hair: buffer("hair", bytemuck::bytes_of(&hair), wgpu::BufferUsages::UNIFORM),
             roots: buffer("hair: roots", bytemuck::cast_slice(&roots), storage),
             guide_roots: buffer("hair: roots of guides", bytemuck::cast_slice(&guide_roots), storage),
-            field: buffer("hair: distances from the skin", bytemuck::cast_slice(&texels), storage),
+            field: field_texture(device, queue, field),
         })
     }
+}
+
+fn field_texture(device: &wgpu::Device, queue: &wgpu::Queue, field: &Field) -> wgpu::TextureView {
+    let [width, height, depth_or_array_layers] = field.size;
+    let label = Some("hair: distances from the skin");
+    let descriptor = wgpu::TextureDescriptor {
+        label,
+        size: wgpu::Extent3d { width, height, depth_or_array_layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D3,
+        format: wgpu::TextureFormat::Rg32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let texels = field.texels();
+    let order = wgpu::util::TextureDataOrder::LayerMajor;
+    let texture = device.create_texture_with_data(queue, &descriptor, order, bytemuck::cast_slice(&texels));
+    texture.create_view(&wgpu::TextureViewDescriptor { label, ..Default::default() })
 }
 
 fn gpu_root(groom: &Groom, strand: usize) -> Option<GpuRoot> {
@@ -306,7 +338,16 @@ pub(crate) fn grow_layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 2] 
             entries: &[
                 uniform_entry(compute),
                 storage_entry(1, compute, true),
-                storage_entry(2, compute, true),
+                wgpu::BindGroupLayoutEntry {
+                    binding: 2,
+                    visibility: compute,
+                    ty: wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Uint,
+                        view_dimension: wgpu::TextureViewDimension::D3,
+                        multisampled: false,
+                    },
+                    count: None,
+                },
                 storage_entry(3, compute, false),
                 storage_entry(4, compute, true),
             ],
@@ -344,13 +385,10 @@ impl HairState {
         let points = buffer("hair: points", hair.strand_count);
         let guides = buffer("hair: points of guides", hair.guide_count);
         let [grow_layout, skin_layout] = grow_layouts(device);
-        let group = |label, layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]| {
+        let group = |label, layout: &wgpu::BindGroupLayout, resources: &[wgpu::BindingResource<'_>]| {
             let entries: Vec<_> = (0u32..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
+                .zip(resources)
+                .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
                 .collect();
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some(label),
@@ -358,16 +396,25 @@ impl HairState {
                 entries: &entries,
             })
         };
+        let grow = |label, roots: &wgpu::Buffer, points: &wgpu::Buffer, guides: &wgpu::Buffer| {
+            let resources = [
+                hair.hair.as_entire_binding(),
+                roots.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&hair.field),
+                points.as_entire_binding(),
+                guides.as_entire_binding(),
+            ];
+            group(label, &grow_layout, &resources)
+        };
+        let drawn = [&hair.hair, &hair.roots, &points].map(wgpu::Buffer::as_entire_binding);
         debug_assert_eq!(skin.size() % size_of::<GpuDeformedVertex>() as u64, 0);
-        let of_guides = [&hair.hair, &hair.guide_roots, &hair.field, &guides, &hair.roots];
-        let of_strands = [&hair.hair, &hair.roots, &hair.field, &points, &guides];
         Self {
             guide_count: hair.guide_count,
             // Guides follow no guides: anything is bound in their place.
-            grow_guides: group("grow guides of hair", &grow_layout, &of_guides),
-            grow: group("grow hair", &grow_layout, &of_strands),
-            skin: group("deformed skin", &skin_layout, &[skin]),
-            draw: group("draw hair", &draw_layout(device), &[&hair.hair, &hair.roots, &points]),
+            grow_guides: grow("grow guides of hair", &hair.guide_roots, &guides, &hair.roots),
+            grow: grow("grow hair", &hair.roots, &points, &guides),
+            skin: group("deformed skin", &skin_layout, &[skin.as_entire_binding()]),
+            draw: group("draw hair", &draw_layout(device), &drawn),
             points,
         }
     }

@@ -221,7 +221,6 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("shape_offsets", size_of::<GpuShapeOffset>()),
         ("deformed", size_of::<GpuDeformedVertex>()),
         ("roots", size_of::<GpuRoot>()),
-        ("field", size_of::<[u32; 2]>()),
         ("points", size_of::<[f32; 4]>()),
         ("guides", size_of::<[f32; 4]>()),
     ];

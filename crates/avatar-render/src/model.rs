@@ -227,13 +227,14 @@ impl AvatarModel {
     pub fn set_hair(
         &mut self,
         device: &wgpu::Device,
+        queue: &wgpu::Queue,
         part: usize,
         groom: Option<&Groom>,
     ) -> Result<(), HairError> {
         let missing = HairError::NoSuchPart { parts: self.parts.len(), found: part };
         let vertices = self.parts.get(part).ok_or(missing)?.geometry.vertex_count;
         let hair = groom
-            .map(|groom| HairModel::new(device, part, vertices, self.palette_len as u32, groom))
+            .map(|groom| HairModel::new(device, queue, part, vertices, self.palette_len as u32, groom))
             .transpose()?;
         self.hair = hair.filter(|hair| hair.strand_count > 0);
         Ok(())

@@ -68,7 +68,7 @@ impl<'a> Head<'a> {
     fn new(gpu: &'a Gpu, pack: &'a Pack, groom: &Groom) -> Self {
         let skin = &pack.parts[0].mesh;
         let mut model = bald(gpu, pack);
-        model.set_hair(&gpu.device, 0, Some(groom)).expect("hair");
+        model.set_hair(&gpu.device, &gpu.queue, 0, Some(groom)).expect("hair");
         Self {
             gpu,
             pack,
@@ -211,20 +211,20 @@ fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
     };
     let bare = draw(&model);
     let groom = groom(&pack, &density, Style::BOB, 8000.0);
-    model.set_hair(&gpu.device, 0, Some(&groom)).expect("hair");
+    model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
     assert_eq!(model.strand_count(), groom.roots.len());
     let covered = draw(&model);
     let changed = bare.rgba.iter().zip(&covered.rgba).filter(|(a, b)| a.abs_diff(**b) > 10).count();
     assert!(changed > 2000, "{changed}");
     assert_eq!(draw(&model).rgba, covered.rgba, "the same bytes again");
-    model.set_hair(&gpu.device, 0, None).expect("none");
+    model.set_hair(&gpu.device, &gpu.queue, 0, None).expect("none");
     assert_eq!(draw(&model).rgba, bare.rgba);
 
     let mut wrong = groom.clone();
     wrong.roots[3].corners[1] = u32::MAX;
-    let refused = model.set_hair(&gpu.device, 0, Some(&wrong));
+    let refused = model.set_hair(&gpu.device, &gpu.queue, 0, Some(&wrong));
     let vertices = skin.positions.len() as u32;
     assert_eq!(refused, Err(HairError::Corner { strand: 3, found: u32::MAX, vertices }));
-    let refused = model.set_hair(&gpu.device, 9, Some(&groom));
+    let refused = model.set_hair(&gpu.device, &gpu.queue, 9, Some(&groom));
     assert_eq!(refused, Err(HairError::NoSuchPart { parts: 1, found: 9 }));
 }

@@ -212,7 +212,7 @@ fn brush(gpu: &Gpu) -> Avatar {
     let style = Style { scalp, ..Style::SHORT };
     let groom = Groom::new(&plate, &white, &[], style, 24.0, 5);
     let (mut model, _) = model(gpu, &[part(&plate, PartKind::Skin, PartTextures::default())]);
-    model.set_hair(&gpu.device, 0, Some(&groom)).expect("hair");
+    model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
     let state = AvatarState::new(&gpu.device, &model);
     assert!(model.strand_count() > 10, "{}", model.strand_count());
     (model, state)

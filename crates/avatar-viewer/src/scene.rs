@@ -109,7 +109,7 @@ pub(crate) fn upload(
         .collect();
     let mut model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
     if let Some((skin, groom)) = hair.groom(pack, textures) {
-        model.set_hair(device, skin, Some(&groom))?;
+        model.set_hair(device, queue, skin, Some(&groom))?;
     }
     set_materials(pack, &model, queue);
     Ok(model)

@@ -57,7 +57,7 @@ impl Head {
             .filter_map(|name| self.pack.part(name)?.mesh.bounds())
             .collect();
         let groom = Groom::new(self.skin(), &self.density, &eyes, style, strands, 3);
-        model.set_hair(&gpu.device, 0, Some(&groom)).expect("hair");
+        model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
         let state = AvatarState::new(&gpu.device, &model);
         (model, state)
     }

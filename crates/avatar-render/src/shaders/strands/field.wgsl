@@ -3,7 +3,8 @@
 
 // A distance as a share of the largest in 16 bits and shares of the other bones in 8 bits each, then the direction in which
 // the distance grows in 8 bits each.
-@group(0) @binding(2) var<storage, read> field: array<vec2u>;
+// A texture, because software adapters read textures several times faster than buffers.
+@group(0) @binding(2) var field: texture_3d<u32>;
 
 struct Near {
     // The direction in which the distance grows, unit length.
@@ -13,9 +14,9 @@ struct Near {
 }
 
 // Between two neighbours across.
-fn field_between(index: u32, share: f32) -> Near {
-    let a = field[index];
-    let b = field[index + 1u];
+fn field_between(place: vec3i, share: f32) -> Near {
+    let a = textureLoad(field, place, 0).xy;
+    let b = textureLoad(field, place + vec3i(1, 0, 0), 0).xy;
     let distance = mix(unpack2x16snorm(a.x).x, unpack2x16snorm(b.x).x, share);
     let shares = mix(unpack4x8unorm(a.x).zw, unpack4x8unorm(b.x).zw, share);
     return Near(mix(unpack4x8snorm(a.y).xyz, unpack4x8snorm(b.y).xyz, share), distance, shares);
@@ -32,13 +33,11 @@ fn field_at(place: vec3f) -> Near {
     let inside = clamp(wanted, vec3f(0.0), last);
     let low = min(floor(inside), last - 1.0);
     let share = inside - low;
-    let row = hair.field_size.x;
-    let layer = row * hair.field_size.y;
-    let first = u32(low.z) * layer + u32(low.y) * row + u32(low.x);
+    let first = vec3i(low);
     let v00 = field_between(first, share.x);
-    let v10 = field_between(first + row, share.x);
-    let v01 = field_between(first + layer, share.x);
-    let v11 = field_between(first + layer + row, share.x);
+    let v10 = field_between(first + vec3i(0, 1, 0), share.x);
+    let v01 = field_between(first + vec3i(0, 0, 1), share.x);
+    let v11 = field_between(first + vec3i(0, 1, 1), share.x);
     var near = near_between(near_between(v00, v10, share.y), near_between(v01, v11, share.y), share.z);
     let beyond = length(wanted - inside) * hair.field_cell;
     near.outward = normalize_or(near.outward, vec3f(0.0, 1.0, 0.0));

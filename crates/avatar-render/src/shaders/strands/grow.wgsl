@@ -42,24 +42,6 @@ fn other_from_head(index: u32, head: Bone) -> Bone {
         vec4f(x.x, y.x, z.x, position.x), vec4f(x.y, y.y, z.y, position.y), vec4f(x.z, y.z, z.z, position.z));
 }
 
-// Winds a strand around itself, more toward the tip.
-fn curl(strand: ptr<function, array<vec4f, SEGMENTS + 1u>>, radius: f32, turn: vec2f, start_phase: f32) {
-    if radius <= 0.0 {
-        return;
-    }
-    let along = normalize_or((*strand)[SEGMENTS].xyz - (*strand)[1].xyz, vec3f(0.0, -1.0, 0.0));
-    let beside = select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(along.x) < 0.8);
-    let side = normalize_or(cross(along, beside), vec3f(0.0, 0.0, 1.0));
-    let other = cross(along, side);
-    var phase = vec2f(cos(start_phase), sin(start_phase));
-    for (var i = 2u; i <= SEGMENTS; i++) {
-        phase = vec2f(turn.x * phase.x - turn.y * phase.y, turn.y * phase.x + turn.x * phase.y);
-        let t = f32(i - 1u) / f32(SEGMENTS - 1u);
-        let offset = (side * phase.x + other * phase.y) * (radius * min(3.0 * t, 1.0));
-        (*strand)[i] = vec4f((*strand)[i].xyz + offset, (*strand)[i].w);
-    }
-}
-
 @compute @workgroup_size(GROW_WORKGROUP_SIZE)
 fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     let number = id.x;
@@ -92,14 +74,19 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     let first = FIRST_SEGMENT * root.length / f32(SEGMENTS);
     let own = root.random * 2.0 - 1.0;
     // Short strands do not reach around a whole curl.
-    let curl_radius = min(style.curl_radius, CURL_SHARE * root.length);
-    let lift = style.volume * root.random.z + curl_radius;
+    let curl_reach = min(style.curl_radius, CURL_SHARE * root.length);
+    // Guides are the middle lines of locks.
+    let curl_radius = select(curl_reach, 0.0, root.guide == IS_GUIDE);
+    let lift = style.volume * root.random.z + curl_reach;
     let has_guide = root.guide < IS_GUIDE;
     let guide = select(0u, root.guide * POINT_STRIDE, has_guide);
-    var strand: array<vec4f, SEGMENTS + 1u>;
-    strand[0] = vec4f(start, 0.0);
+    // Curls wind around the strand: beside it is what is across the plane that it bends in.
+    let beside = normalize_or(cross(normal, down + comb), vec3f(1.0, 0.0, 0.0));
+    var phase = vec2f(cos(root.phase), sin(root.phase));
+    let out = number * POINT_STRIDE;
+    points[out] = vec4f(start_world, 0.0);
     var before = start + normal * first;
-    strand[1] = vec4f(before, first);
+    points[out + 1u] = vec4f(start_world + normal_world * first, first);
     var direction = normal;
     var skin_normal = normal;
     var near = 1.0;
@@ -137,17 +124,13 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
         direction = normalize_or(next - before, direction);
         // Pushed back, the segment gets shorter: at its full length it would be inside again.
         before += direction * min(step, distance(next, before));
-        strand[i] = vec4f(before, max(skin.distance, least));
+        let turn = style.curl_turn;
+        phase = vec2f(turn.x * phase.x - turn.y * phase.y, turn.y * phase.x + turn.x * phase.y);
+        let side = normalize_or(cross(direction, beside), normal);
+        let curl = (beside * phase.x + side * phase.y) * (curl_radius * min(3.0 * t, 1.0));
+        points[out + i] = vec4f(head_position + (before + curl) * posed_rows, max(skin.distance, least));
         skin_normal = skin.outward;
         near = saturate(1.0 - (skin.distance - least) / hair.combed_reach);
-    }
-    if root.guide != IS_GUIDE {
-        curl(&strand, curl_radius, style.curl_turn, root.phase);
-    }
-
-    let out = number * POINT_STRIDE;
-    for (var i = 0u; i <= SEGMENTS; i++) {
-        points[out + i] = vec4f(head_position + strand[i].xyz * posed_rows, strand[i].w);
     }
     points[out + SEGMENTS + 1u] = vec4f(normal_world, 0.0);
 }
