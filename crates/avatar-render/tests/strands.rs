@@ -7,7 +7,7 @@ use avatar_groom::{DensityMap, Groom, RegionStyle, Style};
 use avatar_mesh::PartKind;
 use avatar_render::headless::{Canvas, Gpu};
 use avatar_render::{AvatarModel, AvatarState, Camera, HairDetail, Light, PartTextures, Scene};
-use common::head::{Head, PLAIN, canvas, linear, luma, shrunk, ssim};
+use common::head::{Head, PLAIN, canvas, encoded, linear, luma, shrunk, ssim};
 use common::{gpu, model, part, square};
 use glam::Vec3;
 
@@ -78,6 +78,34 @@ fn strands_at_one_sample_are_nearer_to_many_samples_than_plain_lines_at_four() {
     for (name, yaw, ours, plain) in gains {
         assert!(ours > plain, "{name}, yaw {yaw}: {ours} at one sample, {plain} of plain lines at four");
     }
+}
+
+#[test]
+#[ignore = "writes the figure of docs/hair.md"]
+fn figure_of_thin_lines() {
+    const SIZE: usize = 96;
+    let gpu = gpu().expect("an adapter");
+    let head = Head::new();
+    let mut avatar = head.with_hair(gpu, Style::CURLY, 15_000.0);
+    let scene = head.scene(0.6, 0.75);
+    let mut picture =
+        |size: u32, samples, detail| draw(gpu, &canvas(gpu, size, samples), &scene, &mut avatar, detail);
+    let panels = [
+        picture(SIZE as u32, 4, PLAIN),
+        picture(SIZE as u32, 4, ALL),
+        picture(SIZE as u32, 1, ALL),
+        shrunk(&picture(8 * SIZE as u32, 4, PLAIN), 8 * SIZE, 8),
+    ];
+    let zoom = 3;
+    let (width, height) = ((panels.len() * SIZE * zoom) as u32, (SIZE * zoom) as u32);
+    let figure = image::RgbImage::from_fn(width, height, |x, y| {
+        let (x, y) = (x as usize / zoom, y as usize / zoom);
+        let p = panels[x / SIZE][y * SIZE + x % SIZE];
+        // Before grey.
+        image::Rgb([0, 1, 2].map(|c| (255.0 * encoded(p[c] + 0.1 * (1.0 - p[3]))).round() as u8))
+    });
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/images/hair/lines.png");
+    figure.save(path).expect("written");
 }
 
 #[test]

@@ -10,12 +10,11 @@ struct StrandPixel {
 // closing the hair. E. Enderton et al., "Stochastic Transparency", 2010.
 @fragment
 fn strand_masked_main(in: StrandOut) -> StrandPixel {
-    let color = target_color(in.light, 1.0).rgb;
     let least = hair_view.least_pixels;
     let coverage = select(1.0, min(in.pixels / max(0.35 * least, 1e-6), 1.0), least > 0.0);
     let count = u32(coverage * 4.0 + fract(in.random * 61.0));
     let turned = u32(in.random * 4.0) & 3u;
     let run = (1u << min(count, 4u)) - 1u;
     let mask = ((run << turned) | (run >> (4u - turned))) & 15u;
-    return StrandPixel(vec4f(color, 1.0), mask);
+    return StrandPixel(vec4f(in.color, 1.0), mask);
 }
