@@ -266,7 +266,8 @@ fn growth_and_copy(
     };
     let (mut empty, mut growing, mut copying) = (Vec::new(), Vec::new(), Vec::new());
     // The first of each makes what is made at the first use.
-    (timed(gpu, grow), timed(gpu, copy));
+    timed(gpu, grow);
+    timed(gpu, copy);
     for _ in 0..2 * rounds {
         empty.push(timed(gpu, |_| {}));
         growing.push(timed(gpu, grow));
