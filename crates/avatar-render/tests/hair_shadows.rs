@@ -5,12 +5,13 @@ mod common;
 
 use avatar_groom::{DensityMap, Groom, RegionStyle, Style};
 use avatar_mesh::{Mesh, PartKind};
+use avatar_render::headless::Canvas;
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Deformer, Grower, HairDetail, Material, PartTextures, Shading, Shadows,
-    Terms,
+    AvatarModel, AvatarState, Camera, Deformer, Grower, HairDetail, Material, PartDesc, PartTextures,
+    Quality, Scene, Shading, Shadows, Terms,
 };
 use common::stage::{key_light, light_of, lit_scene};
-use common::{gpu, model, part, square};
+use common::{ball, flat_light, gpu, model, part, square};
 use glam::{Affine3A, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
@@ -24,8 +25,8 @@ const RADIUS: f32 = 0.000_1;
 /// Up to 20,000 strands are this much wider than styles say.
 const WIDENED: f32 = 5.0;
 
-/// A plate; before it a sheet of parallel strands, from a patch at the side; before both a smaller plate.
-fn curtain(strands: f32) -> (AvatarModel, AvatarState) {
+/// A sheet of parallel strands that fills z = 0.5…1.5, from a patch at the side, and other parts.
+fn sheet(others: &[PartDesc<'_>], strands: f32, radius: f32) -> (AvatarModel, AvatarState) {
     let gpu = gpu().expect("asked before");
     let turn = Affine3A::from_translation(Vec3::new(-3.0, 0.0, 1.0)) * Affine3A::from_rotation_y(FRAC_PI_2);
     let patch = square(Vec3::ZERO, HALF);
@@ -34,28 +35,13 @@ fn curtain(strands: f32) -> (AvatarModel, AvatarState) {
         normals: patch.normals.iter().map(|n| turn.transform_vector3(*n)).collect(),
         ..patch
     };
-    let (behind, before) = (square(Vec3::ZERO, 3.5), square(Vec3::new(2.5, 0.0, 2.0), 0.3));
-    let none = PartTextures::default();
-    let parts = [
-        part(&behind, PartKind::Teeth, none),
-        part(&before, PartKind::Teeth, none),
-        part(&patch, PartKind::Skin, none),
-    ];
-    let (mut model, _) = model(gpu, &parts);
-    let matte = Material {
-        color: [1.0; 3],
-        wrap: [0.0; 3],
-        reflectance: 0.0,
-        wetness: 0.0,
-        back_light: 1.0,
-        ..Material::of(PartKind::Teeth)
-    };
-    assert!((0..2).all(|place| model.set_material(&gpu.queue, place, &matte)));
+    let skin = part(&patch, PartKind::Skin, PartTextures::default());
+    let (mut model, _) = model(gpu, &[others, &[skin]].concat());
     let scalp = RegionStyle {
         length: 6.0,
         length_variation: 0.0,
-        root_radius: RADIUS,
-        tip_radius: RADIUS,
+        root_radius: radius,
+        tip_radius: radius,
         bend: 0.0,
         gravity: 0.0,
         noise: 0.0,
@@ -64,9 +50,27 @@ fn curtain(strands: f32) -> (AvatarModel, AvatarState) {
     };
     let white = DensityMap::new(1, 1, vec![255]).expect("a map");
     let groom = Groom::new(&patch, &white, &[], Style { scalp, ..Style::SHORT }, strands, 5);
-    model.set_hair(&gpu.device, 2, &patch, Some(&groom)).expect("hair");
+    model.set_hair(&gpu.device, others.len(), &patch, Some(&groom)).expect("hair");
     let state = AvatarState::new(&gpu.device, &model);
     (model, state)
+}
+
+/// A plate behind the sheet, and a smaller one before it.
+fn curtain(strands: f32) -> (AvatarModel, AvatarState) {
+    let gpu = gpu().expect("asked before");
+    let (behind, before) = (square(Vec3::ZERO, 3.5), square(Vec3::new(2.5, 0.0, 2.0), 0.3));
+    let plate = |mesh| part(mesh, PartKind::Teeth, PartTextures::default());
+    let avatar = sheet(&[plate(&behind), plate(&before)], strands, RADIUS);
+    let matte = Material {
+        color: [1.0; 3],
+        wrap: [0.0; 3],
+        reflectance: 0.0,
+        wetness: 0.0,
+        back_light: 1.0,
+        ..Material::of(PartKind::Teeth)
+    };
+    assert!((0..2).all(|place| avatar.0.set_material(&gpu.queue, place, &matte)));
+    avatar
 }
 
 /// What hair leaves of the key's light behind it and before it.
@@ -123,5 +127,38 @@ fn hair_keeps_off_what_it_covers_behind_it_alone() {
         }
         let [behind, before] = left(Shadows::Off, &mut avatar);
         assert!((behind - 1.0).abs() < 1e-3 && (before - 1.0).abs() < 1e-3, "{behind} {before}");
+    }
+}
+
+#[test]
+fn what_is_clear_is_seen_before_hair_and_not_behind_it() {
+    let Some(gpu) = gpu() else { return };
+    let (far, near) = (Vec3::new(-0.6, 0.0, 0.0), Vec3::new(0.6, 0.0, 2.5));
+    let [behind, before] = [far, near].map(|center| ball(center, 0.25, 16));
+    let clear = |mesh| part(mesh, PartKind::Cornea, PartTextures::default());
+    let (model, mut state) = sheet(&[clear(&behind), clear(&before)], 8000.0, 0.001);
+    let red = Material { color: [1.0, 0.0, 0.0], opacity: 1.0, ..Material::of(PartKind::Cornea) };
+    assert!((0..2).all(|place| model.set_material(&gpu.queue, place, &red)));
+    let camera = Camera::orbit(Vec3::Z, 10.0, 0.0, 0.0, 0.3, 1.0);
+    let scene = Scene { camera, background: [0.0, 0.0, 0.0, 1.0], light: flat_light() };
+    for quality in [Quality::Plain, Quality::Low] {
+        for samples in [1, 4] {
+            let shading = quality.shading(avatar_render::Style::Natural);
+            let canvas = Canvas::new(gpu, 64, 64, samples, shading).expect("a canvas");
+            let mut red_at = |share| {
+                state.set_hair_detail(HairDetail { share, ..HairDetail::default() });
+                let picture = canvas.render(gpu, &scene, &[(&model, &state)]).expect("a picture");
+                [far, near].map(|center| {
+                    let at = common::stage::pixel_of(&camera, 64, center);
+                    let [r, g, ..] = picture.pixel(at.x as u32, at.y as u32);
+                    r.saturating_sub(g)
+                })
+            };
+            let ([far_bald, near_bald], [far_hair, near_hair]) = (red_at(0.0), red_at(1.0));
+            let said =
+                format!("{quality:?}, {samples} samples: {far_bald} {near_bald} {far_hair} {near_hair}");
+            assert!(far_bald > 100 && near_bald > 100, "{said}");
+            assert!(far_hair < far_bald / 2 && near_hair.abs_diff(near_bald) <= 2, "{said}");
+        }
     }
 }

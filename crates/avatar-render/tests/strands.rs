@@ -162,10 +162,10 @@ fn no_strands_leave_the_bald_picture() {
 
 #[test]
 fn views_of_one_submission_have_their_own_strands() {
-    use avatar_render::{Quality, Renderer, RendererConfig, Style as Manner, Targets};
+    use avatar_render::{PassTimer, Quality, Renderer, RendererConfig, Style as Manner, Targets};
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let (model, state) = head.with_hair(gpu, Style::BOB, 20_000.0);
+    let (model, mut state) = head.with_hair(gpu, Style::BOB, 20_000.0);
     let format = wgpu::TextureFormat::Rgba8UnormSrgb;
     let shading = Quality::Low.shading(Manner::Natural);
     let config = RendererConfig { color_format: format, samples: 4, shading };
@@ -219,6 +219,22 @@ fn views_of_one_submission_have_their_own_strands() {
     scenes.iter().zip(&textures).for_each(|(scene, texture)| record(&mut encoder, scene, texture));
     gpu.queue.submit([encoder.finish()]);
     assert!(textures.iter().map(bytes).eq(alone), "together as alone");
+
+    let Some(timer) = PassTimer::new(&gpu.device, &gpu.queue) else { return };
+    let named = |hair: &AvatarState| {
+        let view = textures[0].create_view(&Default::default());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let avatars = [(&model, hair)];
+        renderer
+            .draw_timed(&mut encoder, &view, &targets, &gpu.queue, &scenes[1], &avatars, Some(&timer))
+            .expect("recorded");
+        gpu.queue.submit([encoder.finish()]);
+        timer.read(&gpu.device).expect("times").into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+    };
+    let with_hair = ["deform", "grow hair", "shadows", "shadow of hair", "avatars", "hair", "corneas"];
+    assert_eq!(named(&state), with_hair);
+    state.set_hair_detail(bald(ALL));
+    assert_eq!(named(&state), ["deform", "shadows", "avatars"]);
 }
 
 /// Thin strands that stand in all directions on a small plate.
