@@ -72,7 +72,10 @@ fn main() {
             let count = model.strand_count();
             println!("{name}, {count} strands: a frame takes {frame:.2} ms, {bald:.2} ms without hair");
             let per = |ms: f64| ms * 1e6 / count as f64;
-            for (pass, ms) in &passes {
+            // Software adapters do not wait for compute passes to note their end.
+            let is_software = gpu.info.device_type == wgpu::DeviceType::Cpu;
+            let is_noted = |pass: &str| !(is_software && ["deform", "grow hair"].contains(&pass));
+            for (pass, ms) in passes.iter().filter(|(pass, _)| is_noted(pass)) {
                 println!("  {pass:<20}{ms:>9.2} ms{:>9.0} ns per strand", per(*ms));
             }
             let (growing, copying) = growth_and_copy(&gpu, &model, &state, bytes, rounds);
@@ -199,7 +202,7 @@ fn copy_main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) 
 /// Kernels per submission: what a submission costs by itself is little beside them.
 const REPEATS: u32 = 8;
 
-/// A submission's time by the clock; software adapters do not wait for compute passes to note their end.
+/// A submission's time by the clock.
 fn timed(gpu: &Gpu, record: impl Fn(&mut wgpu::CommandEncoder)) -> f64 {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     record(&mut encoder);
@@ -263,7 +266,8 @@ fn growth_and_copy(
     };
     let (mut empty, mut growing, mut copying) = (Vec::new(), Vec::new(), Vec::new());
     // The first of each makes what is made at the first use.
-    (timed(gpu, grow), timed(gpu, copy));
+    timed(gpu, grow);
+    timed(gpu, copy);
     for _ in 0..2 * rounds {
         empty.push(timed(gpu, |_| {}));
         growing.push(timed(gpu, grow));

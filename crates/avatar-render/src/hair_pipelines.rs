@@ -1,5 +1,6 @@
 //! Builds the pipelines that draw strands.
 
+use crate::Shading;
 use crate::pipelines::{Layouts, Recipe};
 use crate::renderer::RendererConfig;
 use crate::resources::HAIR_MAP_FORMAT;
@@ -36,7 +37,12 @@ impl HairPipelines {
         use wgpu::CompareFunction::{Always, Greater};
         let terms = config.shading.terms();
         let coverage_mask = config.samples > 1;
-        let constants = Constants { terms, encode_srgb: config.encodes_in_shader(), coverage_mask };
+        let constants = Constants {
+            terms,
+            encode_srgb: config.encodes_in_shader(),
+            coverage_mask,
+            toon: config.shading == Shading::Toon,
+        };
         let ribbons = Recipe {
             program: &MASKED_STRANDS,
             layout: &layouts.hair,

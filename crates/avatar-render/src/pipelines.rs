@@ -233,7 +233,7 @@ pub(crate) fn picture_pipeline(
     let constants = Constants {
         terms: config.shading.terms(),
         encode_srgb: config.encodes_in_shader(),
-        coverage_mask: false,
+        ..Constants::default()
     };
     recipe.build(device, &constants)
 }

@@ -32,11 +32,13 @@ pub(crate) struct Constants {
     pub(crate) encode_srgb: bool,
     /// Whether thin strands cover some of a pixel's samples, instead of being blended.
     pub(crate) coverage_mask: bool,
+    /// Whether strands are lit in bands.
+    pub(crate) toon: bool,
 }
 
 impl Default for Constants {
     fn default() -> Self {
-        Self { terms: Terms::NONE, encode_srgb: false, coverage_mask: false }
+        Self { terms: Terms::NONE, encode_srgb: false, coverage_mask: false, toon: false }
     }
 }
 
@@ -305,7 +307,7 @@ impl Program {
 
 impl Constants {
     fn text(&self) -> String {
-        let Self { terms, encode_srgb, coverage_mask } = self;
+        let Self { terms, encode_srgb, coverage_mask, toon } = self;
         let reach = terms.shadows.reach().map_or(-1, |reach| reach as i32);
         let flag = |name: &str, on: bool| format!("const {name}: bool = {on};\n");
         let number = |name: &str, value: u32| format!("const {name}: u32 = {value}u;\n");
@@ -343,6 +345,7 @@ impl Constants {
             flag("EYE_OPTICS", terms.eye_optics),
             flag("ENCODE_SRGB", *encode_srgb),
             flag("COVERAGE_MASK", *coverage_mask),
+            flag("TOON", *toon),
             number("SEGMENTS", SEGMENTS as u32),
             float("FIRST_SEGMENT", FIRST_SEGMENT),
             number("NO_GUIDE", NO_GUIDE),
@@ -397,7 +400,7 @@ pub(crate) mod tests {
     fn every_program_parses_and_validates_without_optional_capabilities() {
         for terms in [Terms::NONE, Terms::LOW, Terms::MEDIUM, Terms::HIGH] {
             let plain = terms == Terms::NONE;
-            let constants = Constants { terms, encode_srgb: plain, coverage_mask: !plain };
+            let constants = Constants { terms, encode_srgb: plain, coverage_mask: !plain, toon: plain };
             for program in all() {
                 let module = parsed(&program, &constants);
                 let mut validator = naga::valid::Validator::new(

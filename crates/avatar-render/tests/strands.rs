@@ -7,7 +7,7 @@ use avatar_groom::{DensityMap, Groom, RegionStyle, Style};
 use avatar_mesh::PartKind;
 use avatar_render::headless::{Canvas, Gpu};
 use avatar_render::{AvatarModel, AvatarState, Camera, HairDetail, Light, PartTextures, Scene};
-use common::head::{Head, PLAIN, canvas, linear, luma, shrunk, ssim};
+use common::head::{Head, PLAIN, canvas, encoded, linear, luma, shrunk, ssim};
 use common::{gpu, model, part, square};
 use glam::Vec3;
 
@@ -81,6 +81,34 @@ fn strands_at_one_sample_are_nearer_to_many_samples_than_plain_lines_at_four() {
 }
 
 #[test]
+#[ignore = "writes the figure of docs/hair.md"]
+fn figure_of_thin_lines() {
+    const SIZE: usize = 96;
+    let gpu = gpu().expect("an adapter");
+    let head = Head::new();
+    let mut avatar = head.with_hair(gpu, Style::CURLY, 15_000.0);
+    let scene = head.scene(0.6, 0.75);
+    let mut picture =
+        |size: u32, samples, detail| draw(gpu, &canvas(gpu, size, samples), &scene, &mut avatar, detail);
+    let panels = [
+        picture(SIZE as u32, 4, PLAIN),
+        picture(SIZE as u32, 4, ALL),
+        picture(SIZE as u32, 1, ALL),
+        shrunk(&picture(8 * SIZE as u32, 4, PLAIN), 8 * SIZE, 8),
+    ];
+    let zoom = 3;
+    let (width, height) = ((panels.len() * SIZE * zoom) as u32, (SIZE * zoom) as u32);
+    let figure = image::RgbImage::from_fn(width, height, |x, y| {
+        let (x, y) = (x as usize / zoom, y as usize / zoom);
+        let p = panels[x / SIZE][y * SIZE + x % SIZE];
+        // Before grey.
+        image::Rgb([0, 1, 2].map(|c| (255.0 * encoded(p[c] + 0.1 * (1.0 - p[3]))).round() as u8))
+    });
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/images/hair/lines.png");
+    figure.save(path).expect("written");
+}
+
+#[test]
 fn far_heads_have_a_quarter_of_the_strands_and_look_alike() {
     const SIZE: u32 = 96;
     let Some(gpu) = gpu() else { return };
@@ -134,10 +162,10 @@ fn no_strands_leave_the_bald_picture() {
 
 #[test]
 fn views_of_one_submission_have_their_own_strands() {
-    use avatar_render::{Quality, Renderer, RendererConfig, Style as Manner, Targets};
+    use avatar_render::{PassTimer, Quality, Renderer, RendererConfig, Style as Manner, Targets};
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let (model, state) = head.with_hair(gpu, Style::BOB, 20_000.0);
+    let (model, mut state) = head.with_hair(gpu, Style::BOB, 20_000.0);
     let format = wgpu::TextureFormat::Rgba8UnormSrgb;
     let shading = Quality::Low.shading(Manner::Natural);
     let config = RendererConfig { color_format: format, samples: 4, shading };
@@ -191,6 +219,22 @@ fn views_of_one_submission_have_their_own_strands() {
     scenes.iter().zip(&textures).for_each(|(scene, texture)| record(&mut encoder, scene, texture));
     gpu.queue.submit([encoder.finish()]);
     assert!(textures.iter().map(bytes).eq(alone), "together as alone");
+
+    let Some(timer) = PassTimer::new(&gpu.device, &gpu.queue) else { return };
+    let named = |hair: &AvatarState| {
+        let view = textures[0].create_view(&Default::default());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let avatars = [(&model, hair)];
+        renderer
+            .draw_timed(&mut encoder, &view, &targets, &gpu.queue, &scenes[1], &avatars, Some(&timer))
+            .expect("recorded");
+        gpu.queue.submit([encoder.finish()]);
+        timer.read(&gpu.device).expect("times").into_iter().map(|(name, _)| name).collect::<Vec<_>>()
+    };
+    let with_hair = ["deform", "grow hair", "shadows", "shadow of hair", "avatars", "hair", "corneas"];
+    assert_eq!(named(&state), with_hair);
+    state.set_hair_detail(bald(ALL));
+    assert_eq!(named(&state), ["deform", "shadows", "avatars"]);
 }
 
 /// Thin strands that stand in all directions on a small plate.

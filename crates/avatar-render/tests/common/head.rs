@@ -104,14 +104,19 @@ pub(crate) fn shrunk(light: &[[f32; 4]], size: usize, factor: usize) -> Vec<[f32
     sums
 }
 
+/// IEC 61966-2-1.
+pub(crate) fn encoded(linear: f32) -> f32 {
+    let c = linear.clamp(0.0, 1.0);
+    if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
+}
+
 /// Luminance as displays have it, before grey, 0…255.
 pub(crate) fn luma(light: &[[f32; 4]]) -> Vec<f64> {
-    let encoded = |p: &[f32; 4]| {
+    let of = |p: &[f32; 4]| {
         let over = |c: usize| p[c] + 0.2 * (1.0 - p[3]);
-        let y = f64::from(0.2126 * over(0) + 0.7152 * over(1) + 0.0722 * over(2)).clamp(0.0, 1.0);
-        255.0 * if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * y.powf(1.0 / 2.4) - 0.055 }
+        255.0 * f64::from(encoded(0.2126 * over(0) + 0.7152 * over(1) + 0.0722 * over(2)))
     };
-    light.iter().map(encoded).collect()
+    light.iter().map(of).collect()
 }
 
 /// The structural similarity of two square pictures at each pixel: Z. Wang et al., "Image Quality Assessment: From Error

@@ -8,8 +8,9 @@ const STRAND_BLOCKS: f32 = 0.3;
 
 struct StrandOut {
     @builtin(position) position_clip: vec4f,
-    // Light toward the viewer: the strand is thin, so that its points say it all.
-    @location(0) light: vec3f,
+    // As the target has it: the strand is thin, so that its points say it all. Many strands lie in a pixel, and tone
+    // mapping at each of them costs more than all the rest.
+    @location(0) color: vec3f,
     // Width of the strand, and distance from its middle, in pixels.
     @location(1) pixels: f32,
     @location(2) off: f32,
@@ -23,6 +24,19 @@ fn strand_highlight(tangent: vec3f, normal: vec3f, half_way: vec3f, shift: f32, 
     return smoothstep(-1.0, 0.0, along) * pow(across, sharpness);
 }
 
+// Two tones and a band of light, as drawn: those of toon/toon.wgsl.
+fn toon_strand_light(point: StrandPoint, normal: vec3f, color: vec3f) -> vec3f {
+    let key = frame.lamps[KEY_LAMP];
+    let lifted = point.position + normal * hair.margin * 3.0;
+    let seen = smoothstep(0.4, 0.6, cast_visibility(KEY_LAMP, lifted, normal));
+    let open = smoothstep(0.35, 0.5, hair_visibility(point.position, frame.hair_shadow * STRAND_BLOCKS, 0));
+    let light = seen * open * smoothstep(0.08, 0.16, dot(normal, key.direction_world));
+    let half_way = normalize(key.direction_world + normalize(frame.eye_world - point.position));
+    let band = smoothstep(0.6, 0.75, strand_highlight(point.tangent, normal, half_way, -0.12, 24.0));
+    let ambient = irradiance_at(vec3f(0.0, 0.0, 1.0)) * 0.55 + vec3f(0.10, 0.08, 0.14);
+    return color * (ambient + key.radiance * light * (0.85 + band));
+}
+
 // `open` is the share of light from everywhere that other hair lets through.
 fn strand_light(point: StrandPoint, color: vec3f, open: f32) -> vec3f {
     let position = point.position;
@@ -30,6 +44,9 @@ fn strand_light(point: StrandPoint, color: vec3f, open: f32) -> vec3f {
     let view = normalize(frame.eye_world - position);
     // The part of the skin's normal that is across the strand: which side of the head it is on.
     let normal = normalize(point.normal - tangent * dot(point.normal, tangent) * 0.7);
+    if TOON {
+        return toon_strand_light(point, normal, color);
+    }
     var light = color * irradiance_at(normal) * open;
     for (var i = 0u; i < LAMP_COUNT; i++) {
         let lamp = frame.lamps[i];
@@ -64,7 +81,7 @@ fn strand_main(@builtin(vertex_index) corner: u32, @builtin(instance_index) stra
     let open = saturate(0.3 + 0.7 * point.along + 0.25 * point.height / (8.0 * hair.margin));
     var out: StrandOut;
     out.position_clip = ribbon.position_clip;
-    out.light = strand_light(point, color, open);
+    out.color = target_color(strand_light(point, color, open), 1.0).rgb;
     out.pixels = ribbon.pixels;
     out.off = ribbon.off;
     out.random = random.z;

@@ -20,6 +20,5 @@ fn strand_layered_main(in: StrandOut) -> StrandLayer {
     let mean = layers.g / max(layers.r, 1e-4);
     let before = saturate((layers.a - nearness(in.position_clip.z)) / max(2.0 * (layers.a - mean), 1e-3));
     let weight = coverage * SCALE * exp(-min(layers.r * before, DEEPEST));
-    let color = target_color(in.light, 1.0).rgb;
-    return StrandLayer(vec4f(color * weight, weight), vec4f(coverage));
+    return StrandLayer(vec4f(in.color * weight, weight), vec4f(coverage));
 }

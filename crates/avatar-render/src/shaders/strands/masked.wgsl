@@ -5,17 +5,16 @@ struct StrandPixel {
     @builtin(sample_mask) samples: u32,
 }
 
-// A strand thinner than a pixel is a pixel wide and covers fewer of its samples: it fades, and does not flicker. Which
+// A strand thinner than the least is as wide as that and covers fewer samples: it fades, and flickers less. Which
 // samples is the strand's own choice: with one pattern for all, strands would lie under one another without ever
 // closing the hair. E. Enderton et al., "Stochastic Transparency", 2010.
 @fragment
 fn strand_masked_main(in: StrandOut) -> StrandPixel {
-    let color = target_color(in.light, 1.0).rgb;
     let least = hair_view.least_pixels;
-    let coverage = select(1.0, min(in.pixels / max(0.35 * least, 1e-6), 1.0), least > 0.0);
+    let coverage = select(1.0, min(in.pixels / max(LEAST_OF_SAMPLES * least, 1e-6), 1.0), least > 0.0);
     let count = u32(coverage * 4.0 + fract(in.random * 61.0));
     let turned = u32(in.random * 4.0) & 3u;
     let run = (1u << min(count, 4u)) - 1u;
     let mask = ((run << turned) | (run >> (4u - turned))) & 15u;
-    return StrandPixel(vec4f(color, 1.0), mask);
+    return StrandPixel(vec4f(in.color, 1.0), mask);
 }

@@ -68,14 +68,18 @@ struct RibbonCorner {
     off: f32,
 }
 
+// Where pixels have several samples, strands fade below this share of the least width: those are nearer to one another.
+// Wider ones would be calmer, and more like noise in a still picture.
+const LEAST_OF_SAMPLES: f32 = 0.35;
+
 // A corner of the ribbon that is drawn for a strand. Where pixels have one sample, it reaches over all pixels that the
-// strand touches; where they have several, it is at least as wide as a pixel.
+// strand touches; where they have several, it is wide enough to meet one.
 fn ribbon_corner(point: StrandPoint, corner: u32) -> RibbonCorner {
     let middle = frame.clip_from_world * vec4f(point.position, 1.0);
     let per_pixel = max(middle.w, 1e-6) / frame.pixels_per_unit;
     let pixels = 2.0 * point.radius / per_pixel;
     let least = hair_view.least_pixels;
-    let drawn = select(pixels + least, max(pixels, 0.35 * least), COVERAGE_MASK);
+    let drawn = select(pixels + least, max(pixels, LEAST_OF_SAMPLES * least), COVERAGE_MASK);
     let to_eye = normalize(frame.eye_world - point.position);
     let side = strand_side(point.tangent, to_eye) * corner_sign(corner);
     let position = point.position + side * (0.5 * drawn * per_pixel);
