@@ -16,7 +16,9 @@ mod density;
 mod groom;
 mod grow;
 mod hull;
+mod pieces;
 mod random;
+mod regions;
 mod roots;
 mod style;
 
@@ -24,5 +26,5 @@ pub use density::DensityMap;
 pub use groom::Groom;
 pub use grow::{FIRST_SEGMENT, MARGIN, SEGMENTS, TUFT_TRIANGLES, Triangle, grow};
 pub use hull::{HULL_SIZE, Hull};
-pub use roots::{Region, Root, scatter};
+pub use roots::{MAX_ROOTS, Region, Root, scatter};
 pub use style::{RegionStyle, Style};
