@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!  density texture + skin ──▶ Root per strand ─┐
-//!  Style (short, bob, long …) ─────────────────┼──▶ Groom ──▶ avatar-render grows and draws it every frame
-//!  skin at bind pose ──▶ Hull ─────────────────┘          └──▶ grow(): the same strand on the CPU
+//!  hair.toml ──▶ Hair { Style, seed … } ───────┼──▶ Groom ──▶ avatar-render grows and draws it every frame
+//!  skin at bind pose ──▶ Hull ──────────────────┘         └──▶ grow(): the same strand on the CPU
 //! ```
 //!
 //! A root keeps its triangle, its place in it and its random numbers for good, so that it follows the deformed skin exactly.
@@ -15,16 +15,20 @@
 mod density;
 mod groom;
 mod grow;
+mod hair;
 mod hull;
 mod pieces;
 mod random;
 mod regions;
 mod roots;
 mod style;
+mod style_toml;
 
 pub use density::DensityMap;
 pub use groom::Groom;
 pub use grow::{FIRST_SEGMENT, MARGIN, SEGMENTS, TUFT_TRIANGLES, Triangle, grow};
+pub use hair::Hair;
 pub use hull::{HULL_SIZE, Hull};
+pub use placed_toml::TomlError;
 pub use roots::{MAX_ROOTS, Region, Root, scatter};
 pub use style::{RegionStyle, Style};
