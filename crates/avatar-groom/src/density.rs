@@ -1,4 +1,4 @@
-use crate::pieces::{Pieces, weighted};
+use crate::pieces::Pieces;
 use glam::Vec2;
 use std::ops::Range;
 
@@ -62,14 +62,6 @@ impl DensityMap {
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
         let above = mix(value(x0, y0), value(x1, y0), share.x);
         mix(above, mix(value(x0, y1), value(x1, y1), share.x), share.y)
-    }
-
-    /// The mean over a triangle: over the middles of alike pieces that are about as large as a value of the map.
-    pub fn mean(&self, uvs: [Vec2; 3]) -> f32 {
-        let Some(pieces) = self.pieces(uvs) else { return 0.0 };
-        let mut sum = 0.0;
-        pieces.visit(&mut |piece| sum += f64::from(self.at(weighted(uvs, piece.middle()))));
-        (sum / pieces.count() as f64) as f32
     }
 
     /// Cuts a triangle so that the map is nearly even on each piece; `None` where it is 0 all over.
