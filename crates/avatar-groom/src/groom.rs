@@ -24,6 +24,8 @@ pub struct Groom {
     pub style: Style,
     /// What strands stay outside of.
     pub field: Field,
+    /// Strands that were asked for, over a square of the skin's height: how densely they stand, and so how wide they are.
+    pub strands: f32,
     /// The bone that moves most of the hair.
     pub head_bone: u32,
     /// Height of the skin: what lengths of the style are measured by.
@@ -53,11 +55,7 @@ impl Groom {
         let bounds = skin.bounds().unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ONE });
         let height = bounds.size().y.max(1e-6);
         let middle = (bounds.min.x + bounds.max.x) * 0.5;
-        let mut roots = scatter(skin, density, eyes, &style, strands, seed);
-        roots.retain(|root| {
-            let off = (position(skin, root).x - middle).abs() / height;
-            root.region != Region::Scalp || off < style.scalp.strip
-        });
+        let roots = scatter(skin, density, eyes, &style, strands, seed);
         let positions: Vec<Vec3> = roots.iter().map(|root| position(skin, root)).collect();
         let parting = middle + style.scalp.parting * height;
         let guides = guides::choose(&roots);
@@ -69,6 +67,7 @@ impl Groom {
             phases: Vec::new(),
             field: Field::new(skin, head_bone),
             head_bone,
+            strands,
             guides,
             roots,
             style,

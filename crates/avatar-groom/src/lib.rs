@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!  density texture + skin ──▶ Root per strand ─┐
-//!  Style (short, bob, long …) ─────────────────┼──▶ Groom ──▶ avatar-render grows and draws it every frame
-//!  skin at bind pose ──▶ Field ────────────────┘          └──▶ grow(): the same strand on the CPU
+//!  hair.toml ──▶ Hair { Style, seed … } ───────┼──▶ Groom ──▶ avatar-render grows and draws it every frame
+//!  skin at bind pose ──▶ Field ─────────────────┘         └──▶ grow(): the same strand on the CPU
 //! ```
 //!
 //! A root keeps its triangle, its place in it and its random numbers for good, so that it follows the deformed skin exactly.
@@ -17,10 +17,14 @@ mod field;
 mod groom;
 mod grow;
 mod guides;
+mod hair;
+mod pieces;
 mod pseudonormal;
 mod random;
+mod regions;
 mod roots;
 mod style;
+mod style_toml;
 
 pub use density::DensityMap;
 pub use field::{Field, Near, OTHER_BONES};
@@ -30,5 +34,7 @@ pub use grow::{
     grow_guide,
 };
 pub use guides::NO_GUIDE;
-pub use roots::{Region, Root, scatter};
+pub use hair::Hair;
+pub use placed_toml::TomlError;
+pub use roots::{MAX_ROOTS, Region, Root, scatter};
 pub use style::{RegionStyle, Style};

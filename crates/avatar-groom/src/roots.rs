@@ -1,4 +1,6 @@
+use crate::pieces::{Piece, Pieces, weighted};
 use crate::random::{bits, unit};
+use crate::regions::Regions;
 use crate::{DensityMap, Style};
 use avatar_mesh::{Bounds, Mesh};
 use glam::{Vec2, Vec3};
@@ -30,20 +32,24 @@ pub struct Root {
     pub region: Region,
 }
 
-/// Attempts to find a place that the density accepts; after that the last one is taken.
-const ATTEMPTS: u64 = 16;
-/// Lashes grow within this distance of an eye's middle, brows within the other one, by the eye's radius.
-const LASHES_REACH: f32 = 1.25;
-const BROWS_REACH: f32 = 3.0;
-/// Brows and lashes are painted darker than this.
-const SCALP_DENSITY: f32 = 0.5;
+/// No head has more roots than this: enough for whole heads, and an end to what broken files ask for.
+pub const MAX_ROOTS: usize = 1 << 22;
 
-/// Scatters roots: on each triangle as many as its area times its mean density asks for, `strands` of them over a square
-/// of the skin's height where the density is 1 and the style's own density 1. Positions are those of the bind pose; `eyes`
-/// are the boxes of the eyeballs, without which there are neither brows nor lashes.
+/// Attempts to find a place in a piece that the density accepts; after that its middle is taken, where there is some.
+const ATTEMPTS: u64 = 8;
+
+/// Pieces of all triangles together, beyond which they are made coarser: a fraction of a second.
+const MAX_PIECES: u64 = 1 << 25;
+
+/// Scatters roots: as many as area × density asks for, `strands` of them over a square of the skin's height where the density
+/// of the map is 1 and that of the style, too. Positions are those of the bind pose; `eyes` are the boxes of the eyeballs,
+/// without which there are neither brows nor lashes. There are at most [`MAX_ROOTS`].
 ///
-/// Shares of triangles are laid end to end, and strands are taken at even steps along them (systematic sampling over
-/// prefix sums): each triangle gets its share to within one strand. The order is a fixed shuffle.
+/// Triangles are cut into pieces about as large as values of the map. For each region the shares of all pieces are laid end
+/// to end, and a strand is planted at a random place within every step of length 1 (stratified sampling over prefix sums), so
+/// that each stretch of the way gets its share to within one strand; the exact place is found by the density in the piece.
+/// Where the density is 0 nothing grows. The same input gives the same roots on every machine, in a shuffled but fixed order:
+/// the first N are a fair sample of all.
 pub fn scatter(
     mesh: &Mesh,
     density: &DensityMap,
@@ -52,80 +58,147 @@ pub fn scatter(
     strands: f32,
     seed: u64,
 ) -> Vec<Root> {
-    let height = f64::from(mesh.bounds().map_or(1.0, |bounds| bounds.size().y).max(1e-6));
+    let Some(skin) = mesh.bounds() else { return Vec::new() };
+    let regions = Regions::new(eyes, skin, style);
+    let height = f64::from(skin.size().y.max(1e-6));
     let per_area = f64::from(strands.max(0.0)) / (height * height);
-    let mut roots = Vec::new();
-    let mut counted = 0u64;
-    let mut share = f64::from(unit(seed, u64::MAX));
-    for (triangle, &corners) in mesh.triangles.iter().enumerate() {
-        let Some((positions, uvs)) = points(mesh, corners) else { continue };
-        let area = 0.5 * f64::from((positions[1] - positions[0]).cross(positions[2] - positions[0]).length());
-        let mean = f64::from(density.mean(uvs));
-        let wanted = area * mean * per_area;
-        // Also no number, from a broken mesh.
-        if wanted <= 0.0 || !wanted.is_finite() {
-            continue;
-        }
-        share += wanted;
-        while (counted as f64) + 1.0 <= share {
-            let barycentric = place(density, uvs, seed, counted);
-            let at = |weights: [f32; 3]| (0..3).map(|i| positions[i] * weights[i]).sum::<Vec3>();
-            let uv = (0..3).map(|i| uvs[i] * barycentric[i]).sum::<Vec2>();
-            let region = region(at(barycentric), density.at(uv), eyes);
-            let key = counted * 8;
-            // A style without this region grows nothing there.
-            if unit(seed ^ 0xB0B, key) < style.region(region).density {
-                let random = std::array::from_fn(|i| unit(seed ^ 0xACE, key + i as u64));
-                roots.push((
-                    bits(seed ^ 0x5EED, key),
-                    Root { triangle: triangle as u32, corners, barycentric, random, region },
-                ));
-            }
-            counted += 1;
-        }
+    if regions.is_bald() || per_area <= 0.0 {
+        return Vec::new();
     }
+    let patches: Vec<(Patch, Pieces)> = (0..mesh.triangles.len())
+        .filter_map(|triangle| Patch::new(mesh, triangle))
+        .filter_map(|patch| density.pieces(patch.uvs).map(|pieces| (patch, pieces)))
+        .collect();
+    let count = |coarser: u32| patches.iter().map(|(_, pieces)| pieces.coarser(coarser).count()).sum::<u64>();
+    let coarser = (0..16).find(|coarser| count(*coarser) <= MAX_PIECES).unwrap_or(16);
+
+    let mut planter =
+        Planter { density, regions, rows: [0, 1, 2].map(|region| Row::new(seed, region)), roots: Vec::new() };
+    for (patch, pieces) in &patches {
+        let pieces = pieces.coarser(coarser);
+        let share = patch.area * per_area / pieces.count() as f64;
+        pieces.visit(&mut |piece| planter.plant(patch, piece, share));
+    }
+    let mut roots = planter.roots;
     roots.sort_unstable_by_key(|(order, root)| (*order, root.triangle));
     roots.into_iter().map(|(_, root)| root).collect()
 }
 
-fn points(mesh: &Mesh, corners: [u32; 3]) -> Option<([Vec3; 3], [Vec2; 3])> {
-    let mut positions = [Vec3::ZERO; 3];
-    let mut uvs = [Vec2::ZERO; 3];
-    for (i, corner) in corners.into_iter().enumerate() {
-        positions[i] = *mesh.positions.get(corner as usize)?;
-        uvs[i] = *mesh.uvs.get(corner as usize)?;
-    }
-    Some((positions, uvs))
+/// A triangle that hair may grow on.
+struct Patch {
+    triangle: u32,
+    corners: [u32; 3],
+    positions: [Vec3; 3],
+    uvs: [Vec2; 3],
+    area: f64,
 }
 
-/// A place on a triangle, found with a chance that is proportional to the density there.
-fn place(density: &DensityMap, uvs: [Vec2; 3], seed: u64, strand: u64) -> [f32; 3] {
-    let mut weights = [1.0 / 3.0; 3];
-    let most = uvs.map(|uv| density.at(uv)).into_iter().fold(density.mean(uvs), f32::max).max(1e-3);
-    for attempt in 0..ATTEMPTS {
-        let key = (strand * ATTEMPTS + attempt) * 4;
-        let (a, b) = (unit(seed ^ 0xA11, key), unit(seed ^ 0xA11, key + 1));
-        // Evenly over the triangle: the root spreads what would crowd at a corner (G. Turk, Graphics Gems, 1990).
-        let root = a.sqrt();
-        weights = [1.0 - root, root * (1.0 - b), root * b];
-        let uv = (0..3).map(|i| uvs[i] * weights[i]).sum::<Vec2>();
-        if unit(seed ^ 0xA11, key + 2) * most < density.at(uv) {
-            break;
+impl Patch {
+    /// `None` for what has no area, and for broken meshes.
+    fn new(mesh: &Mesh, triangle: usize) -> Option<Self> {
+        let corners = *mesh.triangles.get(triangle)?;
+        let mut positions = [Vec3::ZERO; 3];
+        let mut uvs = [Vec2::ZERO; 3];
+        for (i, corner) in corners.into_iter().enumerate() {
+            positions[i] = *mesh.positions.get(corner as usize)?;
+            uvs[i] = *mesh.uvs.get(corner as usize)?;
+        }
+        let [a, b, c] = positions.map(Vec3::as_dvec3);
+        let area = 0.5 * (b - a).cross(c - a).length();
+        (area > 0.0 && area.is_finite()).then_some(Self {
+            triangle: triangle as u32,
+            corners,
+            positions,
+            uvs,
+            area,
+        })
+    }
+}
+
+/// The shares of one region, laid end to end.
+struct Row {
+    seed: u64,
+    sum: f64,
+    /// Number of the next strand, and where it is planted.
+    strand: u64,
+    next: f64,
+}
+
+impl Row {
+    fn new(seed: u64, region: u64) -> Self {
+        let seed = bits(seed, region);
+        Self { seed, sum: 0.0, strand: 0, next: f64::from(unit(seed, 0)) }
+    }
+
+    /// Moves on by a share; the numbers of the strands that are planted there.
+    fn advance(&mut self, share: f64) -> std::ops::Range<u64> {
+        let first = self.strand;
+        self.sum += share;
+        while self.next < self.sum && self.strand - first < MAX_ROOTS as u64 {
+            self.strand += 1;
+            self.next = self.strand as f64 + f64::from(unit(self.seed, self.strand * KEYS));
+        }
+        first..self.strand
+    }
+}
+
+/// Random numbers that belong to one strand: where its step is planted, its order, its own ones, its attempts.
+const KEYS: u64 = 64;
+const ORDER: u64 = 1;
+const OWN: u64 = 2;
+const ATTEMPT: u64 = 8;
+
+struct Planter<'a> {
+    density: &'a DensityMap,
+    regions: Regions,
+    rows: [Row; 3],
+    roots: Vec<(u64, Root)>,
+}
+
+impl Planter<'_> {
+    /// `share`: strands of this piece where the density is 1.
+    fn plant(&mut self, patch: &Patch, piece: Piece, share: f64) {
+        let middle = piece.middle();
+        let (region, most) = self.density_at(patch, middle);
+        let wanted = share * f64::from(most);
+        // Also no number, from a broken mesh.
+        if !(wanted > 0.0 && wanted.is_finite()) {
+            return;
+        }
+        let row = &mut self.rows[region as usize];
+        let seed = row.seed;
+        let strands = row.advance(wanted);
+        if strands.is_empty() {
+            return;
+        }
+        let densities = piece.corners.map(|corner| self.density_at(patch, corner).1);
+        let most = densities.into_iter().fold(most, f32::max);
+        for strand in strands {
+            if self.roots.len() >= MAX_ROOTS {
+                return;
+            }
+            let number = |key: u64| unit(seed, strand * KEYS + key);
+            let place = (0..ATTEMPTS).map(|attempt| ATTEMPT + 3 * attempt).find_map(|key| {
+                let place = piece.place(number(key), number(key + 1));
+                let (there, density) = self.density_at(patch, place);
+                (there == region && number(key + 2) * most < density).then_some(place)
+            });
+            let root = Root {
+                triangle: patch.triangle,
+                corners: patch.corners,
+                barycentric: place.unwrap_or(middle).to_array(),
+                random: std::array::from_fn(|i| number(OWN + i as u64)),
+                region,
+            };
+            self.roots.push((bits(seed, strand * KEYS + ORDER), root));
         }
     }
-    weights
-}
 
-fn region(position: Vec3, density: f32, eyes: &[Bounds]) -> Region {
-    let near = |reach: f32| {
-        eyes.iter().any(|eye| {
-            let radius = eye.size().max_element() * 0.5;
-            position.distance(eye.center()) < reach * radius
-        })
-    };
-    match density < SCALP_DENSITY {
-        true if near(LASHES_REACH) => Region::Lashes,
-        true if near(BROWS_REACH) => Region::Brows,
-        _ => Region::Scalp,
+    /// What grows at a place of a triangle, and how dense.
+    fn density_at(&self, patch: &Patch, barycentric: Vec3) -> (Region, f32) {
+        let [a, b, c] = patch.positions;
+        let point = a * barycentric.x + b * barycentric.y + c * barycentric.z;
+        let (region, density) = self.regions.density(point);
+        (region, density * self.density.at(weighted(patch.uvs, barycentric)))
     }
 }

@@ -13,9 +13,11 @@ pub struct Style {
 }
 
 /// How the hair of one region looks and falls. Lengths are fractions of the height of the skin, colours are linear.
+///
+/// A new value is also a line in `style_toml.rs`, which makes it a key of `hair.toml`, and one in the example there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegionStyle {
-    /// Share of the strands that the density asks for, 0 (bald) to 1.
+    /// Strands by what the density texture asks for: 0 is bald, 1 what it says; brows and lashes are denser than it can say.
     pub density: f32,
     /// Length of a strand.
     pub length: f32,
@@ -55,6 +57,8 @@ pub struct RegionStyle {
     pub clump: f32,
     /// How much each strand goes its own way.
     pub noise: f32,
+    /// How many times a second tips swing when the head has moved; 0: they do not.
+    pub swing: f32,
 }
 
 impl Style {
@@ -89,12 +93,13 @@ impl Style {
         curl_turns: 0.0,
         clump: 0.25,
         noise: 0.15,
+        swing: 0.0,
     };
     const BROW: RegionStyle = RegionStyle {
-        density: 1.0,
-        length: 0.016,
-        length_variation: 0.3,
-        root_radius: 0.0005,
+        density: 4.0,
+        length: 0.018,
+        length_variation: 0.5,
+        root_radius: 0.0003,
         tip_radius: 0.0001,
         bend: 0.75,
         gravity: 0.0,
@@ -103,10 +108,11 @@ impl Style {
         ..Self::STRAND
     };
     const LASH: RegionStyle = RegionStyle {
-        density: 0.12,
-        length: 0.014,
-        bend: 0.35,
-        gravity: 0.0,
+        density: 16.0,
+        length: 0.022,
+        length_variation: 0.4,
+        tip_radius: 0.00008,
+        bend: 0.3,
         comb: [0.4, 0.5, 0.8],
         root_color: [0.008, 0.006, 0.005],
         tip_color: [0.012, 0.009, 0.008],
@@ -182,6 +188,11 @@ impl Style {
     };
     /// Brows and lashes only.
     pub const BALD: Self = Self { scalp: RegionStyle { density: 0.0, ..Self::STRAND }, ..Self::SHORT };
+
+    /// The preset of this name.
+    pub fn preset(name: &str) -> Option<Self> {
+        Self::PRESETS.into_iter().find(|(other, _)| *other == name).map(|(_, style)| style)
+    }
 
     /// The style of a region.
     pub fn region(&self, region: Region) -> &RegionStyle {

@@ -18,8 +18,6 @@ mod material;
 mod materials;
 mod materials_fields;
 mod materials_toml;
-mod nearest;
-mod text;
 
 mod environment;
 mod irradiance;
@@ -31,14 +29,13 @@ mod scatter;
 mod split_sum;
 pub mod tone;
 
-mod error;
-
 pub use environment::{Environment, PANEL_CORE, PANEL_COUNT, Panel};
-pub use error::LookError;
 pub use irradiance::irradiance_at;
 pub use light::{Lamp, Light, LightPreset, ToneMap};
 pub use material::{Iris, Material};
 pub use materials::Materials;
+/// Why a text about looks could not be read, and where.
+pub use placed_toml::TomlError as LookError;
 pub use reflections::{CUBE_FACES, cube_direction};
 pub use scatter::scatter_table;
 pub use split_sum::{directional_albedo, split_sum};

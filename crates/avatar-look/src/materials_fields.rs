@@ -1,53 +1,18 @@
 //! What a `materials.toml` may hold, stated once for the reader and the writer.
 
 use crate::Material;
+use placed_toml::Field;
 
-/// One key of a table.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Field {
-    pub(crate) name: &'static str,
-    pub(crate) slot: Slot,
-    pub(crate) min: f32,
-    pub(crate) max: f32,
+const fn one(name: &'static str, max: f32, slot: fn(&mut Material) -> &mut f32) -> Field<Material> {
+    Field::one(name, 0.0, max, slot)
 }
 
-/// Where its value belongs.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Slot {
-    One(fn(&mut Material) -> &mut f32),
-    Three(fn(&mut Material) -> &mut [f32; 3]),
-}
-
-impl Field {
-    /// What would be right there.
-    pub(crate) fn expected(&self) -> String {
-        let what = match self.slot {
-            Slot::One(_) => "a number",
-            Slot::Three(_) => "an array of three numbers",
-        };
-        format!("{what} from {} to {}", self.min, self.max)
-    }
-
-    /// Its numbers in this material: one or three.
-    pub(crate) fn values(&self, material: &Material) -> Vec<f32> {
-        let mut copy = *material;
-        match self.slot {
-            Slot::One(slot) => vec![*slot(&mut copy)],
-            Slot::Three(slot) => slot(&mut copy).to_vec(),
-        }
-    }
-}
-
-const fn one(name: &'static str, max: f32, slot: fn(&mut Material) -> &mut f32) -> Field {
-    Field { name, slot: Slot::One(slot), min: 0.0, max }
-}
-
-const fn three(name: &'static str, slot: fn(&mut Material) -> &mut [f32; 3]) -> Field {
-    Field { name, slot: Slot::Three(slot), min: 0.0, max: 1.0 }
+const fn three(name: &'static str, slot: fn(&mut Material) -> &mut [f32; 3]) -> Field<Material> {
+    Field::three(name, 0.0, 1.0, slot)
 }
 
 /// The keys of all tables, in the order in which they are written.
-pub(crate) const FIELDS: [Field; 17] = [
+pub(crate) const FIELDS: [Field<Material>; 17] = [
     three("color", |m| &mut m.color),
     one("opacity", 1.0, |m| &mut m.opacity),
     one("reflectance", 1.0, |m| &mut m.reflectance),
@@ -71,8 +36,8 @@ pub(crate) const FIELDS: [Field; 17] = [
 pub(crate) const IRIS: &str = "iris";
 
 /// The keys of an `iris` table.
-pub(crate) const IRIS_FIELDS: [Field; 7] = [
-    Field { min: 1.0, ..one("refractive_index", 3.0, |m| &mut m.iris.refractive_index) },
+pub(crate) const IRIS_FIELDS: [Field<Material>; 7] = [
+    Field::one("refractive_index", 1.0, 3.0, |m| &mut m.iris.refractive_index),
     one("depth", 1.0, |m| &mut m.iris.depth),
     one("pupil", 1.0, |m| &mut m.iris.pupil),
     one("painted_pupil", 1.0, |m| &mut m.iris.painted_pupil),

@@ -50,6 +50,9 @@ pub enum PackProblem {
     /// `materials.toml` is not as its format demands.
     #[error("{0}")]
     Look(LookError),
+    /// `hair.toml` is not as its format demands.
+    #[error("{0}")]
+    Hair(avatar_groom::TomlError),
     /// A control names a joint or shape that the pack does not have.
     #[error("{0}")]
     Bind(BindError),

@@ -1,15 +1,16 @@
 //! Avatar packs: rig, meshes, textures, controls and poses from a set of named byte strings.
 //!
 //! ```text
-//!  Source ──▶ Pack  { rig, parts, palette, controls, poses, materials }      geometry and motion
+//!  Source ──▶ Pack  { rig, parts, palette, controls, poses, materials, hair } geometry and motion
 //!         └─▶ Textures { skin, eyes, teeth … }                    pictures, missing ones with a warning
 //!
+//!  Pack + Textures + Hair ──Pack::groom──▶ Groom: the hair, planted
 //!  Pack + control values ──FaceState──▶ bone matrices + blend weights ──▶ avatar-render, or avatar_mesh::deform
 //! ```
 //!
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and an index
 //! buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally `controls.toml`,
-//! `poses.toml` and `materials.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
+//! `poses.toml`, `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
 //! bytes in the program.
 //!
 //! ```
@@ -27,12 +28,13 @@
 
 mod error;
 mod face;
+mod hair;
 mod pack;
 mod source;
 mod textures;
 
 pub use error::{PackError, PackProblem, Warning};
 pub use face::{FaceError, FaceState};
-pub use pack::{Pack, Part, load_materials};
+pub use pack::{Pack, Part, load_hair, load_materials};
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{Texture, Textures};

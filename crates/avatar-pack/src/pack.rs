@@ -1,4 +1,5 @@
 use crate::{PackError, PackProblem, Source, Warning};
+use avatar_groom::Hair;
 use avatar_look::Materials;
 use avatar_mesh::{
     Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartSpec, Winding, raw,
@@ -29,6 +30,8 @@ pub struct Pack {
     pub poses: PoseSet,
     /// The looks of the parts, from `materials.toml` or the defaults.
     pub materials: Materials,
+    /// The hair, from `hair.toml`; `None` where there is none of that name.
+    pub hair: Option<Hair>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
 }
@@ -67,8 +70,9 @@ impl Pack {
                 .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error)))?,
         };
         let materials = load_materials(source)?;
+        let hair = load_hair(source)?;
         let shapes = FACE_SHAPES.map(str::to_owned).into();
-        Ok(Self { rig, parts, palette, shapes, controls, binding, poses, materials, warnings })
+        Ok(Self { rig, parts, palette, shapes, controls, binding, poses, materials, hair, warnings })
     }
 
     /// The part of this name.
@@ -168,6 +172,17 @@ pub fn load_materials(source: &impl Source) -> Result<Materials, PackError> {
         None => Ok(Materials::default()),
         Some(text) => Materials::from_toml(&text).map_err(|error| at(source, file, PackProblem::Look(error))),
     }
+}
+
+/// Reads which hair a pack has: `hair.toml`, or `None` where there is none. [`Pack::load`] calls it; by itself it serves
+/// programs that take over a changed file while they run.
+///
+/// # Errors
+/// A file that cannot be read, or that is not as its format demands, and where in it.
+pub fn load_hair(source: &impl Source) -> Result<Option<Hair>, PackError> {
+    let file = "hair.toml";
+    let hair = read_text(source, file)?.map(|text| Hair::from_toml(&text)).transpose();
+    hair.map_err(|error| at(source, file, PackProblem::Hair(error)))
 }
 
 fn load_controls(source: &impl Source, rig: &Rig) -> Result<(ControlTable, Binding), PackError> {

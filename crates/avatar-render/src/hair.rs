@@ -15,7 +15,7 @@ pub(crate) const IS_GUIDE: u32 = NO_GUIDE - 1;
 pub(crate) const REGION_COUNT: usize = 3;
 /// Elements per strand in the buffer of points: the points, and the normal at the root.
 pub(crate) const POINT_STRIDE: usize = SEGMENTS + 2;
-/// The number of strands that styles give their radii for; fewer are wider in proportion.
+/// Strands over a square of the skin's height that styles give their radii for; fewer are wider in proportion.
 const REFERENCE_STRANDS: f32 = 100_000.0;
 const WIDEST: f32 = 5.0;
 
@@ -219,7 +219,7 @@ impl HairModel {
             head_bone: groom.head_bone,
             other_bones: groom.field.bones,
             strand_count,
-            width_factor: (REFERENCE_STRANDS / strand_count.max(1) as f32).clamp(0.5, WIDEST),
+            width_factor: (REFERENCE_STRANDS / groom.strands.max(1.0)).clamp(0.5, WIDEST),
             field_range: field.range(),
         };
         let buffer = |label, contents: &[u8], usage| {

@@ -50,7 +50,7 @@ fn sheet(others: &[PartDesc<'_>], strands: f32, radius: f32) -> (AvatarModel, Av
     };
     let white = DensityMap::new(1, 1, vec![255]).expect("a map");
     let groom = Groom::new(&patch, &white, &[], Style { scalp, ..Style::SHORT }, strands, 5);
-    model.set_hair(&gpu.device, others.len(), &patch, Some(&groom)).expect("hair");
+    model.set_hair(&gpu.device, &gpu.queue, others.len(), Some(&groom)).expect("hair");
     let state = AvatarState::new(&gpu.device, &model);
     (model, state)
 }

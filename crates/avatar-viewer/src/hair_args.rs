@@ -1,66 +1,143 @@
-//! Which hair the face has, as the command line says it.
+//! Which hair the face has: what the command line says over what the pack says.
 
-use avatar_groom::{DensityMap, Groom, Style};
-use avatar_mesh::{Bounds, PartKind};
-use avatar_pack::{Pack, Texture, Textures};
+use avatar_groom::{Hair, Style};
 use clap::{Args, ValueEnum};
 
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Copy, Debug, PartialEq, Args)]
 pub(crate) struct HairArgs {
-    /// How hair falls, where the pack says that some grows
-    #[arg(long, value_enum, default_value = "off")]
-    hair: HairName,
-    /// How many strands, by the usual number
-    #[arg(long, default_value = "1", value_parser = factor, value_name = "FACTOR")]
-    hair_density: f32,
-    /// Which random numbers
-    #[arg(long, default_value = "1", value_name = "NUMBER")]
-    hair_seed: u64,
+    /// How hair falls, where the pack says that some grows [default: the pack's hair.toml, else off]
+    #[arg(long, value_enum)]
+    hair: Option<HairName>,
+    /// How many strands, by the usual number [default: the pack's hair.toml, else 1]
+    #[arg(long, value_parser = factor, value_name = "FACTOR")]
+    hair_density: Option<f32>,
+    /// Which random numbers [default: the pack's hair.toml, else 1]
+    #[arg(long, value_name = "NUMBER")]
+    hair_seed: Option<u64>,
 }
 
+/// Off, or a preset; in the order in which the window goes through them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum HairName {
-    Off,
     Short,
     Bob,
     Long,
     Curly,
     Mohawk,
     Bald,
+    Off,
 }
 
-/// Strands over a square of the skin's height: some 40,000 on the built-in head.
-const STRANDS: f32 = 100_000.0;
-const LARGEST_FACTOR: f32 = 10.0;
-
 fn factor(text: &str) -> Result<f32, String> {
-    let number = text.parse().ok().filter(|factor| (0.0..=LARGEST_FACTOR).contains(factor));
-    number.ok_or_else(|| format!("expected a number from 0 to {LARGEST_FACTOR}"))
+    let number = text.parse().ok().filter(|factor| (0.0..=Hair::MAX_DENSITY).contains(factor));
+    number.ok_or_else(|| format!("expected a number from 0 to {}", Hair::MAX_DENSITY))
+}
+
+impl HairName {
+    fn style(self) -> Option<Style> {
+        match self {
+            Self::Off => None,
+            Self::Short => Some(Style::SHORT),
+            Self::Bob => Some(Style::BOB),
+            Self::Long => Some(Style::LONG),
+            Self::Curly => Some(Style::CURLY),
+            Self::Mohawk => Some(Style::MOHAWK),
+            Self::Bald => Some(Style::BALD),
+        }
+    }
 }
 
 impl HairArgs {
-    pub(crate) const OFF: Self = Self { hair: HairName::Off, hair_density: 1.0, hair_seed: 1 };
+    pub(crate) const OFF: Self = Self { hair: Some(HairName::Off), hair_density: None, hair_seed: None };
 
-    /// Place of the skin, and the hair that grows on it; `None` where the pack has no map of where hair grows.
-    pub(crate) fn groom(&self, pack: &Pack, textures: &Textures) -> Option<(usize, Groom)> {
-        let style = match self.hair {
-            HairName::Off => return None,
-            HairName::Short => Style::SHORT,
-            HairName::Bob => Style::BOB,
-            HairName::Long => Style::LONG,
-            HairName::Curly => Style::CURLY,
-            HairName::Mohawk => Style::MOHAWK,
-            HairName::Bald => Style::BALD,
-        };
-        let image = textures.get(Texture::HairDensity)?;
-        let reds = image.as_raw().iter().copied().step_by(4).collect();
-        let density = DensityMap::new(image.width(), image.height(), reds)?;
-        let skin = pack.parts.iter().position(|part| part.spec.kind == PartKind::Skin)?;
-        let eyes: Vec<Bounds> = (pack.parts.iter())
-            .filter(|part| part.spec.kind == PartKind::Eyeball)
-            .filter_map(|part| part.mesh.bounds())
-            .collect();
-        let strands = STRANDS * self.hair_density;
-        Some((skin, Groom::new(&pack.parts[skin].mesh, &density, &eyes, style, strands, self.hair_seed)))
+    /// The hair, if there is to be some. A preset takes the place of the pack's whole style, tables included; number and
+    /// seed stay the pack's unless they are given themselves.
+    pub(crate) fn choose(&self, of_pack: Option<&Hair>) -> Option<Hair> {
+        let mut hair = of_pack.copied().unwrap_or_default();
+        match self.hair {
+            None if of_pack.is_none() => return None,
+            None => {}
+            Some(name) => hair.style = name.style()?,
+        }
+        hair.density = self.hair_density.unwrap_or(hair.density);
+        hair.seed = self.hair_seed.unwrap_or(hair.seed);
+        Some(hair)
+    }
+
+    /// The next choice (or the one before): the pack's own hair, where it has any, the presets, and none; round and round.
+    pub(crate) fn next(self, of_pack: Option<&Hair>, backward: bool) -> Self {
+        let own = of_pack.map(|_| None);
+        let choices: Vec<Option<HairName>> =
+            own.into_iter().chain(HairName::value_variants().iter().copied().map(Some)).collect();
+        // Without hair of its own a pack looks as switched off.
+        let now = self.hair.or_else(|| of_pack.is_none().then_some(HairName::Off));
+        let at = choices.iter().position(|choice| *choice == now).unwrap_or(0);
+        let step = if backward { choices.len() - 1 } else { 1 };
+        Self { hair: choices[(at + step) % choices.len()], ..self }
+    }
+
+    /// In words.
+    pub(crate) fn name(&self) -> String {
+        match self.hair.and_then(|name| name.to_possible_value()) {
+            Some(name) => name.get_name().to_owned(),
+            None => "the pack's own".to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NONE: HairArgs = HairArgs { hair: None, hair_density: None, hair_seed: None };
+
+    #[test]
+    fn options_go_over_the_pack() {
+        let pack =
+            Hair::from_toml("preset = 'bob'\ndensity = 2\nseed = 5\n[scalp]\nlength = 0.3\n").expect("sound");
+        assert_eq!(NONE.choose(None), None);
+        assert_eq!(NONE.choose(Some(&pack)), Some(pack));
+        assert_eq!(HairArgs::OFF.choose(Some(&pack)), None);
+        let short = HairArgs { hair: Some(HairName::Short), ..NONE };
+        assert_eq!(short.choose(Some(&pack)), Some(Hair { style: Style::SHORT, ..pack }));
+        assert_eq!(short.choose(None), Some(Hair::default()));
+        let seeded = HairArgs { hair_seed: Some(9), hair_density: Some(0.0), ..NONE };
+        assert_eq!(seeded.choose(Some(&pack)), Some(Hair { seed: 9, density: 0.0, ..pack }));
+        assert_eq!(seeded.choose(None), None, "nothing says that there is hair");
+    }
+
+    #[test]
+    fn the_names_of_the_options_are_those_of_the_presets() {
+        let names = HairName::value_variants()
+            .iter()
+            .filter_map(|name| Some((name.to_possible_value()?.get_name().to_owned(), name.style()?)));
+        let presets = Style::PRESETS.map(|(name, style)| (name.to_owned(), style));
+        assert_eq!(names.collect::<Vec<_>>(), presets);
+    }
+
+    #[test]
+    fn all_choices_come_round_both_ways() {
+        let pack = Hair::default();
+        let start = HairArgs { hair_seed: Some(3), ..NONE };
+        for (of_pack, count) in [(Some(&pack), 8), (None, 7)] {
+            for backward in [false, true] {
+                let mut seen = vec![start];
+                for _ in 1..count {
+                    let next = seen[seen.len() - 1].next(of_pack, backward);
+                    assert!(!seen.contains(&next), "{next:?}");
+                    assert_eq!(
+                        next.next(of_pack, !backward).choose(of_pack),
+                        seen[seen.len() - 1].choose(of_pack)
+                    );
+                    seen.push(next);
+                }
+                let again = seen[seen.len() - 1].next(of_pack, backward);
+                assert_eq!(again.choose(of_pack), start.choose(of_pack));
+                assert_eq!(again.hair_seed, Some(3));
+            }
+        }
+        assert_eq!(NONE.next(None, false).name(), "short");
+        assert_eq!(NONE.next(Some(&pack), true).name(), "off");
+        assert_eq!(NONE.name(), "the pack's own");
     }
 }

@@ -34,7 +34,8 @@ impl Offscreen {
     /// Opens the best adapter and uploads the avatar.
     pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let gpu = open_blocking(GpuOptions::default())?;
-        let model = scene::upload(pack, textures, &gpu.device, &gpu.queue, &look.hair)?;
+        let hair = look.hair.choose(pack.hair.as_ref());
+        let model = scene::upload(pack, textures, &gpu.device, &gpu.queue, hair)?;
         let avatar = AvatarState::new(&gpu.device, &model);
         check(&gpu)?;
         Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, look, canvas: None })

@@ -1,7 +1,7 @@
 //! From a pack to what the renderer takes, the same for pictures and for the window.
 
-use crate::hair_args::HairArgs;
 use anyhow::Result;
+use avatar_groom::Hair;
 use avatar_mesh::{Bounds, PartKind};
 use avatar_pack::{Pack, Texture, Textures};
 use avatar_render::{
@@ -62,13 +62,13 @@ pub(crate) fn scene(
     Scene { camera, background: linear_from_srgb8(background), light }
 }
 
-/// Uploads the pack's meshes and textures.
+/// Uploads the pack's meshes and textures, and plants this hair.
 pub(crate) fn upload(
     pack: &Pack,
     textures: &Textures,
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    hair: &HairArgs,
+    hair: Option<Hair>,
 ) -> Result<AvatarModel> {
     let image = |texture| {
         textures.get(texture).map(|image| Image {
@@ -108,11 +108,26 @@ pub(crate) fn upload(
         })
         .collect();
     let mut model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
-    if let Some((skin, groom)) = hair.groom(pack, textures) {
-        model.set_hair(device, queue, skin, Some(&groom))?;
-    }
+    set_hair(pack, textures, &mut model, device, queue, hair)?;
     set_materials(pack, &model, queue);
     Ok(model)
+}
+
+/// Plants this hair, or takes it away. States of the model have to be made anew.
+pub(crate) fn set_hair(
+    pack: &Pack,
+    textures: &Textures,
+    model: &mut AvatarModel,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    hair: Option<Hair>,
+) -> Result<()> {
+    let groom = hair.and_then(|hair| pack.groom(textures, &hair));
+    let Some(skin) = pack.parts.iter().position(|part| part.spec.kind == PartKind::Skin) else {
+        return Ok(());
+    };
+    model.set_hair(device, queue, skin, groom.as_ref().map(|(_, groom)| groom))?;
+    Ok(())
 }
 
 /// Gives the parts their looks.

@@ -6,40 +6,13 @@ mod common;
 mod desk;
 
 use common::copy_of_golden_pack;
-use desk::{Desk, PATIENCE, can_run, difference, render};
+use desk::{A_WHILE, Desk, can_run, difference, errors, render, save_as_editors_do};
 use std::fs;
 use std::io::Write;
-use std::path::Path;
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 const GREEN: &str = "[skin]\ncolor = [0.1, 0.5, 0.2]\n";
 const BLUE: &str = "[skin]\ncolor = [0.1, 0.2, 0.6]\n\n[left-eyeball]\ncolor = [0.9, 0.1, 0.1]\n";
-/// Longer than the window waits for a file to settle, and for its frame.
-const A_WHILE: Duration = Duration::from_millis(800);
-
-/// As many editors save: a new file takes the place of the old one.
-fn save_as_editors_do(pack: &Path, text: &[u8]) {
-    let new = pack.join(".materials.toml.new");
-    fs::write(&new, text).expect("written");
-    fs::rename(new, pack.join("materials.toml")).expect("renamed");
-}
-
-/// The errors on standard error, once there are `count` and no more come.
-#[track_caller]
-fn errors(desk: &Desk, count: usize) -> Vec<String> {
-    let read = || -> Vec<String> {
-        desk.told().lines().filter(|line| line.starts_with("error:")).map(str::to_owned).collect()
-    };
-    let start = Instant::now();
-    while read().len() < count && start.elapsed() < PATIENCE {
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    std::thread::sleep(A_WHILE);
-    let errors = read();
-    assert_eq!(errors.len(), count, "{}", desk.told());
-    errors
-}
 
 #[test]
 fn the_open_window_follows_the_materials_file() {
@@ -67,12 +40,12 @@ fn the_open_window_follows_the_materials_file() {
     }
     assert_eq!(difference(&desk.picture(), &green), Some(0), "a broken file changes nothing");
 
-    save_as_editors_do(pack.path(), BLUE.as_bytes());
+    save_as_editors_do(pack.path(), "materials.toml", BLUE.as_bytes());
     let blue = render(&options);
     assert_ne!(difference(&blue, &green), Some(0));
     desk.shows(&blue, "after the file was mended");
 
-    save_as_editors_do(pack.path(), b"[skin]\n# \xFF\n");
+    save_as_editors_do(pack.path(), "materials.toml", b"[skin]\n# \xFF\n");
     let told = errors(&desk, 2);
     assert!(
         told[1].contains("materials.toml: expected UTF-8 text, found a bad byte at offset 9"),
@@ -88,7 +61,7 @@ fn the_open_window_follows_the_materials_file() {
     assert!(told[2].contains("materials.toml: expected a file, found a folder"), "{}", told[2]);
     fs::remove_dir(&file).expect("removed");
 
-    save_as_editors_do(pack.path(), GREEN.as_bytes());
+    save_as_editors_do(pack.path(), "materials.toml", GREEN.as_bytes());
     desk.shows(&green, "still following");
     errors(&desk, 3);
     desk.key("Escape");

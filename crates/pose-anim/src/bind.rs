@@ -1,4 +1,4 @@
-use crate::{ApplyError, BindError, Control, ControlTable, Coupling, Drive, JointMotion, nearest::nearest};
+use crate::{ApplyError, BindError, Control, ControlTable, Coupling, Drive, JointMotion};
 use glam::{Affine3A, Vec3};
 use rig_core::{Elementary, JointId, Locals, Rig};
 use std::ops::Range;
@@ -38,7 +38,8 @@ impl ControlTable {
                     let id = rig.joint(joint).ok_or_else(|| BindError::UnknownJoint {
                         control: control.name.clone(),
                         joint: joint.clone(),
-                        nearest: nearest(joint, rig.names().iter().map(String::as_str)).map(str::to_owned),
+                        nearest: placed_toml::nearest(joint, rig.names().iter().map(String::as_str))
+                            .map(str::to_owned),
                     })?;
                     let factor = Factor { control: index, axis: *axis, kind: *kind };
                     match by_joint.iter_mut().find(|(other, _)| *other == id) {
@@ -51,7 +52,7 @@ impl ControlTable {
                     let at = at.ok_or_else(|| BindError::UnknownShape {
                         control: control.name.clone(),
                         shape: shape.clone(),
-                        nearest: nearest(shape, shapes.iter().copied()).map(str::to_owned),
+                        nearest: placed_toml::nearest(shape, shapes.iter().copied()).map(str::to_owned),
                     })?;
                     bound_shapes.push((index, at));
                 }

@@ -35,7 +35,7 @@ impl ClipSet {
     /// The first thing in the text that is not as it has to be, with its place: also a control that the table does
     /// not have, a value out of its range, a time before its predecessor's, a name or key that occurs twice.
     pub fn from_toml(text: &str, controls: &ControlTable) -> Result<Self, TomlError> {
-        clip_toml::read(text, controls)
+        Ok(clip_toml::read(text, controls)?)
     }
 
     /// The clip of this name.
@@ -45,6 +45,6 @@ impl ClipSet {
 
     /// The clip's name that is probably meant by a misspelt one.
     pub fn nearest(&self, name: &str) -> Option<&str> {
-        crate::nearest::nearest(name, self.clips.iter().map(|clip| clip.name.as_str()))
+        placed_toml::nearest(name, self.clips.iter().map(|clip| clip.name.as_str()))
     }
 }

@@ -2,15 +2,15 @@
 
 use crate::clip::LATEST_SECS;
 use crate::pose_toml::{by_control, key, transition, value};
-use crate::text::{Entry, Table, Text, quote};
-use crate::{Clip, ClipSet, Control, ControlTable, Key, TomlError, Track, Transition, Wrap};
+use crate::{Clip, ClipSet, Control, ControlTable, Key, Track, Transition, Wrap};
+use placed_toml::{Document, Entry, Table, TomlError, quote};
 
 const TIME: &str = "a number of seconds from 0 to 1000000, not before the previous key's";
 const SLOPES: &str = "[leaving, arriving]: the slopes of a cubic, per second, here and at the next key";
 
 pub(crate) fn read(source: &str, controls: &ControlTable) -> Result<ClipSet, TomlError> {
-    let (text, document) = Text::parse(source)?;
-    let mut root = Table::new(text, "", 0..0, document.get_ref());
+    let document = Document::parse(source)?;
+    let mut root = document.root();
     let mut set = ClipSet::default();
     for table in root.take_tables("clip")? {
         let clip = clip(table, controls, &set)?;
@@ -37,7 +37,7 @@ fn clip(mut table: Table<'_, '_>, controls: &ControlTable, before: &ClipSet) -> 
             "loop" => Wrap::Loop,
             "ping-pong" => Wrap::PingPong,
             other => {
-                return Err(entry.unknown_value(other, "one of", ["once", "loop", "ping-pong"].into_iter()));
+                return Err(entry.unknown_value(other, "one of", ["once", "loop", "ping-pong"]));
             }
         };
     }

@@ -1,4 +1,4 @@
-use crate::{TomlError, control_toml, nearest::nearest};
+use crate::{TomlError, control_toml};
 use glam::Vec3;
 
 /// The controls of the nine-joint face as a text, to be copied beside a face and changed.
@@ -182,7 +182,7 @@ impl ControlTable {
     /// # Errors
     /// The first thing in the text that is not as it has to be, with its place.
     pub fn from_toml(text: &str) -> Result<Self, TomlError> {
-        control_toml::read(text)
+        Ok(control_toml::read(text)?)
     }
 
     /// Only through here: the reader has checked names, ranges and indices.
@@ -217,7 +217,7 @@ impl ControlTable {
 
     /// The control's name that is probably meant by a misspelt one.
     pub fn nearest(&self, name: &str) -> Option<&str> {
-        nearest(name, self.names())
+        placed_toml::nearest(name, self.names())
     }
 
     /// The names in order.

@@ -1,17 +1,16 @@
 //! The format of `controls.toml`.
 
-use crate::text::{Entry, Table, Text, quote};
-use crate::{Control, ControlTable, Coupling, Drive, JointMotion, Pace, TomlError};
+use crate::{Control, ControlTable, Coupling, Drive, JointMotion, Pace};
 use glam::Vec3;
-use toml::de::DeValue;
+use placed_toml::{Document, Entry, Table, TomlError, quote};
 
 const AXIS: &str =
     r#"an axis "+x", "-x", "+y", "-y", "+z", "-z" or three numbers [x, y, z] that are not all 0"#;
 const SECONDS: &str = "[shortest, longest]: two numbers of seconds, 0.001 to 3600, in this order";
 
 pub(crate) fn read(source: &str) -> Result<ControlTable, TomlError> {
-    let (text, document) = Text::parse(source)?;
-    let mut root = Table::new(text, "", 0..0, document.get_ref());
+    let document = Document::parse(source)?;
+    let mut root = document.root();
     let mut controls: Vec<Control> = Vec::new();
     for table in root.take_tables("control")? {
         let control = control(table, &controls)?;
@@ -93,7 +92,7 @@ fn drive(table: &mut Table<'_, '_>) -> Result<Drive, TomlError> {
             "rotation" => JointMotion::Rotation,
             "translation" => JointMotion::Translation,
             other => {
-                return Err(entry.unknown_value(other, "one of", ["rotation", "translation"].into_iter()));
+                return Err(entry.unknown_value(other, "one of", ["rotation", "translation"]));
             }
         },
     };
@@ -101,8 +100,8 @@ fn drive(table: &mut Table<'_, '_>) -> Result<Drive, TomlError> {
 }
 
 fn axis(entry: &Entry<'_, '_>) -> Result<Vec3, TomlError> {
-    if let DeValue::String(name) = entry.value.get_ref() {
-        return match name.as_ref() {
+    if let Some(name) = entry.as_str() {
+        return match name {
             "+x" | "x" => Ok(Vec3::X),
             "-x" => Ok(Vec3::NEG_X),
             "+y" | "y" => Ok(Vec3::Y),
@@ -112,8 +111,8 @@ fn axis(entry: &Entry<'_, '_>) -> Result<Vec3, TomlError> {
             _ => Err(entry.error_found(AXIS)),
         };
     }
-    let DeValue::Array(items) = entry.value.get_ref() else { return Err(entry.error_found(AXIS)) };
-    let numbers: Vec<f32> = entry.array()?.iter().map(|item| item.number(AXIS)).collect::<Result<_, _>>()?;
+    let Some(items) = entry.as_array() else { return Err(entry.error_found(AXIS)) };
+    let numbers: Vec<f32> = items.iter().map(|item| item.number(AXIS)).collect::<Result<_, _>>()?;
     let [x, y, z] = numbers[..] else {
         return Err(entry.error(AXIS, format!("an array of {}", items.len())));
     };

@@ -16,6 +16,13 @@ pub struct TomlError {
     pub nearest: Option<String>,
 }
 
+impl From<placed_toml::TomlError> for TomlError {
+    fn from(error: placed_toml::TomlError) -> Self {
+        let placed_toml::TomlError { line, column, key, expected, found, nearest } = error;
+        Self { place: Place { line, column }, key, expected, found, nearest }
+    }
+}
+
 fn subject(key: &str) -> String {
     if key.is_empty() { String::new() } else { format!("{key}: ") }
 }

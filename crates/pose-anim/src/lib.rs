@@ -115,7 +115,6 @@ mod jet;
 mod joints;
 mod layers;
 mod mix;
-mod nearest;
 mod path;
 mod player;
 mod pose;
@@ -125,7 +124,6 @@ mod rare;
 mod reach;
 mod reduce;
 mod settle;
-mod text;
 
 pub use bind::Binding;
 pub use clip::{Clip, Key, Track, Transition, Wrap};

@@ -99,7 +99,7 @@ impl PoseSet {
     /// The first thing in the text that is not as it has to be, with its place: also a control that the table does
     /// not have, a value out of its range, a name or key that occurs twice.
     pub fn from_toml(text: &str, controls: &ControlTable) -> Result<Self, TomlError> {
-        pose_toml::read(text, controls)
+        Ok(pose_toml::read(text, controls)?)
     }
 
     /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without those that
@@ -136,7 +136,7 @@ impl PoseSet {
 
     /// The pose's name that is probably meant by a misspelt one.
     pub fn nearest(&self, name: &str) -> Option<&str> {
-        crate::nearest::nearest(name, self.poses.iter().map(|pose| pose.name.as_str()))
+        placed_toml::nearest(name, self.poses.iter().map(|pose| pose.name.as_str()))
     }
 
     /// All poses, in order.

@@ -1,15 +1,14 @@
 //! The format of `poses.toml`.
 
-use crate::text::{Entry, Table, Text, quote};
-use crate::{Control, ControlTable, Easing, Pose, PoseSet, Timing, TomlError};
-use toml::de::DeValue;
+use crate::{Control, ControlTable, Easing, Pose, PoseSet, Timing};
+use placed_toml::{Document, Entry, Table, TomlError, quote};
 
 const DURATION: &str = "a number of seconds from 0.001 to 3600";
 const KEY: &str = r#"the name of one key, such as "1", "q" or "F5""#;
 
 pub(crate) fn read(source: &str, controls: &ControlTable) -> Result<PoseSet, TomlError> {
-    let (text, document) = Text::parse(source)?;
-    let mut root = Table::new(text, "", 0..0, document.get_ref());
+    let document = Document::parse(source)?;
+    let mut root = document.root();
     let mut set = PoseSet::default();
     for table in root.take_tables("pose")? {
         let pose = pose(table, controls, &set)?;
@@ -83,18 +82,19 @@ pub(crate) fn by_control<T>(
     out: &mut Vec<(usize, T)>,
     read: &dyn Fn(&Entry<'_, '_>, &Control) -> Result<T, TomlError>,
 ) -> Result<(), TomlError> {
-    for (key, entry) in entry.table()?.rest() {
-        let name = if prefix.is_empty() { key } else { format!("{prefix}.{key}") };
-        let is_group = |table: &toml::de::DeTable<'_>| {
+    for entry in entry.table()?.rest() {
+        let key = entry.name();
+        let name = if prefix.is_empty() { key.to_owned() } else { format!("{prefix}.{key}") };
+        let is_group = |table: Table<'_, '_>| {
             let group = format!("{name}.");
-            !table.is_empty() && controls.names().any(|control| control.starts_with(&group))
+            !table.entries().is_empty() && controls.names().any(|control| control.starts_with(&group))
         };
         if let Some(index) = controls.index(&name) {
             if out.iter().any(|(other, _)| *other == index) {
                 return Err(entry.error("each control once", format!("{} again", quote(&name))));
             }
             out.push((index, read(&entry, &controls.controls()[index])?));
-        } else if matches!(entry.value.get_ref(), DeValue::Table(table) if is_group(table)) {
+        } else if entry.as_table().is_some_and(is_group) {
             by_control(&entry, &name, controls, out, read)?;
         } else {
             return Err(entry.unknown_name(&name, "one of the controls", controls.names()));
@@ -106,14 +106,13 @@ pub(crate) fn by_control<T>(
 /// The name of a transition function, or the four numbers of a Bézier curve.
 pub(crate) fn transition(entry: &Entry<'_, '_>) -> Result<Easing, TomlError> {
     let expected = "the name of a transition, such as \"cubic-in-out\", or [x1, y1, x2, y2] with x from 0 to 1 and y from -1000 to 1000";
-    if let DeValue::String(name) = entry.value.get_ref() {
+    if let Some(name) = entry.as_str() {
         let names = Easing::names();
         let unknown = || entry.unknown_value(name, "one of", names.iter().map(String::as_str));
         return Easing::from_name(name).ok_or_else(unknown);
     }
-    let DeValue::Array(items) = entry.value.get_ref() else { return Err(entry.error_found(expected)) };
-    let numbers: Vec<f32> =
-        entry.array()?.iter().map(|item| item.number(expected)).collect::<Result<_, _>>()?;
+    let Some(items) = entry.as_array() else { return Err(entry.error_found(expected)) };
+    let numbers: Vec<f32> = items.iter().map(|item| item.number(expected)).collect::<Result<_, _>>()?;
     match numbers[..] {
         [x1, y1, x2, y2]
             if [x1, x2].iter().all(|x| (0.0..=1.0).contains(x))

@@ -15,9 +15,11 @@ pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
     let look = LookArgs::with_hair(args.hair);
     let mut offscreen = Offscreen::open(&pack, &textures, 1, look)?;
     let strands = offscreen.strands(&pack, &face)?;
-    let roots = args.hair.groom(&pack, &textures).map_or_else(Vec::new, |(_, groom)| groom.roots);
+    let hair = args.hair.choose(pack.hair.as_ref());
+    let groom = hair.and_then(|hair| pack.groom(&textures, &hair));
+    let roots = groom.map_or_else(Vec::new, |(_, groom)| groom.roots);
     if strands.is_empty() {
-        eprintln!("warning: expected hair to grow, found none: the pack has no HairMap, or --hair is off");
+        eprintln!("warning: expected hair to grow, found none: --hair is off, or the pack has no HairMap");
     }
     let strands: Vec<_> = (roots.iter().zip(&strands))
         .take(args.limit.unwrap_or(usize::MAX))

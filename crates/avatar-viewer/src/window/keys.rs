@@ -13,23 +13,27 @@ pub(crate) enum Action {
     Front,
     /// Back to the default face.
     Defaults,
+    /// Other hair: the next, or the one before.
+    Hair { backward: bool },
     /// Close the window.
     Close,
 }
 
 /// A key that the window handles itself: name, what it does, in words and in deed. The same table handles keys and
 /// prints them.
-pub(crate) const WINDOW_KEYS: [(NamedKey, &str, &str, Action); 10] = [
-    (NamedKey::ArrowLeft, "Left", "camera to the character's right", Action::Orbit(-5.0, 0.0)),
-    (NamedKey::ArrowRight, "Right", "camera to the character's left", Action::Orbit(5.0, 0.0)),
-    (NamedKey::ArrowUp, "Up", "camera up", Action::Orbit(0.0, 5.0)),
-    (NamedKey::ArrowDown, "Down", "camera down", Action::Orbit(0.0, -5.0)),
-    (NamedKey::PageUp, "PageUp", "nearer", Action::Zoom(0.9)),
-    (NamedKey::PageDown, "PageDown", "farther", Action::Zoom(1.0 / 0.9)),
-    (NamedKey::Home, "Home", "camera to the front", Action::Front),
-    (NamedKey::Backspace, "Backspace", "back to the default face", Action::Defaults),
-    (NamedKey::Delete, "Delete", "back to the default face", Action::Defaults),
-    (NamedKey::Escape, "Escape", "close the window", Action::Close),
+pub(crate) const WINDOW_KEYS: [(Key<&str>, &str, &str, Action); 12] = [
+    (Key::Named(NamedKey::ArrowLeft), "Left", "camera to the character's right", Action::Orbit(-5.0, 0.0)),
+    (Key::Named(NamedKey::ArrowRight), "Right", "camera to the character's left", Action::Orbit(5.0, 0.0)),
+    (Key::Named(NamedKey::ArrowUp), "Up", "camera up", Action::Orbit(0.0, 5.0)),
+    (Key::Named(NamedKey::ArrowDown), "Down", "camera down", Action::Orbit(0.0, -5.0)),
+    (Key::Named(NamedKey::PageUp), "PageUp", "nearer", Action::Zoom(0.9)),
+    (Key::Named(NamedKey::PageDown), "PageDown", "farther", Action::Zoom(1.0 / 0.9)),
+    (Key::Named(NamedKey::Home), "Home", "camera to the front", Action::Front),
+    (Key::Character("h"), "h", "other hair", Action::Hair { backward: false }),
+    (Key::Character("H"), "Shift+h", "the hair before", Action::Hair { backward: true }),
+    (Key::Named(NamedKey::Backspace), "Backspace", "back to the default face", Action::Defaults),
+    (Key::Named(NamedKey::Delete), "Delete", "back to the default face", Action::Defaults),
+    (Key::Named(NamedKey::Escape), "Escape", "close the window", Action::Close),
 ];
 
 /// What the mouse does.
@@ -38,16 +42,16 @@ pub(crate) const MOUSE: [(&str, &str); 2] =
 
 /// The action of a key that the window handles itself.
 pub(crate) fn action(key: &Key) -> Option<Action> {
-    let Key::Named(named) = key else { return None };
-    WINDOW_KEYS.iter().find(|(key, ..)| key == named).map(|(.., action)| *action)
+    WINDOW_KEYS.iter().find(|(own, ..)| *own == key.as_ref()).map(|(.., action)| *action)
 }
 
 /// Keys of poses that never come through, because the window takes them itself.
 pub(crate) fn dead(pack: &Pack) -> impl Iterator<Item = String> {
     pack.poses.iter().filter_map(|pose| {
         let key = pose.key.as_ref()?;
-        let (_, name, meaning, _) = WINDOW_KEYS.iter().find(|(named, name, ..)| {
-            key.eq_ignore_ascii_case(name) || key.eq_ignore_ascii_case(&format!("{named:?}"))
+        let (_, name, meaning, _) = WINDOW_KEYS.iter().find(|(own, name, ..)| {
+            let is_named = |named: &NamedKey| key.eq_ignore_ascii_case(&format!("{named:?}"));
+            key.eq_ignore_ascii_case(name) || matches!(own, Key::Named(named) if is_named(named))
         })?;
         Some(format!("pose {}: expected a free key, found {name}, which means: {meaning}", pose.name))
     })

@@ -1,5 +1,6 @@
 //! The window: winit's events in, presses and camera moves out, a frame drawn only when something moves.
 
+mod follow;
 pub(crate) mod keys;
 mod stage;
 mod watch;
@@ -10,14 +11,14 @@ use crate::files::Files;
 use crate::look_args::LookArgs;
 use crate::scene::View;
 use anyhow::{Context, Result, anyhow};
-use avatar_pack::{FaceState, Pack, Textures, load_materials};
+use avatar_pack::{FaceState, Pack, Textures};
 use clap::ArgMatches;
 use keys::Action;
 use pose_anim::{Player, Pose};
 use stage::Stage;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use watch::{Wake, watch};
+use watch::{WATCHED, Wake, watch};
 use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
@@ -64,7 +65,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         stage: None,
         last_frame: None,
         // Nobody told of changes since the pack was loaded.
-        reload_at: Some(Instant::now() + SETTLED),
+        reload_at: [Some(Instant::now() + SETTLED); WATCHED.len()],
         pointer: PhysicalPosition::default(),
         dragging: false,
         failure: None,
@@ -98,8 +99,8 @@ struct App {
     stage: Option<Stage>,
     /// When the last frame of a running motion was drawn; `None` while nothing moves.
     last_frame: Option<Instant>,
-    /// When the materials are read again, unless they change once more before.
-    reload_at: Option<Instant>,
+    /// When each of the files is read again, unless it changes once more before.
+    reload_at: [Option<Instant>; WATCHED.len()],
     /// The pointer's last place in the window.
     pointer: PhysicalPosition<f64>,
     dragging: bool,
@@ -108,16 +109,24 @@ struct App {
 
 impl ApplicationHandler<Wake> for App {
     fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
-        match wake {
-            Wake::Materials => self.reload_at = Some(Instant::now() + SETTLED),
+        for ((file, _), at) in WATCHED.iter().zip(&mut self.reload_at) {
+            if *file == wake {
+                *at = Some(Instant::now() + SETTLED);
+            }
         }
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        if self.reload_at.take_if(|at| *at <= Instant::now()).is_some() {
-            self.reload_materials();
+        for (index, (file, _)) in WATCHED.iter().enumerate() {
+            if self.reload_at[index].take_if(|at| *at <= Instant::now()).is_some() {
+                match file {
+                    Wake::Materials => self.reload_materials(),
+                    Wake::Hair => self.reload_hair(),
+                }
+            }
         }
-        event_loop.set_control_flow(self.reload_at.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+        let next = self.reload_at.iter().flatten().min().copied();
+        event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
@@ -161,21 +170,6 @@ impl ApplicationHandler<Wake> for App {
 }
 
 impl App {
-    /// Takes over changed materials; with a mistake in them the old ones stay.
-    fn reload_materials(&mut self) {
-        match load_materials(&self.files) {
-            Ok(materials) if materials == self.pack.materials => {}
-            Ok(materials) => {
-                self.pack.materials = materials;
-                if let Some(stage) = &self.stage {
-                    stage.set_materials(&self.pack);
-                }
-                self.redraw();
-            }
-            Err(error) => eprintln!("error: {error}: the materials stay as they were"),
-        }
-    }
-
     fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         let attributes = Window::default_attributes().with_title(&self.title).with_inner_size(self.size);
         let window = event_loop.create_window(attributes).context("expected a window, found none")?;
@@ -218,6 +212,9 @@ impl App {
                 let defaults = self.pack.controls.defaults();
                 self.press(&Pose::from_values("defaults", &defaults));
             }
+            // Planting takes a moment: a key that is held down would run ahead of what is seen.
+            Some(Action::Hair { .. }) if event.repeat => {}
+            Some(Action::Hair { backward }) => self.next_hair(backward),
             // A key that is held down repeats itself; a pose is pressed once.
             None if event.repeat => {}
             None => {

@@ -1,6 +1,7 @@
 use crate::look_args::LookArgs;
 use crate::scene::{self, BACKGROUND, SAMPLES, View};
 use anyhow::{Context, Result, bail};
+use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_for_surface_blocking};
 use avatar_render::{AvatarModel, AvatarState, Renderer, RendererConfig, Targets};
@@ -51,7 +52,8 @@ impl Stage {
         let shading = look.shading(&gpu.info);
         let renderer_config = RendererConfig { color_format: config.format, samples: SAMPLES, shading };
         let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
-        let model = scene::upload(pack, textures, device, &gpu.queue, &look.hair)?;
+        let hair = look.hair.choose(pack.hair.as_ref());
+        let model = scene::upload(pack, textures, device, &gpu.queue, hair)?;
         let avatar = AvatarState::new(device, &model);
         let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar, look };
         stage.resize(size)?;
@@ -82,6 +84,16 @@ impl Stage {
     /// Gives the parts the looks that the pack has now.
     pub(super) fn set_materials(&self, pack: &Pack) {
         scene::set_materials(pack, &self.model, &self.gpu.queue);
+    }
+
+    /// Plants this hair, or takes it away.
+    ///
+    /// # Errors
+    /// More strands than the device binds; the hair stays as it is then.
+    pub(super) fn set_hair(&mut self, pack: &Pack, textures: &Textures, hair: Option<Hair>) -> Result<()> {
+        scene::set_hair(pack, textures, &mut self.model, &self.gpu.device, &self.gpu.queue, hair)?;
+        self.avatar = AvatarState::new(&self.gpu.device, &self.model);
+        Ok(())
     }
 
     /// Draws one frame. A surface that is not ready loses this frame, not the window.

@@ -94,6 +94,14 @@ pub fn copy_of_golden_pack() -> TempDir {
     copy
 }
 
+/// The same, with a texture by which hair grows all over the skin.
+pub fn hairy_pack() -> TempDir {
+    let copy = copy_of_golden_pack();
+    let white = image::GrayImage::from_pixel(8, 8, image::Luma([255]));
+    white.save(copy.path().join("HairMap.png")).expect("written");
+    copy
+}
+
 /// Whether drawing can be tested here. Where `MIMIK_REQUIRE_GPU=1` promises an adapter, a missing one is a failure.
 pub fn has_adapter() -> bool {
     let out = tempfile::tempdir().expect("a temporary folder");

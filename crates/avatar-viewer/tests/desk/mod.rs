@@ -5,6 +5,7 @@
 use crate::common::{self, finish, has_adapter, viewer};
 use image::RgbImage;
 use std::io::{BufRead, BufReader};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -13,6 +14,8 @@ use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat};
 
 pub const PATIENCE: Duration = Duration::from_secs(60);
+/// Longer than the window waits for a file to settle, and for its frame.
+pub const A_WHILE: Duration = Duration::from_millis(800);
 
 /// A process that does not outlive its test.
 struct Process(Child);
@@ -192,4 +195,27 @@ pub fn can_run() -> bool {
     assert!(!required, "MIMIK_REQUIRE_GPU=1, but {missing:?} is not installed");
     common::tell(&format!("{missing:?} is not installed"));
     false
+}
+
+/// As many editors save: a new file takes the place of the old one.
+pub fn save_as_editors_do(pack: &Path, file: &str, text: &[u8]) {
+    let new = pack.join(format!(".{file}.new"));
+    std::fs::write(&new, text).expect("written");
+    std::fs::rename(new, pack.join(file)).expect("renamed");
+}
+
+/// The errors on standard error, once there are `count` and no more come.
+#[track_caller]
+pub fn errors(desk: &Desk, count: usize) -> Vec<String> {
+    let read = || -> Vec<String> {
+        desk.told().lines().filter(|line| line.starts_with("error:")).map(str::to_owned).collect()
+    };
+    let start = Instant::now();
+    while read().len() < count && start.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    std::thread::sleep(A_WHILE);
+    let errors = read();
+    assert_eq!(errors.len(), count, "{}", desk.told());
+    errors
 }

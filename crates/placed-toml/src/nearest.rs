@@ -3,7 +3,7 @@
 /// Distance: insertions, deletions, substitutions and swaps of neighbours, without regard to case (optimal string
 /// alignment; Damerau 1964). Accepted up to a third of the name's length, at least 2, but not beyond
 /// half of either name.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // A name out of a file may be of any length; what is longer than any name cannot be meant.
     let wanted: Vec<char> = name.chars().take(80).flat_map(char::to_lowercase).collect();
     let accepted = (wanted.len() / 3).max(2);

@@ -1,7 +1,7 @@
-/// Why a text about looks could not be read, and where.
+/// Why a TOML text could not be read, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}, column {column}: {}expected {expected}, found {found}{}", subject(.key), hint(.nearest))]
-pub struct LookError {
+pub struct TomlError {
     /// Line, from 1.
     pub line: usize,
     /// Column in characters, from 1.
