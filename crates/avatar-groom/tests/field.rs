@@ -52,7 +52,7 @@ fn the_distance_from_a_ball_is_that_from_its_middle_less_the_radius() {
                 "{place}: {} {wanted}",
                 near.distance
             );
-            let along = near.outward.dot(place.normalize());
+            let along = near.outward.dot(place.normalize_or_zero());
             assert!(along > 0.999, "{place}: {along}");
         }
     }
@@ -160,7 +160,7 @@ fn the_cut_is_where_the_style_says() {
     // No lower; and higher by no more than a twentieth of the length, which is how uneven the cut is, and by what a shorter
     // strand bends otherwise.
     for y in &guides {
-        assert!((-0.01..0.15 + 0.1).contains(&(y - height)), "{y}");
+        assert!((-0.01..0.15 + 0.15).contains(&(y - height)), "{y}");
     }
     let mean = guides.iter().sum::<f32>() / guides.len() as f32;
     assert!((mean - height).abs() < 0.08, "{mean}");
