@@ -25,6 +25,7 @@ mod regions;
 mod roots;
 mod style;
 mod style_toml;
+mod swing;
 
 pub use density::DensityMap;
 pub use field::{Field, Near, OTHER_BONES};
@@ -38,3 +39,4 @@ pub use hair::Hair;
 pub use placed_toml::TomlError;
 pub use roots::{MAX_ROOTS, Region, Root, scatter};
 pub use style::{RegionStyle, Style};
+pub use swing::{Oscillator, TICKS_PER_SECOND, TickClock, Ticks};

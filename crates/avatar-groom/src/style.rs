@@ -146,6 +146,7 @@ impl Style {
             cut: 0.2,
             clump: 0.12,
             noise: 0.1,
+            swing: 1.8,
             ..Self::STRAND
         },
         ..Self::SHORT
@@ -166,6 +167,7 @@ impl Style {
             curl_turns: 2.2,
             clump: 0.4,
             noise: 0.15,
+            swing: 2.2,
             volume: 0.02,
             ..Self::STRAND
         },
@@ -181,6 +183,7 @@ impl Style {
             comb: [0.0, 0.6, -0.4],
             strip: 0.055,
             clump: 0.4,
+            swing: 5.0,
             tip_color: [0.5, 0.03, 0.06],
             ..Self::STRAND
         },

@@ -61,15 +61,25 @@ pub(crate) fn compute_pipeline(
     program: &Program,
     groups: [&wgpu::BindGroupLayout; 3],
 ) -> wgpu::ComputePipeline {
+    compute_pipeline_of(device, program, &groups, &Constants::default())
+}
+
+pub(crate) fn compute_pipeline_of(
+    device: &wgpu::Device,
+    program: &Program,
+    groups: &[&wgpu::BindGroupLayout],
+    constants: &Constants,
+) -> wgpu::ComputePipeline {
+    let groups: Vec<_> = groups.iter().copied().map(Some).collect();
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(program.label),
-        bind_group_layouts: &groups.map(Some),
+        bind_group_layouts: &groups,
         immediate_size: 0,
     });
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(program.label),
         layout: Some(&layout),
-        module: &program.module(device, &Constants::default()),
+        module: &program.module(device, constants),
         entry_point: Some(program.entry),
         compilation_options: Default::default(),
         cache: None,

@@ -1,8 +1,9 @@
-use crate::deformer::compute_pipeline;
+use crate::deformer::compute_pipeline_of;
 use crate::hair::{GROW_WORKGROUP_SIZE, POINT_STRIDE, grow_layouts};
 use crate::readback::{ReadbackError, mapped};
-use crate::shaders::GROW_PASS;
+use crate::shaders::{Constants, GROW_PASS};
 use crate::state::avatar_layout;
+use crate::swing::swing_pipeline;
 use crate::{AvatarModel, AvatarState, Deformer};
 use avatar_groom::SEGMENTS;
 use glam::{Vec3, Vec4};
@@ -10,7 +11,9 @@ use glam::{Vec3, Vec4};
 /// Grows hair: a pass of every frame. By itself it reads back what is drawn.
 #[derive(Debug)]
 pub struct Grower {
-    pipeline: wgpu::ComputePipeline,
+    still: wgpu::ComputePipeline,
+    swinging: wgpu::ComputePipeline,
+    swing: wgpu::ComputePipeline,
 }
 
 /// Why strands could not be read back.
@@ -28,8 +31,11 @@ impl Grower {
     /// Builds the pipeline.
     pub fn new(device: &wgpu::Device) -> Self {
         let [hair, skin] = grow_layouts(device);
-        let pipeline = compute_pipeline(device, &GROW_PASS, [&hair, &avatar_layout(device), &skin]);
-        Self { pipeline }
+        let pipeline = |swinging| {
+            let constants = Constants { swinging, ..Constants::default() };
+            compute_pipeline_of(device, &GROW_PASS, &[&hair, &avatar_layout(device), &skin], &constants)
+        };
+        Self { still: pipeline(false), swinging: pipeline(true), swing: swing_pipeline(device) }
     }
 
     /// Grows as many strands of avatars on their deformed skins.
@@ -43,16 +49,21 @@ impl Grower {
             label: Some(GROW_PASS.label),
             timestamp_writes: timestamps,
         });
-        pass.set_pipeline(&self.pipeline);
         for (state, strands) in avatars {
-            if let Some(grown) = &state.hair {
-                pass.set_bind_group(1, &state.bind_group, &[]);
-                pass.set_bind_group(2, &grown.skin, &[]);
-                // Strands read their guides: each dispatch sees what the one before it wrote.
-                for (group, strands) in [(&grown.grow_guides, grown.guide_count), (&grown.grow, strands)] {
-                    pass.set_bind_group(0, group, &[]);
-                    pass.dispatch_workgroups(strands.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
-                }
+            if let Some(hair) = &state.hair {
+                let groups = |pass: &mut wgpu::ComputePass<'_>, grown: &wgpu::BindGroup| {
+                    pass.set_bind_group(0, grown, &[]);
+                    pass.set_bind_group(1, &state.bind_group, &[]);
+                    pass.set_bind_group(2, &hair.skin, &[]);
+                };
+                // Strands read their guides: each dispatch sees what those before it wrote.
+                pass.set_pipeline(&self.still);
+                groups(&mut pass, &hair.grow_guides);
+                pass.dispatch_workgroups(hair.guide_count.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
+                hair.swing.record(&mut pass, &self.swing);
+                pass.set_pipeline(if hair.swing.is_moving() { &self.swinging } else { &self.still });
+                groups(&mut pass, &hair.grow);
+                pass.dispatch_workgroups(strands.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Hair on the GPU: strands grow on the deformed skin every frame, and are drawn from where they grew.
 
 use crate::deformer::GpuDeformedVertex;
+use crate::swing::SwingState;
 use avatar_groom::{
     COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle, SEGMENTS,
 };
@@ -141,6 +142,8 @@ pub(crate) struct HairModel {
     pub(crate) part: usize,
     pub(crate) strand_count: u32,
     pub(crate) guide_count: u32,
+    /// Swings a second of the tips of guides.
+    swing: f32,
     hair: wgpu::Buffer,
     roots: wgpu::Buffer,
     /// The roots of the guides once more, without guides of their own.
@@ -152,8 +155,10 @@ pub(crate) struct HairModel {
 #[derive(Debug)]
 pub(crate) struct HairState {
     pub(crate) points: wgpu::Buffer,
-    /// Group 0 of the growing pass: of guides, and of all strands.
     pub(crate) guide_count: u32,
+    /// How guides swing; still until time passes.
+    pub(crate) swing: SwingState,
+    /// Group 0 of the growing pass: of guides, and of all strands.
     pub(crate) grow_guides: wgpu::BindGroup,
     pub(crate) grow: wgpu::BindGroup,
     /// Group 2 of the growing pass: the deformed skin.
@@ -234,6 +239,7 @@ impl HairModel {
             part,
             strand_count,
             guide_count,
+            swing: groom.style.scalp.swing,
             hair: buffer("hair", bytemuck::bytes_of(&hair), wgpu::BufferUsages::UNIFORM),
             roots: buffer("hair: roots", bytemuck::cast_slice(&roots), storage),
             guide_roots: buffer("hair: roots of guides", bytemuck::cast_slice(&guide_roots), storage),
@@ -299,7 +305,7 @@ impl GpuHairRegion {
     }
 }
 
-fn storage_entry(
+pub(crate) fn storage_entry(
     binding: u32,
     visibility: wgpu::ShaderStages,
     read_only: bool,
@@ -316,7 +322,7 @@ fn storage_entry(
     }
 }
 
-fn uniform_entry(visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayoutEntry {
+pub(crate) fn uniform_entry(visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding: 0,
         visibility,
@@ -350,6 +356,7 @@ pub(crate) fn grow_layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 2] 
                 },
                 storage_entry(3, compute, false),
                 storage_entry(4, compute, true),
+                storage_entry(5, compute, true),
             ],
         }),
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -396,6 +403,7 @@ impl HairState {
                 entries: &entries,
             })
         };
+        let swing = SwingState::new(device, &guides, hair.guide_count, hair.swing);
         let grow = |label, roots: &wgpu::Buffer, points: &wgpu::Buffer, guides: &wgpu::Buffer| {
             let resources = [
                 hair.hair.as_entire_binding(),
@@ -403,6 +411,7 @@ impl HairState {
                 wgpu::BindingResource::TextureView(&hair.field),
                 points.as_entire_binding(),
                 guides.as_entire_binding(),
+                swing.offsets.as_entire_binding(),
             ];
             group(label, &grow_layout, &resources)
         };
@@ -415,6 +424,7 @@ impl HairState {
             grow: grow("grow hair", &hair.roots, &points, &guides),
             skin: group("deformed skin", &skin_layout, &[skin.as_entire_binding()]),
             draw: group("draw hair", &draw_layout(device), &drawn),
+            swing,
             points,
         }
     }

@@ -42,6 +42,7 @@ impl HairPipelines {
             encode_srgb: config.encodes_in_shader(),
             coverage_mask,
             toon: config.shading == Shading::Toon,
+            ..Constants::default()
         };
         let ribbons = Recipe {
             program: &MASKED_STRANDS,

@@ -11,6 +11,7 @@ use crate::renderer::GpuShadowView;
 use crate::shaders::Constants;
 use crate::shaders::tests::{all, parsed};
 use crate::state::{GpuActiveShape, GpuActiveShapesHead, GpuBone};
+use crate::swing::{GpuMote, GpuSwing};
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 use std::collections::BTreeSet;
 use std::mem::offset_of;
@@ -94,6 +95,8 @@ fn layouts() -> Vec<Layout> {
             field_range
         ),
         layout!("Root", GpuRoot, corners, region, barycentric, guide, comb, length, random, phase),
+        layout!("Swing", GpuSwing, ticks, first, step, rest, tick, is_still, oscillators),
+        layout!("Mote", GpuMote, position, velocity, held, held_at_frame),
         layout!("HairView", GpuHairView, strands, fading, width, least_pixels),
         layout!("ShadowView", GpuShadowView, shadow_from_world),
         layout!(
@@ -223,6 +226,8 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("roots", size_of::<GpuRoot>()),
         ("points", size_of::<[f32; 4]>()),
         ("guides", size_of::<[f32; 4]>()),
+        ("offsets", size_of::<[f32; 4]>()),
+        ("motes", size_of::<GpuMote>()),
     ];
     let mut seen = BTreeSet::new();
     for program in all() {

@@ -100,6 +100,7 @@ mod shaders;
 mod shading;
 mod shadows;
 mod state;
+mod swing;
 mod targets;
 mod texture;
 mod timer;

@@ -34,11 +34,13 @@ pub(crate) struct Constants {
     pub(crate) coverage_mask: bool,
     /// Whether strands are lit in bands.
     pub(crate) toon: bool,
+    /// Whether strands go with guides that swing.
+    pub(crate) swinging: bool,
 }
 
 impl Default for Constants {
     fn default() -> Self {
-        Self { terms: Terms::NONE, encode_srgb: false, coverage_mask: false, toon: false }
+        Self { terms: Terms::NONE, encode_srgb: false, coverage_mask: false, toon: false, swinging: false }
     }
 }
 
@@ -227,7 +229,14 @@ pub(crate) const GROW_PASS: Program = Program {
     label: "grow hair",
     entry: "grow_main",
     fragment: None,
-    modules: &[AVATAR, HAIR, module!("strands/field"), module!("strands/grow")],
+    modules: &[AVATAR, HAIR, module!("strands/field"), module!("strands/swung"), module!("strands/grow")],
+};
+
+pub(crate) const SWING_PASS: Program = Program {
+    label: "swing hair",
+    entry: "swing_main",
+    fragment: None,
+    modules: &[module!("strands/swing")],
 };
 
 /// A program that draws strands: its label, entry points, and what comes after the ribbons.
@@ -307,7 +316,7 @@ impl Program {
 
 impl Constants {
     fn text(&self) -> String {
-        let Self { terms, encode_srgb, coverage_mask, toon } = self;
+        let Self { terms, encode_srgb, coverage_mask, toon, swinging } = self;
         let reach = terms.shadows.reach().map_or(-1, |reach| reach as i32);
         let flag = |name: &str, on: bool| format!("const {name}: bool = {on};\n");
         let number = |name: &str, value: u32| format!("const {name}: u32 = {value}u;\n");
@@ -346,6 +355,7 @@ impl Constants {
             flag("ENCODE_SRGB", *encode_srgb),
             flag("COVERAGE_MASK", *coverage_mask),
             flag("TOON", *toon),
+            flag("SWINGING", *swinging),
             number("SEGMENTS", SEGMENTS as u32),
             float("FIRST_SEGMENT", FIRST_SEGMENT),
             number("NO_GUIDE", NO_GUIDE),
@@ -378,6 +388,7 @@ pub(crate) mod tests {
             SKIN_LIGHT_PASS,
             SCATTER_PASS,
             GROW_PASS,
+            SWING_PASS,
             MASKED_STRANDS,
             LAYERED_STRANDS,
             STRAND_LAYERS,
@@ -400,7 +411,8 @@ pub(crate) mod tests {
     fn every_program_parses_and_validates_without_optional_capabilities() {
         for terms in [Terms::NONE, Terms::LOW, Terms::MEDIUM, Terms::HIGH] {
             let plain = terms == Terms::NONE;
-            let constants = Constants { terms, encode_srgb: plain, coverage_mask: !plain, toon: plain };
+            let constants =
+                Constants { terms, encode_srgb: plain, coverage_mask: !plain, toon: plain, swinging: plain };
             for program in all() {
                 let module = parsed(&program, &constants);
                 let mut validator = naga::valid::Validator::new(

@@ -169,6 +169,25 @@ impl AvatarState {
         self.hair_detail = detail;
     }
 
+    /// Lets hair move: as many seconds pass from the last frame to the next one, in which locks lag behind the head, swing
+    /// and settle within about a second. Set the pose as well; the order of the two does not matter. Frames of any rate
+    /// show the same motion. Seconds below 0, above a half, or that are no number leave hair still where the head is then: after
+    /// a pause, or where the avatar is put elsewhere. Until the first call, and after [`AvatarState::still_hair`], hair
+    /// hangs still, as pictures want it. A style says how its hair swings
+    /// ([`RegionStyle::swing`](avatar_groom::RegionStyle::swing)).
+    pub fn advance_hair(&mut self, queue: &wgpu::Queue, seconds: f32) {
+        if let Some(hair) = &mut self.hair {
+            hair.swing.advance(queue, seconds);
+        }
+    }
+
+    /// Lets hair hang still, from the next frame on.
+    pub fn still_hair(&mut self) {
+        if let Some(hair) = &mut self.hair {
+            hair.swing.stop();
+        }
+    }
+
     /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a
     /// placement in the world, if there is one), `weights` one blend weight per shape; shapes with weight 0 cost
     /// nothing. Allocates nothing here.

@@ -128,7 +128,12 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
         phase = vec2f(turn.x * phase.x - turn.y * phase.y, turn.y * phase.x + turn.x * phase.y);
         let side = normalize_or(cross(direction, beside), normal);
         let curl = (beside * phase.x + side * phase.y) * (curl_radius * min(3.0 * t, 1.0));
-        points[out + i] = vec4f(head_position + (before + curl) * posed_rows, max(skin.distance, least));
+        var placed = before + curl;
+        if SWINGING && has_guide {
+            let offset = posed_rows * offsets[guide + i].xyz;
+            placed = swung(placed, offset, &others, skin.shares, hair.margin * min(4.0 * t, 1.0));
+        }
+        points[out + i] = vec4f(head_position + placed * posed_rows, max(skin.distance, least));
         skin_normal = skin.outward;
         near = saturate(1.0 - (skin.distance - least) / hair.combed_reach);
     }
