@@ -47,6 +47,8 @@ pub(crate) struct SwingState {
     drawn: TickClock,
     /// Seconds since then; no number where hair is to hang still.
     seconds: f32,
+    /// Whether the motes are where the guides were at the last frame.
+    has_begun: bool,
     is_moving: bool,
     /// Whether the passes of the time that is written have still to be recorded.
     is_due: AtomicBool,
@@ -116,6 +118,7 @@ impl SwingState {
             oscillators,
             drawn: TickClock::default(),
             seconds: f32::NAN,
+            has_begun: false,
             is_moving: false,
             is_due: AtomicBool::new(false),
         }
@@ -127,13 +130,13 @@ impl SwingState {
     }
 
     pub(crate) fn stop(&mut self) {
-        self.is_moving = false;
+        (self.has_begun, self.is_moving) = (false, false);
     }
 
     /// Time passes until the next frame. Seconds that are none leave hair still where the head is then.
     pub(crate) fn advance(&mut self, queue: &wgpu::Queue, seconds: f32) {
-        let seconds = if self.is_moving { seconds } else { f32::NAN };
-        self.is_moving = true;
+        let seconds = if self.has_begun { seconds } else { f32::NAN };
+        self.has_begun = true;
         if self.is_due.swap(true, Ordering::Relaxed) {
             // What was told last was never drawn: the time adds up.
             self.seconds += seconds;
@@ -142,6 +145,7 @@ impl SwingState {
             self.seconds = seconds;
         }
         let Ticks { count, first, step, rest, is_still } = { self.drawn }.advance(self.seconds);
+        self.is_moving = !is_still;
         let swing = GpuSwing {
             ticks: count,
             first,

@@ -129,3 +129,35 @@ fn without_hair_of_its_own_a_pack_begins_with_the_option_or_none() {
     desk.key("Escape");
     desk.closes();
 }
+
+#[test]
+fn hair_swings_while_the_head_turns_and_hangs_as_in_a_picture_when_it_has_settled() {
+    if !can_run() {
+        return;
+    }
+    let pack = hairy_pack();
+    let options = [
+        pack.path().to_str().expect("a plain path"),
+        "--size",
+        "120x120",
+        "--quality",
+        "plain",
+        "--hair",
+        "long",
+        "--hair-density",
+        "0.02",
+    ];
+    let pose = "[[pose]]\nname = 'aside'\nkey = '7'\n[pose.controls]\n'head.turn' = 40\n";
+    fs::write(pack.path().join("poses.toml"), pose).expect("written");
+    let still = render(&[&options[..], &["--pose", "aside"]].concat());
+    let mut desk = Desk::open(&options);
+    desk.shows(&render(&options), "at first");
+    desk.key("7");
+    // On the way hair is elsewhere than in any picture of the pose; then it is where the picture has it, and stays.
+    desk.shows(&still, "after it has settled");
+    let settled = desk.picture();
+    std::thread::sleep(A_WHILE);
+    assert_eq!(difference(&settled, &desk.picture()), Some(0), "nothing moves");
+    desk.key("Escape");
+    desk.closes();
+}

@@ -35,6 +35,8 @@ const DISTANCES: std::ops::RangeInclusive<f32> = 0.35..=4.0;
 const WHEEL_ZOOM: f32 = 0.92;
 /// A frame that takes longer (a suspended laptop) does not let the motion jump.
 const MAX_FRAME_SECS: f64 = 0.25;
+/// How long hair swings on after the head has stopped.
+const SWINGS_ON: Duration = Duration::from_millis(1200);
 /// How long a changed file has to be left alone before it is read. Saving is several changes: who reads after the first
 /// one finds an empty file, or none, and who reads after each tells of one mistake several times.
 const SETTLED: Duration = Duration::from_millis(100);
@@ -64,6 +66,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         view: View::FRONT,
         stage: None,
         last_frame: None,
+        swing: None,
         // Nobody told of changes since the pack was loaded.
         reload_at: [Some(Instant::now() + SETTLED); WATCHED.len()],
         pointer: PhysicalPosition::default(),
@@ -99,6 +102,8 @@ struct App {
     stage: Option<Stage>,
     /// When the last frame of a running motion was drawn; `None` while nothing moves.
     last_frame: Option<Instant>,
+    /// When the last frame was drawn that hair moved in, and until when it does.
+    swing: Option<(Instant, Instant)>,
     /// When each of the files is read again, unless it changes once more before.
     reload_at: [Option<Instant>; WATCHED.len()],
     /// The pointer's last place in the window.
@@ -274,12 +279,24 @@ impl App {
             Some(start) => start.apply(&self.pack, &mut self.state)?,
             None => self.state.pose(&self.pack, self.player.values())?,
         }
+        let now = Instant::now();
+        let is_at_rest = self.player.is_at_rest();
+        // Hair goes on a little after the head; where nothing has moved for longer it hangs still.
+        let until = match is_at_rest {
+            false => Some(now + SWINGS_ON),
+            true => self.swing.map(|(_, until)| until).filter(|until| now < *until),
+        };
+        let last = self.swing.filter(|_| until.is_some()).map(|(last, _)| last);
+        stage.advance_hair(last.map_or(f32::NAN, |last| now.duration_since(last).as_secs_f32()));
+        self.swing = until.filter(|_| stage.has_hair()).map(|until| (now, until));
         stage.draw(&self.pack, &self.state, self.view)?;
-        if self.player.is_at_rest() {
-            // Nothing moves: no frame until something happens.
+        if is_at_rest {
             self.last_frame = None;
         } else {
             self.last_frame.get_or_insert_with(Instant::now);
+        }
+        // Nothing moves: no frame until something happens.
+        if !is_at_rest || self.swing.is_some() {
             self.redraw();
         }
         Ok(())

@@ -96,6 +96,16 @@ impl Stage {
         Ok(())
     }
 
+    /// Lets as much time pass for the hair; seconds that are no number leave it still.
+    pub(super) fn advance_hair(&mut self, seconds: f32) {
+        self.avatar.advance_hair(&self.gpu.queue, seconds);
+    }
+
+    /// Whether there is hair that swings on after the head has stopped.
+    pub(super) fn has_hair(&self) -> bool {
+        self.model.strand_count() > 0
+    }
+
     /// Draws one frame. A surface that is not ready loses this frame, not the window.
     pub(super) fn draw(&mut self, pack: &Pack, state: &FaceState, view: View) -> Result<()> {
         if self.targets.is_none() {
