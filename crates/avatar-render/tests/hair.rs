@@ -9,7 +9,7 @@ use avatar_mesh::{Deformed, deform};
 use avatar_pack::{FaceState, Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Gpu, render_image};
 use avatar_render::{
-    AvatarModel, AvatarState, Deformer, Grower, HairError, PartBones, PartDesc, PartTextures,
+    AvatarModel, AvatarState, Deformer, Grower, HairDetail, HairError, PartBones, PartDesc, PartTextures,
 };
 use common::nearest::Nearest;
 use common::{gpu, scene};
@@ -195,6 +195,22 @@ fn no_strand_is_under_the_skin_in_any_pose_of_the_pack() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn there_may_be_far_more_strands_than_a_head_has() {
+    let Some(gpu) = gpu() else { return };
+    let (pack, density) = avatar();
+    let groom = groom(&pack, &density, Style::SHORT, 400_000.0);
+    assert!(groom.roots.len() > 150_000, "{}", groom.roots.len());
+    let mut head = Head::new(gpu, &pack, &groom);
+    let strands = head.strands(&pack.controls.defaults());
+    head.assert_stands(&groom, &strands, "defaults");
+    let scene = scene(70.0);
+    for share in [0.0, 0.5, 1.0] {
+        head.state.set_hair_detail(HairDetail { share, ..HairDetail::default() });
+        render_image(gpu, 48, 48, 4, &scene, &[(&head.model, &head.state)]).expect("a picture");
     }
 }
 
