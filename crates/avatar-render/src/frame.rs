@@ -77,7 +77,7 @@ pub(crate) fn direction(lamp: &Lamp) -> Vec3 {
 }
 
 impl GpuFrame {
-    /// `size` is that of the picture in pixels, `height` that of the skin.
+    /// `size` is that of the picture in pixels, `height` that of the skin of the avatar that looks largest.
     pub(crate) fn new(
         scene: &Scene,
         irradiance: &[Vec3; 9],

@@ -96,6 +96,7 @@ mod record_hair;
 mod renderer;
 mod resources;
 mod scene;
+mod seen;
 mod shaders;
 mod shading;
 mod shadows;

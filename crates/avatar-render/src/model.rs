@@ -144,7 +144,8 @@ pub struct AvatarModel {
     pub(crate) parts: Vec<ModelPart>,
     palette_len: usize,
     shape_count: usize,
-    /// Height of the skin at bind pose: what materials and the reach of occlusion are measured by.
+    /// Height of the skin at bind pose: what materials are measured by, and softness of shadows and reach of occlusion where
+    /// this avatar looks largest.
     pub(crate) height: f32,
     pub(crate) hair: Option<HairModel>,
 }

@@ -9,6 +9,7 @@ use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, view_group};
 use crate::record::Frame;
 use crate::record_hair::strands_in_view;
 use crate::resources::Resources;
+use crate::seen::Seen;
 use crate::shadows::ShadowViews;
 use crate::{AvatarModel, AvatarState, PassTimer, Scene, Shading, Targets};
 use avatar_mesh::Bounds;
@@ -183,6 +184,10 @@ impl Renderer {
 
     /// Records one frame: clears `view`, then draws all avatars. Colours are premultiplied by alpha in the view.
     ///
+    /// Shadow maps are fitted around the avatars in the picture, but for those that look less than an eighth as large as the
+    /// largest; what is beyond the map is in no cast shadow. All in a lamp's way cast shadows, in the picture or not. How soft
+    /// shadows are and how far hollows darken follows from the height of the avatar that looks largest.
+    ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be recorded before a
     /// submission, with 4096 heads of hair in all; they share one environment, the last one's. A change of the environment takes some milliseconds.
     ///
@@ -218,10 +223,12 @@ impl Renderer {
         self.check(view, targets, avatars)?;
         let terms = self.config.shading.terms();
         let bounds = avatars.iter().filter_map(|(model, state)| state.bounds(model)).reduce(Bounds::union);
-        let height = avatars.first().map_or(1.0, |(model, _)| model.height);
-        let shadows = ShadowViews::new(&scene.light, bounds, terms.shadows);
+        let boxes = avatars.iter().map(|(model, state)| (state.bounds(model), model.height));
+        let seen = Seen::new(&scene.camera, boxes.clone());
+        let casters = boxes.filter_map(|(bounds, _)| bounds);
+        let shadows = ShadowViews::new(&scene.light, seen.bounds, casters, terms.shadows);
         let irradiance = self.resources.irradiance(queue, &scene.light.environment, terms);
-        let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), height);
+        let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), seen.height);
         let pixels_per_unit = gpu_frame.pixels_per_unit;
         let has_hair = avatars.iter().any(|(model, state)| {
             strands_in_view(model, state, scene, pixels_per_unit, f32::INFINITY).is_some()
