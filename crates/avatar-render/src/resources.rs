@@ -179,8 +179,9 @@ impl Resources {
     }
 }
 
+/// The nearest half; what is brighter than halves can be stays finite.
 fn half_bits(value: f32) -> u16 {
-    f16::from_f32(value).to_bits()
+    f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32())).to_bits()
 }
 
 fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {

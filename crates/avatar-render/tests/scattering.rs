@@ -7,9 +7,10 @@ use avatar_look::optics::diffusion_distance;
 use avatar_look::scatter_table;
 use avatar_mesh::{Mesh, PartKind};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Material, PartTextures, Scattering, Shading, Shadows, Terms,
+    AvatarModel, AvatarState, Camera, Lamp, Light, Material, PartTextures, Scattering, Shading, Shadows,
+    Terms,
 };
-use common::stage::{key_light, light_of, lit_scene, meets_ball, ray_through};
+use common::stage::{key_light, light_of, lit_scene, meets_ball, ray_through, stage};
 use common::{ball, gpu, model, part, plain, square};
 use glam::Vec3;
 
@@ -129,6 +130,24 @@ fn both_ways_of_scattering_agree_where_light_is_even() {
         }
     }
     assert!(compared > 50, "{compared}");
+}
+
+#[test]
+fn lamps_brighter_than_halves_can_be_are_as_bright_as_their_exposure_shows_them() {
+    let Some(gpu) = gpu() else { return };
+    let avatar = balls();
+    let camera = Camera::orbit(BALLS[0].0, 20.0, 0.0, 0.0, 0.11, 1.0);
+    for scattering in [Scattering::PreIntegrated, Scattering::Separable] {
+        let stage = stage(Shading::Natural(terms(scattering)), SIZE).expect("asked before");
+        let [usual, bright] = [1.0, 1e6f32].map(|radiance| {
+            let toward = Vec3::new(0.6, 0.0, 0.8);
+            let key = Lamp { direction_world: toward, radiance: [radiance; 3] };
+            let light = Light { key, exposure: radiance.recip(), ..key_light(toward) };
+            stage.draw(gpu, &lit_scene(camera, light), &[(&avatar.0, &avatar.1)])
+        });
+        assert!(usual.middle().x > 0.5, "{}", usual.middle());
+        assert_eq!(usual.difference_share(&bright, 0.004), 0.0, "{scattering:?}: {}", bright.middle());
+    }
 }
 
 /// The share of light that arrives beside an edge, at `x` times Burley's parameter from it, toward the light positive: the
