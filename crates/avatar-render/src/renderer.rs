@@ -31,7 +31,23 @@ impl RendererConfig {
     /// Whether the shaders encode their colours because the target does not.
     pub(crate) fn encodes_in_shader(self) -> bool {
         use wgpu::TextureFormat as F;
-        matches!(self.color_format, F::Rgba8Unorm | F::Bgra8Unorm | F::Rgb10a2Unorm | F::Rgba16Unorm)
+        matches!(
+            self.color_format,
+            F::R8Unorm
+                | F::Rg8Unorm
+                | F::Rgba8Unorm
+                | F::Bgra8Unorm
+                | F::Rgb10a2Unorm
+                | F::R16Unorm
+                | F::Rg16Unorm
+                | F::Rgba16Unorm
+                | F::R8Snorm
+                | F::Rg8Snorm
+                | F::Rgba8Snorm
+                | F::R16Snorm
+                | F::Rg16Snorm
+                | F::Rgba16Snorm
+        )
     }
 }
 
@@ -318,5 +334,43 @@ fn check_config(device: &wgpu::Device, config: RendererConfig) -> Result<(), Ren
     match drawable && features.flags.contains(needed) && !config.color_format.is_depth_stencil_format() {
         true => Ok(()),
         false => Err(RendererError::Format { found: config.color_format, samples: config.samples }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_normalised_format_without_srgb_gets_encoded_colours_and_no_other() {
+        use wgpu::TextureFormat as F;
+        for color_format in [
+            F::R8Unorm,
+            F::R8Snorm,
+            F::R16Unorm,
+            F::R16Snorm,
+            F::R16Float,
+            F::Rg8Unorm,
+            F::Rg8Snorm,
+            F::R32Float,
+            F::Rg16Unorm,
+            F::Rg16Snorm,
+            F::Rg16Float,
+            F::Rgba8Unorm,
+            F::Rgba8UnormSrgb,
+            F::Rgba8Snorm,
+            F::Bgra8Unorm,
+            F::Bgra8UnormSrgb,
+            F::Rgb10a2Unorm,
+            F::Rg11b10Ufloat,
+            F::Rgba16Unorm,
+            F::Rgba16Snorm,
+            F::Rgba16Float,
+            F::Rgba32Float,
+        ] {
+            let config = RendererConfig { color_format, samples: 1, shading: Shading::Plain };
+            let is_normalised = format!("{color_format:?}").ends_with("norm");
+            assert_eq!(config.encodes_in_shader(), is_normalised, "{color_format:?}");
+        }
     }
 }
