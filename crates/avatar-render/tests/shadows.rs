@@ -3,7 +3,7 @@
 
 mod common;
 
-use avatar_mesh::PartKind;
+use avatar_mesh::{Mesh, PartKind};
 use avatar_render::{
     AvatarModel, AvatarState, Camera, Environment, Lamp, Light, Material, PartTextures, Shading, Shadows,
     Terms,
@@ -202,6 +202,24 @@ fn an_avatar_beside_the_picture_casts_its_shadow_into_it() {
     let shaded = beside_another(Shadows::Hard, toward, Some(toward * 15.0));
     let sum = |picture: &Picture| picture.light.iter().map(|light| light.x).sum::<f32>();
     assert!(sum(&shaded) < 0.1 * sum(&alone), "{} of {}", sum(&shaded), sum(&alone));
+}
+
+#[test]
+fn the_drawn_rim_is_hidden_by_what_stands_before_its_lamp() {
+    let Some(gpu) = gpu() else { return };
+    let (mesh, screen) = (ball(Vec3::ZERO, 1.0, 32), ball(Vec3::X * 4.0, 1.5, 16));
+    let rim = Lamp { direction_world: Vec3::X, radiance: [1.0; 3] };
+    let light = Light { rim, ..bare_light(Environment::uniform([0.0; 3])) };
+    let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.2, 1.0);
+    let of = |meshes: &[&Mesh]| {
+        let none = PartTextures::default();
+        let parts: Vec<_> = meshes.iter().map(|mesh| part(mesh, PartKind::Teeth, none)).collect();
+        let picture = light_of(Shading::Toon, SIZE, &lit_scene(camera, light), &model(gpu, &parts));
+        // Across the middle. Some ambient light is always there.
+        (0..SIZE).map(|x| picture.pixel(x, SIZE / 2).x).fold(0.0, f32::max)
+    };
+    let (open, hidden) = (of(&[&mesh]), of(&[&mesh, &screen]));
+    assert!(open > 0.45 && hidden < 0.1, "{hidden} of {open}");
 }
 
 /// The width over which a straight edge's shadow rises from 10 % to 90 %, in the world, and its largest step from pixel
