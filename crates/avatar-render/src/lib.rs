@@ -113,7 +113,7 @@ pub use grower::{Grower, GrowerError};
 pub use hair::HairError;
 pub use hair_detail::HairDetail;
 pub use image::{Image, ImageSizeError};
-pub use model::{AvatarModel, ModelError, PartBones, PartDesc, PartProblem, PartTextures};
+pub use model::{AvatarModel, ModelError, NoSuchPart, PartBones, PartDesc, PartProblem, PartTextures};
 pub use readback::ReadbackError;
 pub use renderer::{DrawError, Renderer, RendererConfig, RendererError};
 pub use scene::Scene;

@@ -45,7 +45,7 @@ fn balls() -> (AvatarModel, AvatarState) {
     let none = PartTextures::default();
     let avatar = model(gpu, &meshes.each_ref().map(|mesh| part(mesh, PartKind::Skin, none)));
     for place in 0..2 {
-        assert!(avatar.0.set_material(&gpu.queue, place, &white_skin()));
+        avatar.0.set_material(&gpu.queue, place, &white_skin()).expect("a part");
     }
     avatar
 }
@@ -182,7 +182,7 @@ fn blurred_light_fades_beside_an_edge_as_the_profile_says() {
     // Height 2; all channels alike.
     let path = 0.04;
     let material = Material { scatter: [path; 3], ..white_skin() };
-    assert!(avatar.0.set_material(&gpu.queue, 0, &material));
+    avatar.0.set_material(&gpu.queue, 0, &material).expect("a part");
     let distance = diffusion_distance(2.0 * path, 0.6);
     // Thirty times the parameter across the picture; the lamp sees the left half from behind.
     let camera = Camera::orbit(Vec3::ZERO, 30.0 * distance / 0.1, 0.0, 0.0, 2.0 * 0.05f32.atan(), 1.0);
@@ -228,7 +228,7 @@ fn through(thickness: f32, texture: bool, terms: Terms) -> Vec3 {
     let textures = PartTextures { thickness: texture.then_some(&white), ..PartTextures::default() };
     let avatar = model(gpu, &[part(&mesh, PartKind::Skin, textures)]);
     let material = Material { thickness: thickness / 2.0, transmission: 1.0, ..white_skin() };
-    assert!(avatar.0.set_material(&gpu.queue, 0, &material));
+    avatar.0.set_material(&gpu.queue, 0, &material).expect("a part");
     let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.1, 1.0);
     light_of(Shading::Natural(terms), 32, &lit_scene(camera, key_light(Vec3::NEG_Z)), &avatar).middle()
 }

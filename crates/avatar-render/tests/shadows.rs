@@ -48,7 +48,7 @@ fn avatar_of(scale: f32) -> (AvatarModel, AvatarState) {
         ..Material::of(PartKind::Teeth)
     };
     for place in 0..2 {
-        assert!(avatar.0.set_material(&gpu.queue, place, &matte));
+        avatar.0.set_material(&gpu.queue, place, &matte).expect("a part");
     }
     avatar
 }
