@@ -219,18 +219,42 @@ fn slab(thickness: f32) -> Mesh {
     mesh
 }
 
-/// What comes through a slab from a lamp straight behind it.
+/// What comes through a slab from a lamp straight behind it, by its colour.
 fn through(thickness: f32, texture: bool, terms: Terms) -> Vec3 {
+    // Takes in as much as comes through at most.
+    const COLOR: f32 = 0.6;
+    leaving_slab(thickness, texture, terms, COLOR, Vec3::NEG_Z) / COLOR
+}
+
+/// What leaves a slab of this colour toward +Z, lit from one side.
+fn leaving_slab(thickness: f32, texture: bool, terms: Terms, color: f32, toward_lamp: Vec3) -> Vec3 {
     let gpu = gpu().expect("asked before");
     let mesh = slab(thickness);
     // As thick as white means.
     let white = plain([255; 4]);
     let textures = PartTextures { thickness: texture.then_some(&white), ..PartTextures::default() };
     let avatar = model(gpu, &[part(&mesh, PartKind::Skin, textures)]);
-    let material = Material { thickness: thickness / 2.0, transmission: 1.0, ..white_skin() };
+    let material =
+        Material { color: [color; 3], thickness: thickness / 2.0, transmission: 1.0, ..white_skin() };
     avatar.0.set_material(&gpu.queue, 0, &material).expect("a part");
     let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.1, 1.0);
-    light_of(Shading::Natural(terms), 32, &lit_scene(camera, key_light(Vec3::NEG_Z)), &avatar).middle()
+    light_of(Shading::Natural(terms), 32, &lit_scene(camera, key_light(toward_lamp)), &avatar).middle()
+}
+
+#[test]
+fn a_thin_sheet_reflects_and_lets_through_no_more_than_arrives() {
+    let Some(_) = gpu() else { return };
+    for scattering in [Scattering::Wrapped, Scattering::PreIntegrated, Scattering::Separable] {
+        let terms = Terms { shadows: Shadows::Soft, transmission: true, ..terms(scattering) };
+        for (texture, color) in [(false, 1.0), (false, 0.8), (false, 0.3), (true, 1.0), (true, 0.5)] {
+            let [reflected, passed] = [Vec3::Z, Vec3::NEG_Z]
+                .map(|toward_lamp| leaving_slab(0.01, texture, terms, color, toward_lamp));
+            let said = format!("{reflected} and {passed}: {scattering:?}, {texture}, {color}");
+            assert!((reflected + passed).max_element() < 1.02, "{said}");
+            // Light goes somewhere: thin sheets glow unless their colour sends all of it back.
+            assert!(passed.x > 0.1 || (color == 1.0 && !texture), "{said}");
+        }
+    }
 }
 
 #[test]
