@@ -266,7 +266,7 @@ fn hair_map(device: &wgpu::Device, terms: Terms) -> wgpu::TextureView {
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
-    texture.create_view(&Default::default())
+    texture.create_view(&wgpu::TextureViewDescriptor { label: Some("shadow of hair"), ..Default::default() })
 }
 
 fn shadow_map(device: &wgpu::Device, terms: Terms) -> (wgpu::TextureView, Vec<wgpu::TextureView>) {
