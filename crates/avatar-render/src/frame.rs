@@ -62,7 +62,8 @@ pub(crate) struct GpuFrame {
     pub(crate) hair_shadow: f32,
     pub(crate) hair_far: f32,
     pub(crate) hair_per_depth: f32,
-    pub(crate) pad: [f32; 3],
+    pub(crate) pre_exposure: f32,
+    pub(crate) pad: [f32; 2],
 }
 
 impl GpuLamp {
@@ -76,8 +77,18 @@ pub(crate) fn direction(lamp: &Lamp) -> Vec3 {
     lamp.direction_world.normalize_or(Vec3::Y)
 }
 
+/// The power of two below the exposure: light is kept between passes as bright as it is shown, so that halves hold that of
+/// any lamp, and with no more rounding than before (S. Lagarde and C. de Rousiers, "Moving Frostbite to Physically Based
+/// Rendering", 2014, 5.1.2).
+fn pre_exposure(exposure: f32) -> f32 {
+    match exposure > 0.0 {
+        true => f32::from_bits(exposure.clamp(1e-12, 1e12).to_bits() & f32::INFINITY.to_bits()),
+        false => 1.0,
+    }
+}
+
 impl GpuFrame {
-    /// `size` is that of the picture in pixels, `height` that of the skin.
+    /// `size` is that of the picture in pixels, `height` that of the skin of the avatar that looks largest.
     pub(crate) fn new(
         scene: &Scene,
         irradiance: &[Vec3; 9],
@@ -114,7 +125,8 @@ impl GpuFrame {
             hair_shadow: 0.0,
             hair_far: 0.0,
             hair_per_depth: 0.0,
-            pad: [0.0; 3],
+            pre_exposure: pre_exposure(light.exposure),
+            pad: [0.0; 2],
         }
     }
 
@@ -188,5 +200,26 @@ pub(crate) fn uniform_entry(
             min_binding_size: bytes,
         },
         count: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_is_kept_about_as_bright_as_it_is_shown_whatever_the_exposure() {
+        for (exposure, expected) in [
+            (1.0, 1.0),
+            (0.8, 0.5),
+            (3.9, 2.0),
+            (1e-5, 2.0f32.powi(-17)),
+            (0.0, 1.0),
+            (-2.0, 1.0),
+            (f32::NAN, 1.0),
+        ] {
+            assert_eq!(pre_exposure(exposure), expected, "{exposure}");
+        }
+        assert!(pre_exposure(f32::INFINITY).is_finite() && pre_exposure(f32::MIN_POSITIVE) > 0.0);
     }
 }

@@ -122,7 +122,8 @@ fn layouts() -> Vec<Layout> {
             reflection_levels,
             hair_shadow,
             hair_far,
-            hair_per_depth
+            hair_per_depth,
+            pre_exposure
         ),
         layout!(
             "Iris",

@@ -18,6 +18,9 @@
 //! wgpu's, with reversed depth ([`Camera`]). Triangles run counter-clockwise seen from outside; a part that is mostly
 //! inside out is turned around. Colours are linear unless they are 8-bit; a target holds them premultiplied by alpha.
 //!
+//! [`wgpu`], [`glam`] and [`avatar_mesh`], whose types stand in this interface, are reexported: a program that names them
+//! through this crate cannot mix versions.
+//!
 //! # One frame
 //!
 //! ```text
@@ -50,10 +53,10 @@
 //! # Example
 //!
 //! ```no_run
-//! use avatar_mesh::{Mesh, PartKind};
+//! use avatar_render::avatar_mesh::{Mesh, PartKind};
+//! use avatar_render::glam::{Affine3A, Vec3};
 //! use avatar_render::headless::{GpuOptions, open_blocking, render_image};
 //! use avatar_render::{AvatarModel, AvatarState, Camera, Light, PartBones, PartDesc, PartTextures, Scene};
-//! use glam::{Affine3A, Vec3};
 //!
 //! # let mesh = Mesh::default();
 //! let gpu = open_blocking(GpuOptions::default())?;
@@ -96,6 +99,7 @@ mod record_hair;
 mod renderer;
 mod resources;
 mod scene;
+mod seen;
 mod shaders;
 mod shading;
 mod shadows;
@@ -105,15 +109,21 @@ mod targets;
 mod texture;
 mod timer;
 
+/// The crate whose [`Groom`](avatar_groom::Groom)s [`AvatarModel::set_hair`] plants.
+pub use avatar_groom;
 pub use avatar_look::{Environment, Iris, Lamp, Light, Material, Panel, ToneMap};
+/// The crate whose meshes are drawn.
+pub use avatar_mesh;
 pub use camera::Camera;
 pub use color::linear_from_srgb8;
 pub use deformer::{Deformer, DeformerError};
+/// The crate of vectors and matrices that this one was built with: types of another version of it do not fit.
+pub use glam;
 pub use grower::{Grower, GrowerError};
 pub use hair::HairError;
 pub use hair_detail::HairDetail;
 pub use image::{Image, ImageSizeError};
-pub use model::{AvatarModel, ModelError, PartBones, PartDesc, PartProblem, PartTextures};
+pub use model::{AvatarModel, ModelError, NoSuchPart, PartBones, PartDesc, PartProblem, PartTextures};
 pub use readback::ReadbackError;
 pub use renderer::{DrawError, Renderer, RendererConfig, RendererError};
 pub use scene::Scene;
@@ -121,3 +131,5 @@ pub use shading::{Quality, Scattering, Shading, Shadows, Style, Terms};
 pub use state::{AvatarState, StateError};
 pub use targets::{SizeError, Targets};
 pub use timer::PassTimer;
+/// The crate of devices, queues and views that this one was built with: types of another version of it do not fit.
+pub use wgpu;

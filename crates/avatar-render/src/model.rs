@@ -138,13 +138,24 @@ pub enum PartProblem {
     },
 }
 
+/// A part that a model does not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected a part below {parts}, found {found}")]
+pub struct NoSuchPart {
+    /// Number of parts.
+    pub parts: usize,
+    /// The part that was asked for, from 0.
+    pub found: usize,
+}
+
 /// What many avatars share: vertices, triangles, shapes, textures and materials.
 #[derive(Debug)]
 pub struct AvatarModel {
     pub(crate) parts: Vec<ModelPart>,
     palette_len: usize,
     shape_count: usize,
-    /// Height of the skin at bind pose: what materials and the reach of occlusion are measured by.
+    /// Height of the skin at bind pose: what materials are measured by, and softness of shadows and reach of occlusion where
+    /// this avatar looks largest.
     pub(crate) height: f32,
     pub(crate) hair: Option<HairModel>,
 }
@@ -245,13 +256,22 @@ impl AvatarModel {
         self.hair.as_ref().map_or(0, |hair| hair.strand_count as usize)
     }
 
-    /// Replaces the looks of a part in all avatars of this model, from the next submission on. Returns whether there
-    /// is such a part.
-    pub fn set_material(&self, queue: &wgpu::Queue, part: usize, material: &Material) -> bool {
-        let Some(part) = self.parts.get(part) else { return false };
+    /// Replaces the looks of a part in all avatars of this model, from the next submission on. `part` is its place among
+    /// the parts that the model was made of.
+    ///
+    /// # Errors
+    /// No such part; nothing changes then.
+    pub fn set_material(
+        &self,
+        queue: &wgpu::Queue,
+        part: usize,
+        material: &Material,
+    ) -> Result<(), NoSuchPart> {
+        let missing = NoSuchPart { parts: self.parts.len(), found: part };
+        let part = self.parts.get(part).ok_or(missing)?;
         let gpu = GpuMaterial::new(material, &part.geometry, part.eye.as_ref(), self.height, part.textures);
         queue.write_buffer(&part.material, 0, bytemuck::bytes_of(&gpu));
-        true
+        Ok(())
     }
 }
 

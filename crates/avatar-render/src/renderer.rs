@@ -9,6 +9,7 @@ use crate::pipelines::{Layouts, PassPipelines, picture_pipeline, view_group};
 use crate::record::Frame;
 use crate::record_hair::strands_in_view;
 use crate::resources::Resources;
+use crate::seen::Seen;
 use crate::shadows::ShadowViews;
 use crate::{AvatarModel, AvatarState, PassTimer, Scene, Shading, Targets};
 use avatar_mesh::Bounds;
@@ -30,7 +31,23 @@ impl RendererConfig {
     /// Whether the shaders encode their colours because the target does not.
     pub(crate) fn encodes_in_shader(self) -> bool {
         use wgpu::TextureFormat as F;
-        matches!(self.color_format, F::Rgba8Unorm | F::Bgra8Unorm | F::Rgb10a2Unorm | F::Rgba16Unorm)
+        matches!(
+            self.color_format,
+            F::R8Unorm
+                | F::Rg8Unorm
+                | F::Rgba8Unorm
+                | F::Bgra8Unorm
+                | F::Rgb10a2Unorm
+                | F::R16Unorm
+                | F::Rg16Unorm
+                | F::Rgba16Unorm
+                | F::R8Snorm
+                | F::Rg8Snorm
+                | F::Rgba8Snorm
+                | F::R16Snorm
+                | F::Rg16Snorm
+                | F::Rgba16Snorm
+        )
     }
 }
 
@@ -183,6 +200,10 @@ impl Renderer {
 
     /// Records one frame: clears `view`, then draws all avatars. Colours are premultiplied by alpha in the view.
     ///
+    /// Shadow maps are fitted around the avatars in the picture, but for those that look less than an eighth as large as the
+    /// largest; what is beyond the map is in no cast shadow. All in a lamp's way cast shadows, in the picture or not. How soft
+    /// shadows are and how far hollows darken follows from the height of the avatar that looks largest.
+    ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be recorded before a
     /// submission, with 4096 heads of hair in all; they share one environment, the last one's. A change of the environment takes some milliseconds.
     ///
@@ -218,10 +239,12 @@ impl Renderer {
         self.check(view, targets, avatars)?;
         let terms = self.config.shading.terms();
         let bounds = avatars.iter().filter_map(|(model, state)| state.bounds(model)).reduce(Bounds::union);
-        let height = avatars.first().map_or(1.0, |(model, _)| model.height);
-        let shadows = ShadowViews::new(&scene.light, bounds, terms.shadows);
+        let boxes = avatars.iter().map(|(model, state)| (state.bounds(model), model.height));
+        let seen = Seen::new(&scene.camera, boxes.clone());
+        let casters = boxes.filter_map(|(bounds, _)| bounds);
+        let shadows = ShadowViews::new(&scene.light, seen.bounds, casters, terms.shadows);
         let irradiance = self.resources.irradiance(queue, &scene.light.environment, terms);
-        let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), height);
+        let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), seen.height);
         let pixels_per_unit = gpu_frame.pixels_per_unit;
         let has_hair = avatars.iter().any(|(model, state)| {
             strands_in_view(model, state, scene, pixels_per_unit, f32::INFINITY).is_some()
@@ -311,5 +334,43 @@ fn check_config(device: &wgpu::Device, config: RendererConfig) -> Result<(), Ren
     match drawable && features.flags.contains(needed) && !config.color_format.is_depth_stencil_format() {
         true => Ok(()),
         false => Err(RendererError::Format { found: config.color_format, samples: config.samples }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_normalised_format_without_srgb_gets_encoded_colours_and_no_other() {
+        use wgpu::TextureFormat as F;
+        for color_format in [
+            F::R8Unorm,
+            F::R8Snorm,
+            F::R16Unorm,
+            F::R16Snorm,
+            F::R16Float,
+            F::Rg8Unorm,
+            F::Rg8Snorm,
+            F::R32Float,
+            F::Rg16Unorm,
+            F::Rg16Snorm,
+            F::Rg16Float,
+            F::Rgba8Unorm,
+            F::Rgba8UnormSrgb,
+            F::Rgba8Snorm,
+            F::Bgra8Unorm,
+            F::Bgra8UnormSrgb,
+            F::Rgb10a2Unorm,
+            F::Rg11b10Ufloat,
+            F::Rgba16Unorm,
+            F::Rgba16Snorm,
+            F::Rgba16Float,
+            F::Rgba32Float,
+        ] {
+            let config = RendererConfig { color_format, samples: 1, shading: Shading::Plain };
+            let is_normalised = format!("{color_format:?}").ends_with("norm");
+            assert_eq!(config.encodes_in_shader(), is_normalised, "{color_format:?}");
+        }
     }
 }

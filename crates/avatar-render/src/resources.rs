@@ -179,8 +179,9 @@ impl Resources {
     }
 }
 
+/// The nearest half; what is brighter than halves can be stays finite.
 fn half_bits(value: f32) -> u16 {
-    f16::from_f32(value).to_bits()
+    f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32())).to_bits()
 }
 
 fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
@@ -265,7 +266,7 @@ fn hair_map(device: &wgpu::Device, terms: Terms) -> wgpu::TextureView {
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
-    texture.create_view(&Default::default())
+    texture.create_view(&wgpu::TextureViewDescriptor { label: Some("shadow of hair"), ..Default::default() })
 }
 
 fn shadow_map(device: &wgpu::Device, terms: Terms) -> (wgpu::TextureView, Vec<wgpu::TextureView>) {

@@ -5,7 +5,8 @@ use crate::{Light, Shadows};
 use avatar_mesh::Bounds;
 use glam::{Mat4, Quat, Vec3};
 
-/// One lamp's view: parallel light, fitted around the avatars.
+/// One lamp's view: parallel light, fitted around what the camera sees of the avatars, and deep enough for all that stands
+/// between that and the lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ShadowView {
     /// To −1…1 across and up, 0…1 away from the lamp.
@@ -22,15 +23,31 @@ pub(crate) struct ShadowViews(pub(crate) [ShadowView; SHADOW_COUNT]);
 
 /// Room around the avatars, as a share of their size: samples of soft edges stay inside the map.
 const MARGIN: f32 = 1.06;
+/// What stands farther toward the lamp casts no shadows, in half widths of the map: depths would lose their precision.
+const CASTER_REACH: f32 = 64.0;
 
 impl ShadowViews {
-    pub(crate) fn new(light: &Light, bounds: Option<Bounds>, shadows: Shadows) -> Self {
+    /// `bounds` are those of what is to be shaded, `casters` those of all that may stand in a lamp's light.
+    pub(crate) fn new(
+        light: &Light,
+        bounds: Option<Bounds>,
+        casters: impl Iterator<Item = Bounds> + Clone,
+        shadows: Shadows,
+    ) -> Self {
         let bounds = bounds.unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
-        Self([&light.key, &light.rim].map(|lamp| view(direction(lamp), bounds, shadows.map_size())))
+        Self(
+            [&light.key, &light.rim]
+                .map(|lamp| view(direction(lamp), bounds, casters.clone(), shadows.map_size())),
+        )
     }
 }
 
-fn view(toward_lamp: Vec3, bounds: Bounds, map_size: u32) -> ShadowView {
+fn view(
+    toward_lamp: Vec3,
+    bounds: Bounds,
+    casters: impl Iterator<Item = Bounds>,
+    map_size: u32,
+) -> ShadowView {
     // "Up" of the map stays in the plane of the lamp and the vertical: a mirrored lamp has the mirrored map.
     let rotation = if toward_lamp.x.hypot(toward_lamp.z) > 1e-4 {
         let yaw = toward_lamp.x.atan2(toward_lamp.z);
@@ -39,17 +56,31 @@ fn view(toward_lamp: Vec3, bounds: Bounds, map_size: u32) -> ShadowView {
         Quat::from_rotation_x(-toward_lamp.y.signum() * std::f32::consts::FRAC_PI_2)
     };
     let to_lamp_space = rotation.inverse();
-    // The box's extent along the axes of the lamp.
-    let half = bounds.size() * 0.5;
-    let extent = |axis: Vec3| (rotation * axis).abs().dot(half).max(1e-3) * MARGIN;
-    let half = Vec3::new(extent(Vec3::X), extent(Vec3::Y), extent(Vec3::Z));
+    // A box's extent along the axes of the lamp.
+    let extents = |bounds: Bounds| {
+        let half = bounds.size() * 0.5;
+        [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| (rotation * axis).abs().dot(half).max(1e-3) * MARGIN)
+    };
+    let [half_x, half_y, half_z] = extents(bounds);
     // Square texels: softness is the same across and up.
-    let side = half.x.max(half.y);
-    let scale = Mat4::from_scale(Vec3::new(1.0 / side, 1.0 / side, -0.5 / half.z));
+    let side = half_x.max(half_y);
+    let mut toward = half_z;
+    for caster in casters {
+        let at = to_lamp_space * (caster.center() - bounds.center());
+        let [x, y, z] = extents(caster);
+        let is_in_the_way = at.x.abs() <= side + x && at.y.abs() <= side + y;
+        if is_in_the_way && at.z + z <= CASTER_REACH * side {
+            toward = toward.max(at.z + z);
+        }
+    }
+    let depth = toward + half_z;
+    let scale = Mat4::from_scale(Vec3::new(1.0 / side, 1.0 / side, -1.0 / depth));
     let toward_center = Mat4::from_translation(-bounds.center());
-    let shadow_from_world =
-        Mat4::from_translation(Vec3::Z * 0.5) * scale * Mat4::from_quat(to_lamp_space) * toward_center;
-    ShadowView { shadow_from_world, depth: 2.0 * half.z, texel: 2.0 * side / map_size as f32 }
+    let shadow_from_world = Mat4::from_translation(Vec3::Z * (toward / depth))
+        * scale
+        * Mat4::from_quat(to_lamp_space)
+        * toward_center;
+    ShadowView { shadow_from_world, depth, texel: 2.0 * side / map_size as f32 }
 }
 
 #[cfg(test)]
@@ -66,7 +97,7 @@ mod tests {
             let toward_lamp = Vec3::new(x, y, z).normalize_or(Vec3::Y);
             let min = Vec3::new(-size, -2.0 * size, -0.5 * size) + Vec3::splat(3.0);
             let bounds = Bounds { min, max: Vec3::new(size, size, size) + Vec3::splat(3.0) };
-            let view = view(toward_lamp, bounds, 1024);
+            let view = view(toward_lamp, bounds, [bounds].into_iter(), 1024);
             let sign = |bit: u8| f32::from(corner >> bit & 1);
             let p = bounds.min + bounds.size() * Vec3::new(sign(0), sign(1), sign(2));
             let seen = view.shadow_from_world.project_point3(p);
@@ -81,13 +112,35 @@ mod tests {
             let bounds = Bounds { min: Vec3::new(-2.0, -3.0, -1.0), max: Vec3::new(2.0, 1.0, 4.0) };
             let mirror = Vec3::new(-1.0, 1.0, 1.0);
             let toward = Vec3::new(x, y, z).normalize_or(Vec3::Y);
-            let (one, other) = (view(toward, bounds, 64), view(toward * mirror, bounds, 64));
+            let caster = Bounds { min: bounds.min + toward * 9.0, max: bounds.max + toward * 9.0 };
+            let mirrored = Bounds { min: caster.max * mirror, max: caster.min * mirror };
+            let mirrored = Bounds { min: mirrored.min.min(mirrored.max), max: mirrored.min.max(mirrored.max) };
+            let one = view(toward, bounds, [caster].into_iter(), 64);
+            let other = view(toward * mirror, bounds, [mirrored].into_iter(), 64);
             let p = Vec3::new(0.7, -1.2, 2.0);
             let (a, b) = (
                 one.shadow_from_world.project_point3(p),
                 other.shadow_from_world.project_point3(p * mirror),
             );
             prop_assert!((a * mirror - b).length() < 1e-5, "{a} {b}");
+        }
+    }
+    #[test]
+    fn what_stands_between_the_lamp_and_the_view_is_in_the_map_and_makes_it_no_coarser() {
+        let bounds = Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE };
+        let toward_lamp = Vec3::new(0.6, 0.0, 0.8);
+        let alone = view(toward_lamp, bounds, [bounds].into_iter(), 64);
+        let with = |by: Vec3| {
+            let caster = Bounds { min: bounds.min + by, max: bounds.max + by };
+            view(toward_lamp, bounds, [bounds, caster].into_iter(), 64)
+        };
+        let between = with(toward_lamp * 20.0);
+        assert_eq!(between.texel, alone.texel);
+        let seen = between.shadow_from_world.project_point3(toward_lamp * 21.0);
+        assert!((0.0..=1.0).contains(&seen.z), "{seen}");
+        // Beside the light's way, behind what is lit, and so far away that depths would be coarse.
+        for by in [Vec3::Y * 20.0, toward_lamp * -20.0, toward_lamp * 1e6] {
+            assert_eq!(with(by), alone, "{by}");
         }
     }
 }

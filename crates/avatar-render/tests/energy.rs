@@ -35,7 +35,7 @@ fn white(kind: PartKind) -> Material {
 
 fn with_material(avatar: &(AvatarModel, AvatarState), material: &Material) {
     let gpu = gpu().expect("asked before");
-    assert!(avatar.0.set_material(&gpu.queue, 0, material));
+    avatar.0.set_material(&gpu.queue, 0, material).expect("a part");
 }
 
 fn camera() -> Camera {

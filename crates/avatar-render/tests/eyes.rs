@@ -80,10 +80,10 @@ fn eye(painting: &Image, iris: Iris, with_cornea: bool) -> (AvatarModel, AvatarS
     let avatar = model(gpu, &parts);
     let iris = Iris { radius: IRIS_RADIUS / CORNEA_EDGE, ..iris };
     let dry = Material { wetness: 0.0, reflectance: 0.0, back_light: 1.0, ..Material::of(PartKind::Eyeball) };
-    assert!(avatar.0.set_material(&gpu.queue, 0, &Material { iris, ..dry }));
+    avatar.0.set_material(&gpu.queue, 0, &Material { iris, ..dry }).expect("a part");
     if with_cornea {
         let clear = Material { wetness: 0.0, reflectance: 0.0, opacity: 0.0, color: [0.0; 3], ..dry };
-        assert!(avatar.0.set_material(&gpu.queue, 1, &clear));
+        avatar.0.set_material(&gpu.queue, 1, &clear).expect("a part");
     }
     avatar
 }
@@ -275,7 +275,7 @@ fn the_iris_is_seen_through_the_cornea_and_the_highlight_is_bright() {
             let avatar = checkered_eye(gpu, with_cornea);
             // What shines is to be the cornea.
             let dry = Material { wetness: 0.0, ..Material::of(PartKind::Eyeball) };
-            assert!(avatar.0.set_material(&gpu.queue, usize::from(with_cornea), &dry));
+            avatar.0.set_material(&gpu.queue, usize::from(with_cornea), &dry).expect("a part");
             light_of(shading, SIZE, &scene, &avatar)
         });
         let brightest =

@@ -6,8 +6,8 @@ mod common;
 use avatar_mesh::{Mesh, PartKind};
 use avatar_render::headless::{Canvas, render_image};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Environment, Image, Material, PartBones, PartDesc, PartTextures, Scene,
-    Shading,
+    AvatarModel, AvatarState, Camera, Environment, Image, Material, NoSuchPart, PartBones, PartDesc,
+    PartTextures, Scene, Shading,
 };
 use common::stage::{bare_light, light_of, lit_scene};
 use common::{
@@ -127,7 +127,7 @@ fn occlusion_darkens_and_keeps_the_colour_of_light_that_bounces() {
     });
     for (name, shading) in shadings() {
         let [open, hidden] = avatars.each_ref().map(|avatar| {
-            assert!(avatar.0.set_material(&gpu.queue, 0, &matte));
+            avatar.0.set_material(&gpu.queue, 0, &matte).expect("a part");
             let scene = lit_scene(scene(4.0).camera, bare_light(Environment::uniform([1.0; 3])));
             light_of(shading, 32, &scene, avatar).middle()
         });
@@ -151,8 +151,10 @@ fn a_material_can_be_replaced() {
     let mesh = square(Vec3::ZERO, 1.0);
     let (model, state) = model(gpu, &[part(&mesh, PartKind::Skin, PartTextures::default())]);
     let green = Material { color: [0.0, 0.5, 0.0], ..Material::of(PartKind::Skin) };
-    assert!(model.set_material(&gpu.queue, 0, &green));
-    assert!(!model.set_material(&gpu.queue, 1, &green));
+    model.set_material(&gpu.queue, 0, &green).expect("a part");
+    let refused = model.set_material(&gpu.queue, 1, &green);
+    assert_eq!(refused, Err(NoSuchPart { parts: 1, found: 1 }));
+    assert_eq!(NoSuchPart { parts: 1, found: 1 }.to_string(), "expected a part below 1, found 1");
     let picture = render_image(gpu, SIZE, SIZE, 1, &scene(4.0), &[(&model, &state)]).expect("a picture");
     let [r, g, ..] = picture.pixel(32, 32);
     assert!(g > 2 * r, "{:?}", picture.pixel(32, 32));

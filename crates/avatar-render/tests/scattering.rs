@@ -7,9 +7,10 @@ use avatar_look::optics::diffusion_distance;
 use avatar_look::scatter_table;
 use avatar_mesh::{Mesh, PartKind};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Material, PartTextures, Scattering, Shading, Shadows, Terms,
+    AvatarModel, AvatarState, Camera, Lamp, Light, Material, PartTextures, Scattering, Shading, Shadows,
+    Terms,
 };
-use common::stage::{key_light, light_of, lit_scene, meets_ball, ray_through};
+use common::stage::{key_light, light_of, lit_scene, meets_ball, ray_through, stage};
 use common::{ball, gpu, model, part, plain, square};
 use glam::Vec3;
 
@@ -44,7 +45,7 @@ fn balls() -> (AvatarModel, AvatarState) {
     let none = PartTextures::default();
     let avatar = model(gpu, &meshes.each_ref().map(|mesh| part(mesh, PartKind::Skin, none)));
     for place in 0..2 {
-        assert!(avatar.0.set_material(&gpu.queue, place, &white_skin()));
+        avatar.0.set_material(&gpu.queue, place, &white_skin()).expect("a part");
     }
     avatar
 }
@@ -131,6 +132,24 @@ fn both_ways_of_scattering_agree_where_light_is_even() {
     assert!(compared > 50, "{compared}");
 }
 
+#[test]
+fn lamps_brighter_than_halves_can_be_are_as_bright_as_their_exposure_shows_them() {
+    let Some(gpu) = gpu() else { return };
+    let avatar = balls();
+    let camera = Camera::orbit(BALLS[0].0, 20.0, 0.0, 0.0, 0.11, 1.0);
+    for scattering in [Scattering::PreIntegrated, Scattering::Separable] {
+        let stage = stage(Shading::Natural(terms(scattering)), SIZE).expect("asked before");
+        let [usual, bright] = [1.0, 1e6f32].map(|radiance| {
+            let toward = Vec3::new(0.6, 0.0, 0.8);
+            let key = Lamp { direction_world: toward, radiance: [radiance; 3] };
+            let light = Light { key, exposure: radiance.recip(), ..key_light(toward) };
+            stage.draw(gpu, &lit_scene(camera, light), &[(&avatar.0, &avatar.1)])
+        });
+        assert!(usual.middle().x > 0.5, "{}", usual.middle());
+        assert_eq!(usual.difference_share(&bright, 0.004), 0.0, "{scattering:?}: {}", bright.middle());
+    }
+}
+
 /// The share of light that arrives beside an edge, at `x` times Burley's parameter from it, toward the light positive: the
 /// profile `(exp(−r) + exp(−r/3)) / (8π r)` summed over the half plane that is lit (P. Christensen and B. Burley, 2015).
 fn beside_an_edge(x: f64) -> f64 {
@@ -163,7 +182,7 @@ fn blurred_light_fades_beside_an_edge_as_the_profile_says() {
     // Height 2; all channels alike.
     let path = 0.04;
     let material = Material { scatter: [path; 3], ..white_skin() };
-    assert!(avatar.0.set_material(&gpu.queue, 0, &material));
+    avatar.0.set_material(&gpu.queue, 0, &material).expect("a part");
     let distance = diffusion_distance(2.0 * path, 0.6);
     // Thirty times the parameter across the picture; the lamp sees the left half from behind.
     let camera = Camera::orbit(Vec3::ZERO, 30.0 * distance / 0.1, 0.0, 0.0, 2.0 * 0.05f32.atan(), 1.0);
@@ -200,18 +219,42 @@ fn slab(thickness: f32) -> Mesh {
     mesh
 }
 
-/// What comes through a slab from a lamp straight behind it.
+/// What comes through a slab from a lamp straight behind it, by its colour.
 fn through(thickness: f32, texture: bool, terms: Terms) -> Vec3 {
+    // Takes in as much as comes through at most.
+    const COLOR: f32 = 0.6;
+    leaving_slab(thickness, texture, terms, COLOR, Vec3::NEG_Z) / COLOR
+}
+
+/// What leaves a slab of this colour toward +Z, lit from one side.
+fn leaving_slab(thickness: f32, texture: bool, terms: Terms, color: f32, toward_lamp: Vec3) -> Vec3 {
     let gpu = gpu().expect("asked before");
     let mesh = slab(thickness);
     // As thick as white means.
     let white = plain([255; 4]);
     let textures = PartTextures { thickness: texture.then_some(&white), ..PartTextures::default() };
     let avatar = model(gpu, &[part(&mesh, PartKind::Skin, textures)]);
-    let material = Material { thickness: thickness / 2.0, transmission: 1.0, ..white_skin() };
-    assert!(avatar.0.set_material(&gpu.queue, 0, &material));
+    let material =
+        Material { color: [color; 3], thickness: thickness / 2.0, transmission: 1.0, ..white_skin() };
+    avatar.0.set_material(&gpu.queue, 0, &material).expect("a part");
     let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.1, 1.0);
-    light_of(Shading::Natural(terms), 32, &lit_scene(camera, key_light(Vec3::NEG_Z)), &avatar).middle()
+    light_of(Shading::Natural(terms), 32, &lit_scene(camera, key_light(toward_lamp)), &avatar).middle()
+}
+
+#[test]
+fn a_thin_sheet_reflects_and_lets_through_no_more_than_arrives() {
+    let Some(_) = gpu() else { return };
+    for scattering in [Scattering::Wrapped, Scattering::PreIntegrated, Scattering::Separable] {
+        let terms = Terms { shadows: Shadows::Soft, transmission: true, ..terms(scattering) };
+        for (texture, color) in [(false, 1.0), (false, 0.8), (false, 0.3), (true, 1.0), (true, 0.5)] {
+            let [reflected, passed] = [Vec3::Z, Vec3::NEG_Z]
+                .map(|toward_lamp| leaving_slab(0.01, texture, terms, color, toward_lamp));
+            let said = format!("{reflected} and {passed}: {scattering:?}, {texture}, {color}");
+            assert!((reflected + passed).max_element() < 1.02, "{said}");
+            // Light goes somewhere: thin sheets glow unless their colour sends all of it back.
+            assert!(passed.x > 0.1 || (color == 1.0 && !texture), "{said}");
+        }
+    }
 }
 
 #[test]

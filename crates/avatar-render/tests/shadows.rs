@@ -3,14 +3,16 @@
 
 mod common;
 
-use avatar_mesh::PartKind;
+use avatar_mesh::{Mesh, PartKind};
 use avatar_render::{
     AvatarModel, AvatarState, Camera, Environment, Lamp, Light, Material, PartTextures, Shading, Shadows,
     Terms,
 };
-use common::stage::{Picture, bare_light, key_light, light_of, lit_scene, meets_ball, pixel_of, ray_through};
+use common::stage::{
+    Picture, bare_light, key_light, light_of, lit_scene, meets_ball, pixel_of, ray_through, stage,
+};
 use common::{ball, gpu, model, part, square};
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 
 const SIZE: u32 = 128;
 const BALL: Vec3 = Vec3::new(0.2, 0.1, 1.2);
@@ -28,8 +30,13 @@ fn camera() -> Camera {
 
 /// A ball in front of a plate, matte and white.
 fn avatar() -> (AvatarModel, AvatarState) {
+    avatar_of(1.0)
+}
+
+/// The same, larger.
+fn avatar_of(scale: f32) -> (AvatarModel, AvatarState) {
     let gpu = gpu().expect("asked before");
-    let (plate, above) = (square(Vec3::ZERO, PLATE), ball(BALL, RADIUS, 32));
+    let (plate, above) = (square(Vec3::ZERO, PLATE * scale), ball(BALL * scale, RADIUS * scale, 32));
     let none = PartTextures::default();
     let avatar = model(gpu, &[part(&plate, PartKind::Teeth, none), part(&above, PartKind::Teeth, none)]);
     let matte = Material {
@@ -41,7 +48,7 @@ fn avatar() -> (AvatarModel, AvatarState) {
         ..Material::of(PartKind::Teeth)
     };
     for place in 0..2 {
-        assert!(avatar.0.set_material(&gpu.queue, place, &matte));
+        avatar.0.set_material(&gpu.queue, place, &matte).expect("a part");
     }
     avatar
 }
@@ -156,6 +163,63 @@ fn nothing_that_faces_a_lamp_alone_is_in_its_own_shadow() {
             }
         }
     }
+}
+
+/// The plate and its ball, seen together with a larger avatar whose bones are moved by this and which is given first.
+fn beside_another(shadows: Shadows, toward: Vec3, by: Option<Vec3>) -> Picture {
+    let gpu = gpu().expect("asked before");
+    let (one, mut other) = (avatar(), avatar_of(2.5));
+    let mut avatars = vec![(&one.0, &one.1)];
+    if let Some(by) = by {
+        other.1.set(&gpu.queue, &[Affine3A::from_translation(by)], &[]).expect("one bone");
+        avatars.insert(0, (&other.0, &other.1));
+    }
+    let stage = stage(with(shadows), SIZE).expect("asked before");
+    stage.draw(gpu, &lit_scene(camera(), key_light(toward)), &avatars)
+}
+
+#[test]
+fn an_avatar_far_away_leaves_the_shadows_of_the_one_that_is_seen_as_they_are() {
+    let Some(_) = gpu() else { return };
+    for shadows in [Shadows::Hard, Shadows::Softer] {
+        let alone = beside_another(shadows, LAMPS[0], None);
+        // Beside the picture, behind the camera.
+        for by in [Vec3::X * 200.0, Vec3::Z * 300.0, Vec3::new(-90.0, 60.0, -50.0)] {
+            let share = alone.difference_share(&beside_another(shadows, LAMPS[0], Some(by)), 0.0);
+            assert_eq!(share, 0.0, "{shadows:?}, {by}");
+        }
+        // In the picture, but small: its own pixels differ.
+        let small = beside_another(shadows, LAMPS[0], Some(Vec3::new(300.0, 0.0, -2000.0)));
+        assert!(alone.difference_share(&small, 0.0) < 0.002, "{shadows:?}");
+    }
+}
+
+#[test]
+fn an_avatar_beside_the_picture_casts_its_shadow_into_it() {
+    let Some(_) = gpu() else { return };
+    let toward = Vec3::new(0.8, 0.0, 0.6);
+    let alone = beside_another(Shadows::Hard, toward, None);
+    let shaded = beside_another(Shadows::Hard, toward, Some(toward * 15.0));
+    let sum = |picture: &Picture| picture.light.iter().map(|light| light.x).sum::<f32>();
+    assert!(sum(&shaded) < 0.1 * sum(&alone), "{} of {}", sum(&shaded), sum(&alone));
+}
+
+#[test]
+fn the_drawn_rim_is_hidden_by_what_stands_before_its_lamp() {
+    let Some(gpu) = gpu() else { return };
+    let (mesh, screen) = (ball(Vec3::ZERO, 1.0, 32), ball(Vec3::X * 4.0, 1.5, 16));
+    let rim = Lamp { direction_world: Vec3::X, radiance: [1.0; 3] };
+    let light = Light { rim, ..bare_light(Environment::uniform([0.0; 3])) };
+    let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.2, 1.0);
+    let of = |meshes: &[&Mesh]| {
+        let none = PartTextures::default();
+        let parts: Vec<_> = meshes.iter().map(|mesh| part(mesh, PartKind::Teeth, none)).collect();
+        let picture = light_of(Shading::Toon, SIZE, &lit_scene(camera, light), &model(gpu, &parts));
+        // Across the middle. Some ambient light is always there.
+        (0..SIZE).map(|x| picture.pixel(x, SIZE / 2).x).fold(0.0, f32::max)
+    };
+    let (open, hidden) = (of(&[&mesh]), of(&[&mesh, &screen]));
+    assert!(open > 0.45 && hidden < 0.1, "{hidden} of {open}");
 }
 
 /// The width over which a straight edge's shadow rises from 10 % to 90 %, in the world, and its largest step from pixel

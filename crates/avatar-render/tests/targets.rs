@@ -118,3 +118,19 @@ fn targets_without_srgb_get_encoded_colours() {
         assert!(largest <= Some(1), "{name}: {largest:?}");
     }
 }
+
+#[test]
+fn formats_with_fewer_channels_hold_the_same_values() {
+    use wgpu::TextureFormat::{R8Unorm, Rg8Unorm, Rgba8Unorm};
+    let Some(gpu) = gpu() else { return };
+    let mesh = ball(Vec3::ZERO, 1.0, 16);
+    let (model, state) = model(gpu, &[part(&mesh, PartKind::Teeth, PartTextures::default())]);
+    let scene = Scene { background: [0.2, 0.3, 0.4, 1.0], ..scene(4.0) };
+    let [one, two, four] = [R8Unorm, Rg8Unorm, Rgba8Unorm].map(|format| {
+        let stage = Stage::new(gpu, shadings()[0].1, 32, format);
+        stage.bytes(gpu, &scene, &[(&model, &state)])
+    });
+    let of_four = |channels: usize| four.chunks_exact(4).flat_map(move |p| p[..channels].to_vec());
+    assert!(one.iter().copied().eq(of_four(1)), "{:?}", &one[..4]);
+    assert!(two.iter().copied().eq(of_four(2)), "{:?}", &two[..4]);
+}

@@ -19,7 +19,7 @@ const SIZE: u32 = 128;
 fn of_one(mesh: &Mesh, kind: PartKind, material: Material) -> (AvatarModel, AvatarState) {
     let gpu = gpu().expect("asked before");
     let avatar = model(gpu, &[part(mesh, kind, PartTextures::default())]);
-    assert!(avatar.0.set_material(&gpu.queue, 0, &material));
+    avatar.0.set_material(&gpu.queue, 0, &material).expect("a part");
     avatar
 }
 
@@ -105,7 +105,7 @@ fn what_is_far_behind_is_not_darkened() {
     let none = PartTextures::default();
     let avatar = model(gpu, &[part(&plate, PartKind::Skin, none), part(&before, PartKind::Teeth, none)]);
     for (place, kind) in [PartKind::Skin, PartKind::Teeth].into_iter().enumerate() {
-        assert!(avatar.0.set_material(&gpu.queue, place, &dark(kind)));
+        avatar.0.set_material(&gpu.queue, place, &dark(kind)).expect("a part");
     }
     for yaw in [0.0, 0.4] {
         let picture = left(&avatar, Camera::orbit(Vec3::ZERO, 8.0, yaw, 0.0, 0.2, 1.0));

@@ -109,7 +109,7 @@ pub(crate) fn upload(
         .collect();
     let mut model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
     set_hair(pack, textures, &mut model, device, queue, hair)?;
-    set_materials(pack, &model, queue);
+    set_materials(pack, &model, queue)?;
     Ok(model)
 }
 
@@ -131,8 +131,12 @@ pub(crate) fn set_hair(
 }
 
 /// Gives the parts their looks.
-pub(crate) fn set_materials(pack: &Pack, model: &AvatarModel, queue: &wgpu::Queue) {
+///
+/// # Errors
+/// A model with fewer parts than the pack has.
+pub(crate) fn set_materials(pack: &Pack, model: &AvatarModel, queue: &wgpu::Queue) -> Result<()> {
     for (index, part) in pack.parts.iter().enumerate() {
-        model.set_material(queue, index, &pack.materials.of(part.spec.name, part.spec.kind));
+        model.set_material(queue, index, &pack.materials.of(part.spec.name, part.spec.kind))?;
     }
+    Ok(())
 }

@@ -69,7 +69,8 @@ impl Canvas {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        let view = color.create_view(&Default::default());
+        let view =
+            color.create_view(&wgpu::TextureViewDescriptor { label: Some("picture"), ..Default::default() });
         let row_bytes = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let readable = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("picture: readable"),

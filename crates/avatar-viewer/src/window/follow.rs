@@ -11,8 +11,9 @@ impl App {
             Ok(materials) if materials == self.pack.materials => {}
             Ok(materials) => {
                 self.pack.materials = materials;
-                if let Some(stage) = &self.stage {
-                    stage.set_materials(&self.pack);
+                let shown = self.stage.as_ref().map_or(Ok(()), |stage| stage.set_materials(&self.pack));
+                if let Err(error) = shown {
+                    eprintln!("error: {error:#}: not all materials are shown");
                 }
                 self.redraw();
             }

@@ -82,8 +82,11 @@ impl Stage {
     }
 
     /// Gives the parts the looks that the pack has now.
-    pub(super) fn set_materials(&self, pack: &Pack) {
-        scene::set_materials(pack, &self.model, &self.gpu.queue);
+    ///
+    /// # Errors
+    /// A model with fewer parts than the pack has.
+    pub(super) fn set_materials(&self, pack: &Pack) -> Result<()> {
+        scene::set_materials(pack, &self.model, &self.gpu.queue)
     }
 
     /// Plants this hair, or takes it away.

@@ -40,6 +40,8 @@ struct Frame {
     // Hair is nearer than this, and 1 / (the depth of the space that it fills).
     hair_far: f32,
     hair_per_depth: f32,
+    // Light under the skin is kept between passes times this.
+    pre_exposure: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -11,12 +11,20 @@ fn shadow_of(lamp: u32) -> i32 {
     return select(NO_SHADOW, 1, lamp == RIM_LAMP && SHADOW_COUNT_USED > 1);
 }
 
+// A way inside that no light comes through, in the world.
+const FAR_INSIDE: f32 = 1e6;
+
 // Where a point lies in a shadow map: texture coordinates and depth. The point is lifted off its surface by what one
 // texel may hide: D. Holbert, "Saying Goodbye to Shadow Acne", 2011.
 fn shadow_place(layer: i32, position: vec3f, normal: vec3f) -> vec3f {
     let lifted = position + normal * frame.shadow_texel[layer] * 1.5;
     let p = (frame.shadow_from_world[layer] * vec4f(lifted, 1.0)).xyz;
     return vec3f(p.x * 0.5 + 0.5, 0.5 - p.y * 0.5, p.z);
+}
+
+// What looks small beside a nearer avatar may lie outside of the map: nothing is known of its shadows.
+fn is_beyond_map(place: vec3f) -> bool {
+    return any(place != saturate(place));
 }
 
 // How the depth of a surface changes across the map, per width and height of the map: samples follow its tilt, lest it
@@ -48,6 +56,9 @@ fn cast_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
         return 1.0;
     }
     let place = shadow_place(layer, position, normal);
+    if is_beyond_map(place) {
+        return 1.0;
+    }
     let reach = f32(max(SHADOW_REACH, 1));
     // No wider than the samples can fill: gaps between them would show as steps.
     let texels = min(frame.shadow_softness / frame.shadow_texel[layer], 3.0 * reach);
@@ -79,6 +90,9 @@ fn thickness_toward(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     }
     // Sunk instead of lifted: at a silhouette the neighbour's depth would pass for a hole.
     let place = shadow_place(layer, position - normal * frame.shadow_texel[layer] * 3.0, normal);
+    if is_beyond_map(place) {
+        return FAR_INSIDE;
+    }
     let size = vec2f(SHADOW_SIZE);
     let texel = vec2i(clamp(place.xy * size, vec2f(1.0), size - 2.0));
     var thickness = 0.0;

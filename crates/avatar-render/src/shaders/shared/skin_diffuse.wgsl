@@ -26,8 +26,8 @@ fn transmittance(thickness: f32) -> vec3f {
 
 // What thin parts let through from behind; the wrap is that of J. Jimenez et al., 2010. A slab of known thickness splits
 // light into what it reflects and what it lets through, so that both together are no more than arrived. Without a
-// texture only the shadow map tells how thick the part is, and only on its dark side: there light is added which the
-// lit side does not miss.
+// texture only the shadow map tells how thick the part is, and only on its dark side: the lit side reflects all that its
+// colour leaves, and what comes through is at most what that colour takes.
 fn with_transmission(surface: Surface, lamp: u32, reflected: vec3f) -> vec3f {
     let has_map = (material.textures & THICKNESS_TEXTURE) != 0u;
     let has_shadow = SHADOW_REACH >= 0 && shadow_of(lamp) != NO_SHADOW;
@@ -46,7 +46,11 @@ fn with_transmission(surface: Surface, lamp: u32, reflected: vec3f) -> vec3f {
         return reflected * (1.0 - split);
     }
     let through = thickness_toward(lamp, surface.position, surface.smooth_normal);
-    let share = strength * transmittance(max(surface.thickness, through));
+    var share = strength * transmittance(max(surface.thickness, through));
+    if !has_map {
+        // The colour is multiplied in later, as for what is reflected: color + color * share <= 1.
+        share = min(share, max(1.0 - surface.color, vec3f(0.0)) / max(surface.color, vec3f(1e-3)));
+    }
     return reflected * (1.0 - split) + behind * share;
 }
 
