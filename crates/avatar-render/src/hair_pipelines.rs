@@ -1,7 +1,6 @@
 //! Builds the pipelines that draw strands.
 
-use crate::Shading;
-use crate::pipelines::{Layouts, Recipe};
+use crate::pipelines::{Layouts, Recipe, color_target};
 use crate::renderer::RendererConfig;
 use crate::resources::HAIR_MAP_FORMAT;
 use crate::shaders::{
@@ -36,14 +35,7 @@ impl HairPipelines {
     pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts, config: RendererConfig) -> Self {
         use wgpu::CompareFunction::{Always, Greater};
         let terms = config.shading.terms();
-        let coverage_mask = config.samples > 1;
-        let constants = Constants {
-            terms,
-            encode_srgb: config.encodes_in_shader(),
-            coverage_mask,
-            toon: config.shading == Shading::Toon,
-            ..Constants::default()
-        };
+        let constants = Constants::of(config);
         let ribbons = Recipe {
             program: &MASKED_STRANDS,
             layout: &layouts.hair,
@@ -54,7 +46,7 @@ impl HairPipelines {
             depth: Some((Greater, true)),
             bias: Default::default(),
             samples: config.samples,
-            target: Some(config.color_format.into()),
+            target: color_target(config.color_format, None),
             beside: None,
         };
         let shadow = (terms.shadows.lamps() > 0).then(|| {
@@ -67,7 +59,7 @@ impl HairPipelines {
             };
             recipe.build(device, &constants)
         });
-        if coverage_mask {
+        if constants.coverage_mask {
             return Self { shadow, strands: Strands::Masked(ribbons.build(device, &constants)) };
         }
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
@@ -115,8 +107,7 @@ fn blended(
     color: wgpu::BlendComponent,
     alpha: wgpu::BlendComponent,
 ) -> Option<wgpu::ColorTargetState> {
-    let blend = Some(wgpu::BlendState { color, alpha });
-    Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })
+    color_target(format, Some(wgpu::BlendState { color, alpha }))
 }
 
 fn added() -> wgpu::BlendComponent {

@@ -129,12 +129,11 @@ pub(crate) struct Recipe<'a> {
 impl PassPipelines {
     pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts, config: RendererConfig) -> Self {
         let terms = config.shading.terms();
-        let constants = Constants { terms, ..Constants::default() };
+        let constants = Constants::of(config);
         let bind = bind_attributes();
         let posed = posed_attributes();
         let curvature = curvature_attributes();
         let part = part_buffers(&bind, &posed, &curvature, None);
-        let to = |format: wgpu::TextureFormat| Some(format.into());
         let front = Recipe {
             program: &PREPASS,
             layout: &layouts.pipeline,
@@ -144,14 +143,14 @@ impl PassPipelines {
             depth: Some((wgpu::CompareFunction::Greater, true)),
             bias: Default::default(),
             samples: 1,
-            target: to(NORMAL_FORMAT),
+            target: color_target(NORMAL_FORMAT, None),
             beside: None,
         };
         let on_skin = |program| Recipe {
             program,
             // What the depth pass saw, and nothing behind it.
             depth: Some((wgpu::CompareFunction::GreaterEqual, false)),
-            target: to(SKIN_LIGHT_FORMAT),
+            target: color_target(SKIN_LIGHT_FORMAT, None),
             ..front.again()
         };
         let shadow_position = [wgpu::VertexAttribute { shader_location: 0, ..posed[0] }];
@@ -190,7 +189,7 @@ impl PassPipelines {
                     buffers: &[],
                     cull_mode: None,
                     depth: None,
-                    target: to(OCCLUSION_FORMAT),
+                    target: color_target(OCCLUSION_FORMAT, None),
                     ..front.again()
                 },
             ),
@@ -198,6 +197,14 @@ impl PassPipelines {
             scatter_across: build(terms.separable(), on_skin(&SCATTER_PASS)),
         }
     }
+}
+
+/// A target of which all channels are written.
+pub(crate) fn color_target(
+    format: wgpu::TextureFormat,
+    blend: Option<wgpu::BlendState>,
+) -> Option<wgpu::ColorTargetState> {
+    Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })
 }
 
 /// Builds the pipeline of something in the picture.
@@ -223,19 +230,10 @@ pub(crate) fn picture_pipeline(
         depth: Some((wgpu::CompareFunction::Greater, !drawable.is_transparent)),
         bias: Default::default(),
         samples: config.samples,
-        target: Some(wgpu::ColorTargetState {
-            format: config.color_format,
-            blend,
-            write_mask: wgpu::ColorWrites::ALL,
-        }),
+        target: color_target(config.color_format, blend),
         beside: None,
     };
-    let constants = Constants {
-        terms: config.shading.terms(),
-        encode_srgb: config.encodes_in_shader(),
-        ..Constants::default()
-    };
-    recipe.build(device, &constants)
+    recipe.build(device, &Constants::of(config))
 }
 
 impl Recipe<'_> {

@@ -8,7 +8,7 @@ use crate::material::{
     COLOR_TEXTURE, GLOSS_TEXTURE, NORMAL_TEXTURE, OCCLUSION_TEXTURE, SKIN_ALBEDO, THICKNESS_TEXTURE,
 };
 use crate::pores::PORE_CELLS;
-use crate::{Scattering, Terms};
+use crate::{RendererConfig, Scattering, Shading, Terms};
 use avatar_groom::{CURL_SHARE, FIRST_SEGMENT, NO_GUIDE, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
 use avatar_look::optics::diffusion_distance;
 use avatar_mesh::MIN_NORMAL_LENGTH;
@@ -41,6 +41,18 @@ pub(crate) struct Constants {
 impl Default for Constants {
     fn default() -> Self {
         Self { terms: Terms::NONE, encode_srgb: false, coverage_mask: false, toon: false, swinging: false }
+    }
+}
+
+impl Constants {
+    /// Those of all programs of a renderer.
+    pub(crate) fn of(config: RendererConfig) -> Self {
+        Self {
+            terms: config.shading.terms(),
+            encode_srgb: config.encodes_in_shader(),
+            coverage_mask: config.samples > 1,
+            toon: config.shading == Shading::Toon,
+        }
     }
 }
 

@@ -237,7 +237,10 @@ impl AvatarState {
     pub(crate) fn bounds(&self, model: &AvatarModel) -> Option<Bounds> {
         let boxes = model.parts.iter().flat_map(|part| &part.geometry.bone_boxes);
         boxes
-            .filter_map(|(bone, bounds)| self.bones.get(*bone).map(|bone| bone.moved(*bounds)))
+            .filter_map(|around| {
+                let weights = self.active_shapes.iter().map(|shape| (shape.index as usize, shape.weight));
+                self.bones.get(around.bone).map(|bone| bone.moved(around.shaped(weights)))
+            })
             .filter(|bounds| bounds.size().is_finite() && bounds.center().is_finite())
             .reduce(Bounds::union)
     }

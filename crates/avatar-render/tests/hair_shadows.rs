@@ -16,14 +16,24 @@ use glam::{Affine3A, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
 const SIZE: u32 = 128;
-/// Where on the plate light is measured: along the strands, and half the way across them.
-const PLACES: [f32; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
+/// Where on the plate light is measured, along the strands: so often that single strands in the map do not matter.
+const PLACES: [f32; 33] = places();
 const BAND: f32 = 0.3;
 /// Half the width of the patch that hair grows on.
 const HALF: f32 = 0.5;
 const RADIUS: f32 = 0.000_1;
 /// Up to 20,000 strands are this much wider than styles say.
 const WIDENED: f32 = 5.0;
+
+const fn places() -> [f32; 33] {
+    let mut places = [0.0; 33];
+    let mut i = 0;
+    while i < 33 {
+        places[i] = -1.6 + 0.1 * i as f32;
+        i += 1;
+    }
+    places
+}
 
 /// A sheet of parallel strands that fills z = 0.5…1.5, from a patch at the side, and other parts.
 fn sheet(others: &[PartDesc<'_>], strands: f32, radius: f32) -> (AvatarModel, AvatarState) {

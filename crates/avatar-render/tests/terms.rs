@@ -294,3 +294,25 @@ fn pores_are_there_from_near_and_vanish_from_afar() {
     assert!(difference(10, 10 + SIZE / 2) < 0.3 * difference(10, 10 + SIZE / 4), "{}", difference(10, 74));
     assert_eq!(draw(0.5, true), draw(0.5, false));
 }
+
+#[test]
+fn the_mouth_is_warmer_than_the_room_and_darker_to_the_back_and_never_brighter() {
+    let Some(_) = gpu() else { return };
+    // Leans back: its upper edge is deep in the mouth.
+    let mut mesh = square(Vec3::ZERO, 1.0);
+    mesh.positions.iter_mut().for_each(|p| p.z -= 0.5 * p.y);
+    let white = |back_light| Material { color: [1.0; 3], back_light, ..dark(PartKind::Teeth) };
+    let camera = Camera::orbit(Vec3::ZERO, 8.0, 0.0, 0.0, 0.24, 1.0);
+    let scene = lit_scene(camera, bare_light(Environment::uniform([1.0; 3])));
+    let [open, mouth] = [1.0, 0.3].map(|back_light| {
+        let avatar = of_one(&mesh, PartKind::Teeth, white(back_light));
+        let picture = light_of(Shading::Natural(Terms::NONE), SIZE, &scene, &avatar);
+        [-0.9, -0.3, 0.3, 0.9].map(|y| picture.at(&camera, Vec3::new(0.0, y, -0.5 * y)))
+    });
+    assert!(open.iter().all(|light| (*light - Vec3::ONE).abs().max_element() < 0.03), "{open:?}");
+    assert!(mouth.iter().all(|light| light.x > 1.1 * light.y && light.y > 1.05 * light.z), "{mouth:?}");
+    assert!(mouth.windows(2).all(|pair| pair[1].cmple(pair[0]).all()), "{mouth:?}");
+    assert!(mouth[0].x > 0.9 && mouth[0].max_element() < 1.01, "{mouth:?}");
+    // Once, not squared: 30 % of the light reaches the very back.
+    assert!((mouth[3].x - 0.3).abs() < 0.1, "{mouth:?}");
+}

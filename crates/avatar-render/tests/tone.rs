@@ -36,7 +36,14 @@ fn room(color: Vec3, tone_map: ToneMap) -> Light {
 }
 
 fn white() -> Material {
-    Material { color: [1.0; 3], reflectance: 0.0, wetness: 0.0, ..Material::of(PartKind::Teeth) }
+    Material {
+        color: [1.0; 3],
+        reflectance: 0.0,
+        wetness: 0.0,
+        // Out of any mouth.
+        back_light: 1.0,
+        ..Material::of(PartKind::Teeth)
+    }
 }
 
 #[test]
