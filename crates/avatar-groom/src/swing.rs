@@ -6,6 +6,12 @@ pub const TICKS_PER_SECOND: f32 = 240.0;
 /// After so many seconds without a frame hair hangs still again.
 const LONGEST_SECONDS: f32 = 0.5;
 
+/// Shorter frames are none.
+const SHORTEST_SECONDS: f32 = 1e-6;
+
+/// The slowest swing: slower ones would not settle in the time that is promised.
+const SLOWEST: f32 = 1.0;
+
 /// Share of the critical damping: a swing that is followed by one of a quarter of its size.
 const DAMPING: f32 = 0.4;
 
@@ -47,7 +53,8 @@ impl Oscillator {
             let to_root = 1.0 - i.saturating_sub(1) as f32 / (SEGMENTS - 1) as f32;
             // The first two points are the skin's.
             let held = i < 2;
-            let of_point = if held { 0.0 } else { frequency * (1.0 + STIFFER_AT_ROOT * to_root * to_root) };
+            let stiffer = 1.0 + STIFFER_AT_ROOT * to_root * to_root;
+            let of_point = if held || frequency <= 0.0 { 0.0 } else { frequency.max(SLOWEST) * stiffer };
             Self::new(of_point, 1.0 / TICKS_PER_SECOND)
         })
     }
@@ -85,7 +92,7 @@ impl TickClock {
         let whole = self.rest + seconds;
         // A frame that ends at a tick but for rounding has had it.
         let count = (whole * TICKS_PER_SECOND + 1e-3).floor();
-        let per_second = if seconds > 0.0 { 1.0 / seconds } else { 0.0 };
+        let per_second = if seconds > SHORTEST_SECONDS { 1.0 / seconds } else { 0.0 };
         let ticks = Ticks {
             count: count as u32,
             first: ((tick - self.rest) * per_second).clamp(0.0, 1.0),

@@ -69,6 +69,7 @@ fn time_that_is_none_leaves_hair_still() {
     for seconds in [f32::NAN, -1.0, f32::INFINITY, 3.0] {
         assert!(clock.advance(seconds).is_still, "{seconds}");
     }
+    assert!(clock.advance(1e-40).step.is_finite());
     let none = clock.advance(0.0);
     assert!(!none.is_still && none.count == 0 && none.step.is_finite());
 }

@@ -1,11 +1,12 @@
 //! Hair on the GPU: strands grow on the deformed skin every frame, and are drawn from where they grew.
 
 use crate::deformer::GpuDeformedVertex;
-use crate::swing::SwingState;
+use crate::swing::{GpuMote, SwingState};
 use avatar_groom::{
     COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle, SEGMENTS,
 };
 use bytemuck::{Pod, Zeroable};
+use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu::util::DeviceExt;
 
 /// Strands per workgroup.
@@ -101,6 +102,22 @@ pub enum HairError {
         /// The strand.
         strand: usize,
     },
+    /// A guide that is no strand.
+    #[error("expected guides below {strands}, found {found}")]
+    Guide {
+        /// The guide.
+        found: u32,
+        /// Number of strands.
+        strands: usize,
+    },
+    /// More guides than a binding of the device holds.
+    #[error("expected at most {limit} guides, found {found}")]
+    TooManyGuides {
+        /// Number of guides.
+        found: usize,
+        /// What the device allows.
+        limit: usize,
+    },
     /// Hair that moves with a bone that the model does not have.
     #[error("expected a bone below {bones}, found {found}")]
     Bone {
@@ -138,6 +155,8 @@ pub enum HairError {
 /// The hair that all avatars of a model share.
 #[derive(Debug)]
 pub(crate) struct HairModel {
+    /// Tells hair apart that other hair was planted in the place of.
+    pub(crate) id: u64,
     /// The part that it grows on.
     pub(crate) part: usize,
     pub(crate) strand_count: u32,
@@ -154,6 +173,8 @@ pub(crate) struct HairModel {
 /// The hair of one avatar.
 #[derive(Debug)]
 pub(crate) struct HairState {
+    /// That of the model's hair.
+    pub(crate) id: u64,
     pub(crate) points: wgpu::Buffer,
     pub(crate) guide_count: u32,
     /// How guides swing; still until time passes.
@@ -191,6 +212,13 @@ impl HairModel {
                 return Err(HairError::Corner { strand, found, vertices });
             }
             roots.push(gpu_root(groom, strand).ok_or(HairError::Incomplete { strand })?);
+        }
+        if let Some(&found) = groom.guides.iter().find(|guide| **guide as usize >= groom.roots.len()) {
+            return Err(HairError::Guide { found, strands: groom.roots.len() });
+        }
+        let most_guides = (binding / (POINT_STRIDE * size_of::<GpuMote>()) as u64) as usize;
+        if groom.guides.len() > most_guides {
+            return Err(HairError::TooManyGuides { found: groom.guides.len(), limit: most_guides });
         }
         let guide_root =
             |strand: &u32| roots.get(*strand as usize).map(|root| GpuRoot { guide: IS_GUIDE, ..*root });
@@ -235,7 +263,9 @@ impl HairModel {
             })
         };
         let storage = wgpu::BufferUsages::STORAGE;
+        static NEXT: AtomicU64 = AtomicU64::new(0);
         Ok(Self {
+            id: NEXT.fetch_add(1, Ordering::Relaxed),
             part,
             strand_count,
             guide_count,
@@ -418,6 +448,7 @@ impl HairState {
         let drawn = [&hair.hair, &hair.roots, &points].map(wgpu::Buffer::as_entire_binding);
         debug_assert_eq!(skin.size() % size_of::<GpuDeformedVertex>() as u64, 0);
         Self {
+            id: hair.id,
             guide_count: hair.guide_count,
             // Guides follow no guides: anything is bound in their place.
             grow_guides: grow("grow guides of hair", &hair.guide_roots, &guides, &hair.roots),

@@ -12,7 +12,6 @@ use crate::resources::Resources;
 use crate::seen::Seen;
 use crate::shadows::ShadowViews;
 use crate::{AvatarModel, AvatarState, PassTimer, Scene, Shading, Targets};
-use avatar_mesh::Bounds;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What a renderer draws into.
@@ -238,7 +237,6 @@ impl Renderer {
     ) -> Result<(), DrawError> {
         self.check(view, targets, avatars)?;
         let terms = self.config.shading.terms();
-        let bounds = avatars.iter().filter_map(|(model, state)| state.bounds(model)).reduce(Bounds::union);
         let boxes = avatars.iter().map(|(model, state)| (state.bounds(model), model.height));
         let seen = Seen::new(&scene.camera, boxes.clone());
         let casters = boxes.filter_map(|(bounds, _)| bounds);
@@ -250,7 +248,7 @@ impl Renderer {
             strands_in_view(model, state, scene, pixels_per_unit, f32::INFINITY).is_some()
         });
         if has_hair {
-            gpu_frame.set_hair(&scene.camera, bounds, Pass::HairShadow.runs(terms, has_hair));
+            gpu_frame.set_hair(&scene.camera, seen.bounds, Pass::HairShadow.runs(terms, has_hair));
         }
         let frame = Frame {
             renderer: self,

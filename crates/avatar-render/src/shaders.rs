@@ -52,6 +52,7 @@ impl Constants {
             encode_srgb: config.encodes_in_shader(),
             coverage_mask: config.samples > 1,
             toon: config.shading == Shading::Toon,
+            ..Self::default()
         }
     }
 }

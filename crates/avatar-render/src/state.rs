@@ -44,7 +44,6 @@ pub struct AvatarState {
     pub(crate) posed: Vec<PosedPart>,
     /// What the growing pass makes of the model's hair.
     pub(crate) hair: Option<HairState>,
-    strand_count: usize,
     pub(crate) hair_detail: HairDetail,
 }
 
@@ -159,7 +158,6 @@ impl AvatarState {
             bind_group,
             posed,
             hair,
-            strand_count: model.strand_count(),
             hair_detail: HairDetail::default(),
         }
     }
@@ -189,7 +187,7 @@ impl AvatarState {
     }
 
     /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a
-    /// placement in the world, if there is one), `weights` one blend weight per shape; shapes with weight 0 cost
+    /// placement in the world, if there is one, which must not scale where there is hair), `weights` one blend weight per shape; shapes with weight 0 cost
     /// nothing. Allocates nothing here.
     ///
     /// # Errors
@@ -229,7 +227,7 @@ impl AvatarState {
         self.bones.len() == model.palette_len()
             && self.shape_count == model.shape_count()
             && of_state.eq(of_model)
-            && self.strand_count == model.strand_count()
+            && self.hair.as_ref().map(|hair| hair.id) == model.hair.as_ref().map(|hair| hair.id)
     }
 
     /// A box around the avatar as it is now. What is nowhere, or endless, has none: it must not take the shadows of other

@@ -185,6 +185,7 @@ fn no_strand_is_under_the_skin_in_any_pose_of_the_pack() {
     for (name, style) in Style::PRESETS {
         let groom = groom(&pack, &density, style, 3000.0);
         let mut head = Head::new(gpu, &pack, &groom);
+        assert!(groom.roots.len() > 20, "{name}: {}", groom.roots.len());
         for (pose, values) in poses(&pack) {
             let strands = head.strands(&values);
             let nearest = Nearest::new(&head.posed.positions, &pack.parts[0].mesh.triangles);
@@ -235,6 +236,33 @@ fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
     assert_eq!(draw(&model).rgba, covered.rgba, "the same bytes again");
     model.set_hair(&gpu.device, &gpu.queue, 0, None).expect("none");
     assert_eq!(draw(&model).rgba, bare.rgba);
+
+    // A state knows the hair that it was made for, even where other hair has as many strands.
+    let before = AvatarState::new(&gpu.device, &model);
+    model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
+    let stale = render_image(gpu, 8, 8, 4, &scene, &[(&model, &before)]);
+    assert!(stale.is_err(), "the state of the bald head");
+    let before = AvatarState::new(&gpu.device, &model);
+    model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
+    assert!(
+        render_image(gpu, 8, 8, 4, &scene, &[(&model, &before)]).is_err(),
+        "the state of the hair before"
+    );
+
+    let mut refuse =
+        |wrong: Groom| model.set_hair(&gpu.device, &gpu.queue, 0, Some(&wrong)).expect_err("refused");
+    let strands = groom.roots.len();
+    let wrong = Groom { guides: vec![0, u32::MAX], ..groom.clone() };
+    assert_eq!(refuse(wrong), HairError::Guide { found: u32::MAX, strands });
+    let wrong = Groom { lengths: groom.lengths[1..].to_vec(), ..groom.clone() };
+    assert_eq!(refuse(wrong), HairError::Incomplete { strand: strands - 1 });
+    let wrong = Groom { head_bone: 77, ..groom.clone() };
+    assert_eq!(refuse(wrong), HairError::Bone { found: 77, bones: pack.palette.len() as u32 });
+    let mut wrong = groom.clone();
+    wrong.field.distances.pop();
+    assert!(matches!(refuse(wrong), HairError::Field { .. }));
+    let many = vec![0; 40_000_000];
+    assert!(matches!(refuse(Groom { guides: many, ..groom.clone() }), HairError::TooManyGuides { .. }));
 
     let mut wrong = groom.clone();
     wrong.roots[3].corners[1] = u32::MAX;

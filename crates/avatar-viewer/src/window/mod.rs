@@ -36,7 +36,7 @@ const WHEEL_ZOOM: f32 = 0.92;
 /// A frame that takes longer (a suspended laptop) does not let the motion jump.
 const MAX_FRAME_SECS: f64 = 0.25;
 /// How long hair swings on after the head has stopped.
-const SWINGS_ON: Duration = Duration::from_millis(1200);
+const SWINGS_ON: Duration = Duration::from_millis(1800);
 /// How long a changed file has to be left alone before it is read. Saving is several changes: who reads after the first
 /// one finds an empty file, or none, and who reads after each tells of one mistake several times.
 const SETTLED: Duration = Duration::from_millis(100);

@@ -41,7 +41,8 @@ fn swing_main(@builtin(global_invocation_id) id: vec3u) {
     for (var i = 0u; i <= SEGMENTS; i++) {
         let grown = guides[first + i].xyz;
         var mote = motes[first + i];
-        if swing.is_still != 0u {
+        // A pose that was no number must not stay for good.
+        if swing.is_still != 0u || !(dot(mote.position, mote.position) < 1e30) {
             mote = Mote(grown, vec3f(0.0), grown, grown);
         }
         let spring = swing.oscillators[i];
