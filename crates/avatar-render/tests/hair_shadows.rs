@@ -15,25 +15,15 @@ use common::{ball, flat_light, gpu, model, part, square};
 use glam::{Affine3A, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
-const SIZE: u32 = 128;
-/// Where on the plate light is measured, along the strands: so often that single strands in the map do not matter.
-const PLACES: [f32; 33] = places();
+const SIZE: u32 = 384;
+/// Where on the plate light is measured: along the strands, and half the way across them.
+const PLACES: [f32; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 const BAND: f32 = 0.3;
 /// Half the width of the patch that hair grows on.
 const HALF: f32 = 0.5;
 const RADIUS: f32 = 0.000_1;
 /// Up to 20,000 strands are this much wider than styles say.
 const WIDENED: f32 = 5.0;
-
-const fn places() -> [f32; 33] {
-    let mut places = [0.0; 33];
-    let mut i = 0;
-    while i < 33 {
-        places[i] = -1.6 + 0.1 * i as f32;
-        i += 1;
-    }
-    places
-}
 
 /// A sheet of parallel strands that fills z = 0.5…1.5, from a patch at the side, and other parts.
 fn sheet(others: &[PartDesc<'_>], strands: f32, radius: f32) -> (AvatarModel, AvatarState) {
@@ -94,7 +84,8 @@ fn left(shadows: Shadows, avatar: &mut (AvatarModel, AvatarState)) -> [f32; 2] {
         light_of(shading, SIZE, &scene, avatar)
     };
     let (with, without) = (picture(1.0), picture(0.0));
-    let across = |x: f32| (-4..=4).map(move |i| Vec3::new(x, BAND * i as f32 / 4.5, 0.0));
+    // So often that single strands in the map do not matter.
+    let across = |x: f32| (-24..=24).map(move |i| Vec3::new(x, BAND * i as f32 / 24.5, 0.0));
     let behind: Vec<Vec3> = PLACES.into_iter().flat_map(across).collect();
     let before = vec![Vec3::new(2.5, 0.0, 2.0)];
     [behind, before].map(|points| {
