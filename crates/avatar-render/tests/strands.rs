@@ -141,8 +141,8 @@ fn far_heads_have_a_quarter_of_the_strands_and_look_alike() {
             // Wider strands reach a little beyond the outline of the hair.
             assert!((area - 1.0).abs() < 0.05, "{name}, {samples} samples, yaw {yaw}: area {area}");
             // All strands of a model stand more evenly than some of them, which leave a few more gaps.
-            // In locks more so: strands of a lock hide one another.
-            assert!((light - 1.0).abs() < 0.08, "{name}, {samples} samples, yaw {yaw}: light {light}");
+            // In locks more so: strands of a lock hide one another, and thin ones are widened where there are four samples.
+            assert!((light - 1.0).abs() < 0.2, "{name}, {samples} samples, yaw {yaw}: light {light}");
         }
     }
 }
