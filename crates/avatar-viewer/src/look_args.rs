@@ -1,7 +1,7 @@
 //! How the picture is to look, as the command line says it.
 
 use crate::hair_args::HairArgs;
-use avatar_render::{Light, Quality, Shading, Style, ToneMap};
+use avatar_render::{HairDetail, Light, Quality, Shading, Style, ToneMap};
 use clap::{Args, ValueEnum};
 
 #[derive(Clone, Copy, Debug, Args)]
@@ -57,6 +57,9 @@ enum ToneMapName {
 /// Beyond this every picture is black or white.
 const LARGEST_EXPOSURE: f32 = 10.0;
 
+/// Share of the strands in low quality.
+const LOW_SHARE: f32 = 0.25;
+
 fn stops(text: &str) -> Result<f32, String> {
     let number = text.parse().ok().filter(|stops: &f32| stops.abs() <= LARGEST_EXPOSURE);
     number.ok_or_else(|| format!("expected a number from -{LARGEST_EXPOSURE} to {LARGEST_EXPOSURE}"))
@@ -81,19 +84,33 @@ impl LookArgs {
         Self { hair, ..Self::default() }
     }
 
-    /// The shading on this adapter.
-    pub(crate) fn shading(&self, adapter: &wgpu::AdapterInfo) -> Shading {
-        let quality = match self.quality {
+    fn quality(&self, adapter: &wgpu::AdapterInfo) -> Quality {
+        match self.quality {
             QualityName::Auto => Quality::of_adapter(adapter),
             QualityName::Plain => Quality::Plain,
             QualityName::Low => Quality::Low,
             QualityName::Medium => Quality::Medium,
             QualityName::High => Quality::High,
-        };
-        quality.shading(match self.style {
+        }
+    }
+
+    /// The shading on this adapter.
+    pub(crate) fn shading(&self, adapter: &wgpu::AdapterInfo) -> Shading {
+        self.quality(adapter).shading(match self.style {
             StyleName::Natural => Style::Natural,
             StyleName::Toon => Style::Toon,
         })
+    }
+
+    /// How much of the hair is drawn on this adapter: fewer and wider strands where each costs much. A share, so that what
+    /// the pack and the options say of their number still counts.
+    pub(crate) fn hair_detail(&self, adapter: &wgpu::AdapterInfo) -> HairDetail {
+        let share = match self.quality(adapter) {
+            Quality::Plain | Quality::Low => LOW_SHARE,
+            Quality::Medium | Quality::High => 1.0,
+        };
+        let share = std::env::var("SHARE").ok().and_then(|s| s.parse().ok()).unwrap_or(share);
+        HairDetail { share, ..HairDetail::default() }
     }
 
     /// The light.

@@ -36,7 +36,8 @@ impl Offscreen {
         let gpu = open_blocking(GpuOptions::default())?;
         let hair = look.hair.choose(pack.hair.as_ref());
         let model = scene::upload(pack, textures, &gpu.device, &gpu.queue, hair)?;
-        let avatar = AvatarState::new(&gpu.device, &model);
+        let mut avatar = AvatarState::new(&gpu.device, &model);
+        avatar.set_hair_detail(look.hair_detail(&gpu.info));
         check(&gpu)?;
         Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, look, canvas: None })
     }

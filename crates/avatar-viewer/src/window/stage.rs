@@ -54,7 +54,8 @@ impl Stage {
         let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
         let hair = look.hair.choose(pack.hair.as_ref());
         let model = scene::upload(pack, textures, device, &gpu.queue, hair)?;
-        let avatar = AvatarState::new(device, &model);
+        let mut avatar = AvatarState::new(device, &model);
+        avatar.set_hair_detail(look.hair_detail(&gpu.info));
         let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar, look };
         stage.resize(size)?;
         Ok(stage)
@@ -96,6 +97,7 @@ impl Stage {
     pub(super) fn set_hair(&mut self, pack: &Pack, textures: &Textures, hair: Option<Hair>) -> Result<()> {
         scene::set_hair(pack, textures, &mut self.model, &self.gpu.device, &self.gpu.queue, hair)?;
         self.avatar = AvatarState::new(&self.gpu.device, &self.model);
+        self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
         Ok(())
     }
 
