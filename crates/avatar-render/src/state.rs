@@ -1,4 +1,5 @@
 use crate::deformer::{GpuDeformedVertex, deformed_layout};
+use crate::frame::written_buffer;
 use crate::hair::HairState;
 use crate::model::ModelPart;
 use crate::part::Geometry;
@@ -134,13 +135,10 @@ impl AvatarState {
             .as_ref()
             .and_then(|hair| Some(HairState::new(device, hair, &posed.get(hair.part)?.vertices)));
         let room = model.shape_count().max(1) * size_of::<GpuActiveShape>();
-        let shape_buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("avatar: active shapes"),
-            size: (size_of::<GpuActiveShapesHead>() + room) as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-            // wgpu clears new buffers: no active shapes.
-            mapped_at_creation: false,
-        });
+        // Zeros: no active shapes.
+        let bytes = (size_of::<GpuActiveShapesHead>() + room) as u64;
+        let shape_buffer =
+            written_buffer(device, "avatar: active shapes", bytes, wgpu::BufferUsages::STORAGE);
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("avatar"),
             layout: &avatar_layout(device),

@@ -1,6 +1,7 @@
 //! Hair that lags behind the head: guides swing, and their locks with them.
 
 use crate::deformer::compute_pipeline_of;
+use crate::frame::written_buffer;
 use crate::hair::{GROW_WORKGROUP_SIZE, POINT_STRIDE, storage_entry, uniform_entry};
 use crate::shaders::SWING_PASS;
 use avatar_groom::{Oscillator, SEGMENTS, TICKS_PER_SECOND, TickClock, Ticks};
@@ -89,11 +90,8 @@ impl SwingState {
             })
         };
         let storage = wgpu::BufferUsages::STORAGE;
-        let uniform = buffer(
-            "hair: swing",
-            size_of::<GpuSwing>() as u64,
-            wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        );
+        let bytes = size_of::<GpuSwing>() as u64;
+        let uniform = written_buffer(device, "hair: swing", bytes, wgpu::BufferUsages::UNIFORM);
         let motes = buffer("hair: motes", points * size_of::<GpuMote>() as u64, storage);
         let offsets = buffer("hair: offsets of guides", points * size_of::<[f32; 4]>() as u64, storage);
         let buffers = [&uniform, guides, &motes, &offsets];

@@ -15,7 +15,8 @@ pub(crate) struct Stage {
     pub(crate) renderer: Renderer,
     pub(crate) targets: Targets,
     pub(crate) texture: wgpu::Texture,
-    /// Locked while a frame is submitted and read: tests that run at once share stages.
+    /// Locked while a frame is recorded, submitted and read: tests that run at once share stages, and frames that are
+    /// submitted together share an environment.
     readable: Mutex<wgpu::Buffer>,
     size: u32,
 }
@@ -74,17 +75,19 @@ impl Stage {
         scene: &Scene,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Vec<u8> {
-        let view = self.texture.create_view(&Default::default());
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.renderer
-            .draw(&mut encoder, &view, &self.targets, &gpu.queue, scene, avatars)
-            .expect("what belongs together");
-        self.read(gpu, encoder)
+        self.bytes_after(gpu, |encoder| {
+            let view = self.texture.create_view(&Default::default());
+            self.renderer
+                .draw(encoder, &view, &self.targets, &gpu.queue, scene, avatars)
+                .expect("what belongs together");
+        })
     }
 
-    /// Submits what is recorded and returns the bytes of the target, rows without padding.
-    pub(crate) fn read(&self, gpu: &Gpu, mut encoder: wgpu::CommandEncoder) -> Vec<u8> {
+    /// The bytes of the target after what is recorded, rows without padding.
+    pub(crate) fn bytes_after(&self, gpu: &Gpu, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Vec<u8> {
         let readable = self.readable.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        record(&mut encoder);
         let row = row_bytes(self.texture.format(), self.size);
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
