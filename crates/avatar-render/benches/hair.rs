@@ -1,7 +1,7 @@
 //! What hair costs: growth and drawing per strand at 1280×720 and four samples, and how close growth comes to a plain
 //! kernel that copies, vec4 by vec4, so that it reads and writes as many bytes as growth must, in the same run.
 //!
-//! `cargo bench -p avatar-render --bench hair [-- ROUNDS] [bob|curly|…] [STRANDS]`
+//! `cargo bench -p avatar-render --bench hair [-- ROUNDS] [bob|curly|…] [STRANDS] [growth]`; `growth`: nothing is drawn.
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
@@ -63,13 +63,18 @@ fn main() {
     for (name, style) in Style::PRESETS.into_iter().filter(|(name, _)| is_asked(name)) {
         for &strands in &counts {
             let (model, state, scene, bytes) = avatar(&gpu, &pack, &density, style, strands);
+            let count = model.strand_count();
+            if named.iter().any(|n| n == "growth") {
+                println!("{name}, {count} strands:");
+                print_growth(&gpu, &model, &state, bytes, rounds);
+                continue;
+            }
             let bench = Bench { gpu: &gpu, renderer: &renderer, targets: &targets, scene: &scene };
             let bald = *bald.get_or_insert_with(|| {
                 let (model, state, ..) = avatar(&gpu, &pack, &density, style, 0.0);
                 bench.frames(&model, &state, rounds).0
             });
             let (frame, passes) = bench.frames(&model, &state, rounds);
-            let count = model.strand_count();
             println!("{name}, {count} strands: a frame takes {frame:.2} ms, {bald:.2} ms without hair");
             let per = |ms: f64| ms * 1e6 / count as f64;
             // Software adapters do not wait for compute passes to note their end.
@@ -78,18 +83,22 @@ fn main() {
             for (pass, ms) in passes.iter().filter(|(pass, _)| is_noted(pass)) {
                 println!("  {pass:<20}{ms:>9.2} ms{:>9.0} ns per strand", per(*ms));
             }
-            let (growing, copying) = growth_and_copy(&gpu, &model, &state, bytes, rounds);
-            let rate = |seconds: f64| bytes as f64 / seconds * 1e-9;
-            println!(
-                "  growth alone {:.2} ms, {:.0} ns per strand, {:.2} GB/s; copying {:.2} GB/s: {:.2} of it\n",
-                growing * 1e3,
-                per(growing * 1e3),
-                rate(growing),
-                rate(copying),
-                copying / growing
-            );
+            print_growth(&gpu, &model, &state, bytes, rounds);
         }
     }
+}
+
+fn print_growth(gpu: &Gpu, model: &AvatarModel, state: &AvatarState, bytes: usize, rounds: usize) {
+    let (growing, copying) = growth_and_copy(gpu, model, state, bytes, rounds);
+    let rate = |seconds: f64| bytes as f64 / seconds * 1e-9;
+    println!(
+        "  growth alone {:.2} ms, {:.0} ns per strand, {:.2} GB/s; copying {:.2} GB/s: {:.2} of it\n",
+        growing * 1e3,
+        growing * 1e9 / model.strand_count() as f64,
+        rate(growing),
+        rate(copying),
+        copying / growing
+    );
 }
 
 /// The built-in avatar's skin with hair, so large that the head fills the picture's height, and the bytes that its
