@@ -140,24 +140,42 @@ impl Field {
         self.distances.iter().zip(&self.shares).zip(&self.slopes).map(texel).collect()
     }
 
-    /// What is known of a place; the twin of `field_at` in WGSL. Outside of the grid the distance grows with that from it.
+    /// What is known of a place; the twin of `field_at` in WGSL: of the six tetrahedra that a cell is cut into along its
+    /// diagonal, it is between the four corners of one. Outside of the grid the distance grows with that from it.
     pub fn at(&self, place: Vec3) -> Near {
         let last = Vec3::from_array(self.size.map(|n| n as f32 - 1.0));
-        let wanted = (place - self.origin) / self.cell;
+        let wanted = (place - self.origin) * (1.0 / self.cell);
         let inside = wanted.clamp(Vec3::ZERO, last);
         let low = inside.floor().min(last - 1.0);
         let share = inside - low;
         let [across, up, _] = self.size.map(|n| n as usize);
+        let strides = [1, across, across * up];
         let first = (low.z as usize * up + low.y as usize) * across + low.x as usize;
-        let rows = [first, first + across, first + across * up, first + across * up + across];
-        let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
-        let between = |of: &dyn Fn(usize) -> f32| {
-            let [v00, v10, v01, v11] = rows.map(|i| mix(of(i), of(i + 1), share.x));
-            mix(mix(v00, v10, share.y), mix(v01, v11, share.y), share.z)
+        // From the lowest corner along the axis of the largest share, then of the next, then of the least.
+        let (most, least) = (share.max_element(), share.min_element());
+        let middle = share.x + share.y + share.z - most - least;
+        let lead = match share {
+            Vec3 { x, y, z } if x >= y && x >= z => 0,
+            Vec3 { y, z, .. } if y >= z => 1,
+            _ => 2,
         };
+        let end = match share {
+            Vec3 { x, y, z } if z <= x && z <= y => 2,
+            Vec3 { x, y, .. } if y <= x => 1,
+            _ => 0,
+        };
+        let opposite = first + strides.iter().sum::<usize>();
+        let corners = [
+            (first, 1.0 - most),
+            (first + strides[lead], most - middle),
+            (opposite - strides[end], middle - least),
+            (opposite, least),
+        ];
+        let between =
+            |of: &dyn Fn(usize) -> f32| corners.iter().map(|(i, weight)| of(*i) * weight).sum::<f32>();
         let distance = between(&|i| self.distances.get(i).copied().unwrap_or(0.0));
         let slope = [0, 1, 2]
-            .map(|axis| between(&|i| self.slopes.get(i).map_or(0.0, |slope| f32::from(slope[axis]) / 127.0)));
+            .map(|axis| between(&|i| self.slopes.get(i).map_or(0.0, |slope| f32::from(slope[axis]))));
         let shares = [0, 1].map(|bone| {
             between(&|i| self.shares.get(i).map_or(0.0, |shares| f32::from(shares[bone]) / 255.0))
         });

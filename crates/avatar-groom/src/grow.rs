@@ -1,5 +1,5 @@
 use crate::{Groom, NO_GUIDE, OTHER_BONES, Region, RegionStyle};
-use glam::{Affine3A, Mat3, Vec2, Vec3};
+use glam::{Affine3A, Mat3, Mat3A, Vec2, Vec3};
 
 /// Segments of a strand.
 pub const SEGMENTS: usize = 12;
@@ -72,10 +72,9 @@ pub(crate) fn grow_to(
     phase: Option<f32>,
 ) -> Option<Strand> {
     let head = *bones.get(groom.head_bone as usize)?;
-    // From the head's bind pose to that of the other bones.
     let others: [Affine3A; OTHER_BONES] = std::array::from_fn(|i| {
         let other = bones.get(groom.field.bones[i] as usize).copied().unwrap_or(head);
-        rigid_inverse(other) * head
+        offset_from_head(head, other)
     });
     let (root, comb_local) = (groom.roots.get(strand)?, groom.combs.get(strand)?);
     let style = groom.style.region(root.region);
@@ -130,9 +129,9 @@ pub(crate) fn grow_to(
             Region::Scalp => {
                 // Where the skin moves with other bones, the place is sought where they have it at bind pose. The shares are
                 // those of the point before.
-                let moved = |i: usize| (others[i].transform_point3(next) - next) * shares[i];
+                let moved = |i: usize| others[i].transform_point3(next) * shares[i];
                 let near = groom.field.at(next + moved(0) + moved(1));
-                let turned = |i: usize| (back[i] * near.outward - near.outward) * near.shares[i];
+                let turned = |i: usize| back[i] * near.outward * near.shares[i];
                 shares = near.shares;
                 (near.distance, (near.outward + turned(0) + turned(1)).normalize_or(near.outward))
             }
@@ -168,6 +167,13 @@ impl Groom {
         let number = *self.guide_of.get(strand)?;
         (number != NO_GUIDE).then(|| self.guides.get(number as usize).map(|root| *root as usize))?
     }
+}
+
+/// How far bones take a point of the head's bind pose from where another bone has it at bind pose: a map to what is to be
+/// added to the point. Nothing, where both move alike.
+pub fn offset_from_head(head: Affine3A, other: Affine3A) -> Affine3A {
+    let Affine3A { matrix3, translation } = rigid_inverse(other) * head;
+    Affine3A { matrix3: matrix3 - Mat3A::IDENTITY, translation }
 }
 
 fn rigid_inverse(bone: Affine3A) -> Affine3A {

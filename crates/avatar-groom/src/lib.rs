@@ -32,7 +32,7 @@ pub use field::{Field, Near, OTHER_BONES};
 pub use groom::Groom;
 pub use grow::{
     COMBED_REACH, CURL_SHARE, FIRST_SEGMENT, LOCK_REACH, MARGIN, SEGMENTS, STEP_SUM, Strand, Triangle, grow,
-    grow_guide,
+    grow_guide, offset_from_head,
 };
 pub use guides::NO_GUIDE;
 pub use hair::Hair;

@@ -1,5 +1,5 @@
 use crate::deformer::compute_pipeline_of;
-use crate::hair::{GROW_WORKGROUP_SIZE, POINT_STRIDE, grow_layouts};
+use crate::hair::{GROW_WORKGROUP_SIZE, HairState, POINT_STRIDE, grow_layouts};
 use crate::readback::{ReadbackError, mapped};
 use crate::shaders::{Constants, GROW_PASS};
 use crate::state::avatar_layout;
@@ -43,28 +43,30 @@ impl Grower {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
-        avatars: impl Iterator<Item = (&'a AvatarState, u32)>,
+        avatars: impl Iterator<Item = (&'a AvatarState, u32)> + Clone,
     ) {
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some(GROW_PASS.label),
-            timestamp_writes: timestamps,
-        });
-        for (state, strands) in avatars {
-            if let Some(hair) = &state.hair {
-                let groups = |pass: &mut wgpu::ComputePass<'_>, grown: &wgpu::BindGroup| {
-                    pass.set_bind_group(0, grown, &[]);
-                    pass.set_bind_group(1, &state.bind_group, &[]);
-                    pass.set_bind_group(2, &hair.skin, &[]);
-                };
-                // Strands read their guides: each dispatch sees what those before it wrote.
-                pass.set_pipeline(&self.still);
-                groups(&mut pass, &hair.grow_guides);
-                pass.dispatch_workgroups(hair.guide_count.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
-                hair.swing.record(&mut pass, &self.swing);
-                pass.set_pipeline(if hair.swing.is_moving() { &self.swinging } else { &self.still });
-                groups(&mut pass, &hair.grow);
-                pass.dispatch_workgroups(strands.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
-            }
+        let growing = avatars.filter_map(|(state, strands)| Some((state, state.hair.as_ref()?, strands)));
+        // What passes write to buffers and growth reads from textures is copied in between.
+        growing.clone().for_each(|(_, hair, _)| hair.take_skin(encoder));
+        let (start, end) = match timestamps {
+            Some(times) => (
+                Some(wgpu::ComputePassTimestampWrites { end_of_pass_write_index: None, ..times.clone() }),
+                Some(wgpu::ComputePassTimestampWrites { beginning_of_pass_write_index: None, ..times }),
+            ),
+            None => (None, None),
+        };
+        let mut pass = compute_pass(encoder, "grow guides of hair", start);
+        for (state, hair, _) in growing.clone() {
+            pass.set_pipeline(&self.still);
+            dispatch(&mut pass, state, hair, &hair.grow_guides, hair.guide_count);
+            hair.swing.record(&mut pass, &self.swing);
+        }
+        drop(pass);
+        growing.clone().for_each(|(_, hair, _)| hair.take_guides(encoder));
+        let mut pass = compute_pass(encoder, GROW_PASS.label, end);
+        for (state, hair, strands) in growing {
+            pass.set_pipeline(if hair.swing.is_moving() { &self.swinging } else { &self.still });
+            dispatch(&mut pass, state, hair, &hair.grow, strands);
         }
     }
 
@@ -128,4 +130,25 @@ impl Grower {
         let (strands, _) = points.as_chunks::<POINT_STRIDE>();
         Ok(strands.iter().map(|strand| std::array::from_fn(|i| Vec4::from(strand[i]).truncate())).collect())
     }
+}
+
+fn compute_pass<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+) -> wgpu::ComputePass<'a> {
+    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes })
+}
+
+fn dispatch(
+    pass: &mut wgpu::ComputePass<'_>,
+    state: &AvatarState,
+    hair: &HairState,
+    grown: &wgpu::BindGroup,
+    strands: u32,
+) {
+    pass.set_bind_group(0, grown, &[]);
+    pass.set_bind_group(1, &state.bind_group, &[]);
+    pass.set_bind_group(2, &hair.skin, &[]);
+    pass.dispatch_workgroups(strands.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
 }

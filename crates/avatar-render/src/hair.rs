@@ -1,11 +1,15 @@
 //! Hair on the GPU: strands grow on the deformed skin every frame, and are drawn from where they grew.
 
 use crate::deformer::GpuDeformedVertex;
+use crate::state::GpuBone;
 use crate::swing::{GpuMote, SwingState};
+use crate::vec4_texture::Vec4Texture;
+use avatar_groom::offset_from_head;
 use avatar_groom::{
     COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle, SEGMENTS,
 };
 use bytemuck::{Pod, Zeroable};
+use glam::Affine3A;
 use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu::util::DeviceExt;
 
@@ -20,6 +24,7 @@ pub(crate) const POINT_STRIDE: usize = SEGMENTS + 2;
 /// Strands over a square of the skin's height that styles give their radii for; fewer are wider in proportion.
 const REFERENCE_STRANDS: f32 = 100_000.0;
 const WIDEST: f32 = 5.0;
+const VEC4S_PER_VERTEX: usize = size_of::<GpuDeformedVertex>() / size_of::<[f32; 4]>();
 
 /// WGSL `HairRegion`.
 #[repr(C)]
@@ -50,16 +55,24 @@ pub(crate) struct GpuHair {
     pub(crate) field_cell: f32,
     pub(crate) field_size: [u32; 3],
     pub(crate) margin: f32,
-    pub(crate) combed_reach: f32,
-    pub(crate) lock_reach: f32,
-    pub(crate) other_bones: [u32; OTHER_BONES],
-    pub(crate) head_bone: u32,
+    pub(crate) per_combed_reach: f32,
+    pub(crate) per_lock_reach: f32,
     pub(crate) strand_count: u32,
     pub(crate) width_factor: f32,
     pub(crate) field_range: f32,
+    pub(crate) field_cells: f32,
+    pub(crate) pad: [f32; 2],
 }
 
-/// WGSL `Root`.
+/// WGSL `HairPose`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuHairPose {
+    pub(crate) head: GpuBone,
+    pub(crate) others: [GpuBone; OTHER_BONES],
+}
+
+/// A root as four texels; WGSL `Root` has the same fields in the same order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct GpuRoot {
@@ -142,6 +155,14 @@ pub enum HairError {
         /// What the device allows.
         limit: u32,
     },
+    /// A skin that is larger than a texture of the device.
+    #[error("expected at most {limit} vertices of the part, found {found}")]
+    SkinSize {
+        /// Number of vertices.
+        found: u32,
+        /// What the device allows.
+        limit: usize,
+    },
     /// More strands than a binding of the device holds.
     #[error("expected at most {limit} strands, found {found}")]
     TooMany {
@@ -164,10 +185,12 @@ pub(crate) struct HairModel {
     /// Swings a second of the tips of guides.
     swing: f32,
     hair: wgpu::Buffer,
-    roots: wgpu::Buffer,
+    roots: Vec4Texture,
     /// The roots of the guides once more, without guides of their own.
-    guide_roots: wgpu::Buffer,
+    guide_roots: Vec4Texture,
     field: wgpu::TextureView,
+    head_bone: u32,
+    other_bones: [u32; OTHER_BONES],
 }
 
 /// The hair of one avatar.
@@ -182,8 +205,15 @@ pub(crate) struct HairState {
     /// Group 0 of the growing pass: of guides, and of all strands.
     pub(crate) grow_guides: wgpu::BindGroup,
     pub(crate) grow: wgpu::BindGroup,
-    /// Group 2 of the growing pass: the deformed skin.
+    /// Group 2 of the growing pass: the deformed skin, and the bones that hair moves with.
     pub(crate) skin: wgpu::BindGroup,
+    /// What the guides' growth writes, how far they swing from there, the deformed skin; and where strands read that.
+    guides: (wgpu::Buffer, Vec4Texture),
+    offsets: Vec4Texture,
+    vertices: (wgpu::Buffer, Vec4Texture),
+    pose: wgpu::Buffer,
+    head_bone: u32,
+    other_bones: [u32; OTHER_BONES],
     /// Group 2 of the drawing.
     pub(crate) draw: wgpu::BindGroup,
 }
@@ -199,9 +229,10 @@ impl HairModel {
     ) -> Result<Self, HairError> {
         let limits = device.limits();
         let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        let per_strand = (POINT_STRIDE * size_of::<[f32; 4]>()).max(size_of::<GpuRoot>()) as u64;
+        let per_strand = (POINT_STRIDE * size_of::<[f32; 4]>()) as u64;
         let groups = limits.max_compute_workgroups_per_dimension as usize * GROW_WORKGROUP_SIZE as usize;
-        let limit = ((binding / per_strand) as usize).min(groups);
+        let most_roots = Vec4Texture::most(&limits) / (size_of::<GpuRoot>() / size_of::<[f32; 4]>());
+        let limit = ((binding / per_strand) as usize).min(groups).min(most_roots);
         let found = groom.roots.len();
         if found > limit {
             return Err(HairError::TooMany { found, limit });
@@ -240,6 +271,13 @@ impl HairModel {
         if field.size.iter().any(|n| *n > limits.max_texture_dimension_3d) {
             return Err(HairError::FieldSize { found: field.size, limit: limits.max_texture_dimension_3d });
         }
+        if guide_roots.len() > Vec4Texture::most(&limits) / POINT_STRIDE {
+            return Err(HairError::TooMany { found, limit: Vec4Texture::most(&limits) / POINT_STRIDE });
+        }
+        let most = Vec4Texture::most(&limits) / VEC4S_PER_VERTEX;
+        if vertices as usize > most {
+            return Err(HairError::SkinSize { found: vertices, limit: most });
+        }
         let region = |style: &RegionStyle| GpuHairRegion::new(style, groom.height);
         let hair = GpuHair {
             regions: [region(&groom.style.scalp), region(&groom.style.brows), region(&groom.style.lashes)],
@@ -247,22 +285,16 @@ impl HairModel {
             field_cell: field.cell,
             field_size: field.size,
             margin: MARGIN * groom.height,
-            combed_reach: COMBED_REACH * groom.height,
-            lock_reach: LOCK_REACH * groom.height,
-            head_bone: groom.head_bone,
-            other_bones: groom.field.bones,
+            per_combed_reach: 1.0 / (COMBED_REACH * groom.height),
+            per_lock_reach: 1.0 / (LOCK_REACH * groom.height),
             strand_count,
             width_factor: (REFERENCE_STRANDS / groom.strands.max(1.0)).clamp(0.5, WIDEST),
             field_range: field.range(),
+            field_cells: 1.0 / field.cell,
+            pad: [0.0; 2],
         };
-        let buffer = |label, contents: &[u8], usage| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents,
-                usage,
-            })
-        };
-        let storage = wgpu::BufferUsages::STORAGE;
+        let list =
+            |label, roots: &[GpuRoot]| Vec4Texture::with(device, queue, label, bytemuck::cast_slice(roots));
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Ok(Self {
             id: NEXT.fetch_add(1, Ordering::Relaxed),
@@ -270,10 +302,16 @@ impl HairModel {
             strand_count,
             guide_count,
             swing: groom.style.scalp.swing,
-            hair: buffer("hair", bytemuck::bytes_of(&hair), wgpu::BufferUsages::UNIFORM),
-            roots: buffer("hair: roots", bytemuck::cast_slice(&roots), storage),
-            guide_roots: buffer("hair: roots of guides", bytemuck::cast_slice(&guide_roots), storage),
+            hair: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("hair"),
+                contents: bytemuck::bytes_of(&hair),
+                usage: wgpu::BufferUsages::UNIFORM,
+            }),
+            roots: list("hair: roots", &roots),
+            guide_roots: list("hair: roots of guides", &guide_roots),
             field: field_texture(device, queue, field),
+            head_bone: groom.head_bone,
+            other_bones: field.bones,
         })
     }
 }
@@ -352,9 +390,9 @@ pub(crate) fn storage_entry(
     }
 }
 
-pub(crate) fn uniform_entry(visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayoutEntry {
+pub(crate) fn uniform_entry(binding: u32, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
-        binding: 0,
+        binding,
         visibility,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Uniform,
@@ -365,33 +403,40 @@ pub(crate) fn uniform_entry(visibility: wgpu::ShaderStages) -> wgpu::BindGroupLa
     }
 }
 
+fn texture_entry(
+    binding: u32,
+    visibility: wgpu::ShaderStages,
+    sample_type: wgpu::TextureSampleType,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: wgpu::BindingType::Texture { sample_type, view_dimension, multisampled: false },
+        count: None,
+    }
+}
+
 /// Layouts of the growing pass: group 0 hair, group 2 the deformed skin.
 pub(crate) fn grow_layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 2] {
     let compute = wgpu::ShaderStages::COMPUTE;
+    let float = wgpu::TextureSampleType::Float { filterable: false };
+    let flat = wgpu::TextureViewDimension::D2;
     [
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("grow hair"),
             entries: &[
-                uniform_entry(compute),
-                storage_entry(1, compute, true),
-                wgpu::BindGroupLayoutEntry {
-                    binding: 2,
-                    visibility: compute,
-                    ty: wgpu::BindingType::Texture {
-                        sample_type: wgpu::TextureSampleType::Uint,
-                        view_dimension: wgpu::TextureViewDimension::D3,
-                        multisampled: false,
-                    },
-                    count: None,
-                },
+                uniform_entry(0, compute),
+                texture_entry(1, compute, wgpu::TextureSampleType::Uint, flat),
+                texture_entry(2, compute, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D3),
                 storage_entry(3, compute, false),
-                storage_entry(4, compute, true),
-                storage_entry(5, compute, true),
+                texture_entry(4, compute, float, flat),
+                texture_entry(5, compute, float, flat),
             ],
         }),
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("deformed skin"),
-            entries: &[storage_entry(0, compute, true)],
+            entries: &[texture_entry(0, compute, float, flat), uniform_entry(1, compute)],
         }),
     ]
 }
@@ -402,8 +447,8 @@ pub(crate) fn draw_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("draw hair"),
         entries: &[
-            uniform_entry(wgpu::ShaderStages::VERTEX_FRAGMENT),
-            storage_entry(1, vertex, true),
+            uniform_entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT),
+            texture_entry(1, vertex, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D2),
             storage_entry(2, vertex, true),
         ],
     })
@@ -421,6 +466,16 @@ impl HairState {
         };
         let points = buffer("hair: points", hair.strand_count);
         let guides = buffer("hair: points of guides", hair.guide_count);
+        let guide_texture = Vec4Texture::new(device, "hair: points of guides", &guides);
+        let skin_texture = Vec4Texture::new(device, "hair: deformed skin", skin);
+        let pose = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("hair: pose"),
+            contents: bytemuck::bytes_of(&GpuHairPose::new(
+                Affine3A::IDENTITY,
+                [Affine3A::IDENTITY; OTHER_BONES],
+            )),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        });
         let [grow_layout, skin_layout] = grow_layouts(device);
         let group = |label, layout: &wgpu::BindGroupLayout, resources: &[wgpu::BindingResource<'_>]| {
             let entries: Vec<_> = (0u32..)
@@ -434,29 +489,73 @@ impl HairState {
             })
         };
         let swing = SwingState::new(device, &guides, hair.guide_count, hair.swing);
-        let grow = |label, roots: &wgpu::Buffer, points: &wgpu::Buffer, guides: &wgpu::Buffer| {
+        let offset_texture = Vec4Texture::new(device, "hair: offsets of guides", &swing.offsets);
+        let grow = |label, roots: &Vec4Texture, points: &wgpu::Buffer| {
             let resources = [
                 hair.hair.as_entire_binding(),
-                roots.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&roots.view),
                 wgpu::BindingResource::TextureView(&hair.field),
                 points.as_entire_binding(),
-                guides.as_entire_binding(),
-                swing.offsets.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&guide_texture.view),
+                wgpu::BindingResource::TextureView(&offset_texture.view),
             ];
             group(label, &grow_layout, &resources)
         };
-        let drawn = [&hair.hair, &hair.roots, &points].map(wgpu::Buffer::as_entire_binding);
+        let drawn = [
+            hair.hair.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&hair.roots.view),
+            points.as_entire_binding(),
+        ];
         debug_assert_eq!(skin.size() % size_of::<GpuDeformedVertex>() as u64, 0);
         Self {
             id: hair.id,
             guide_count: hair.guide_count,
-            // Guides follow no guides: anything is bound in their place.
-            grow_guides: grow("grow guides of hair", &hair.guide_roots, &guides, &hair.roots),
-            grow: grow("grow hair", &hair.roots, &points, &guides),
-            skin: group("deformed skin", &skin_layout, &[skin.as_entire_binding()]),
+            // Guides follow no guides: they do not read what is bound for the strands.
+            grow_guides: grow("grow guides of hair", &hair.guide_roots, &guides),
+            grow: grow("grow hair", &hair.roots, &points),
+            skin: group(
+                "deformed skin",
+                &skin_layout,
+                &[wgpu::BindingResource::TextureView(&skin_texture.view), pose.as_entire_binding()],
+            ),
             draw: group("draw hair", &draw_layout(device), &drawn),
             swing,
             points,
+            guides: (guides, guide_texture),
+            offsets: offset_texture,
+            vertices: (skin.clone(), skin_texture),
+            pose,
+            head_bone: hair.head_bone,
+            other_bones: hair.other_bones,
         }
+    }
+
+    /// Records the copy of the deformed skin to where growth reads it.
+    pub(crate) fn take_skin(&self, encoder: &mut wgpu::CommandEncoder) {
+        let (vertices, texture) = &self.vertices;
+        texture.fill(encoder, vertices);
+    }
+
+    /// Records the copy of the guides to where strands read them.
+    pub(crate) fn take_guides(&self, encoder: &mut wgpu::CommandEncoder) {
+        let (guides, texture) = &self.guides;
+        texture.fill(encoder, guides);
+        if self.swing.is_moving() {
+            self.offsets.fill(encoder, &self.swing.offsets);
+        }
+    }
+
+    /// Takes over the bones of a pose.
+    pub(crate) fn set_pose(&self, queue: &wgpu::Queue, bones: &[Affine3A]) {
+        let Some(head) = bones.get(self.head_bone as usize) else { return };
+        let others = self.other_bones.map(|bone| bones.get(bone as usize).copied().unwrap_or(*head));
+        queue.write_buffer(&self.pose, 0, bytemuck::bytes_of(&GpuHairPose::new(*head, others)));
+    }
+}
+
+impl GpuHairPose {
+    fn new(head: Affine3A, others: [Affine3A; OTHER_BONES]) -> Self {
+        let others = others.map(|other| GpuBone::new(&offset_from_head(head, other)));
+        Self { head: GpuBone::new(&head), others }
     }
 }

@@ -3,7 +3,7 @@
 use crate::Terms;
 use crate::deformer::GpuDeformedVertex;
 use crate::frame::{GpuFrame, GpuLamp};
-use crate::hair::{GpuHair, GpuHairRegion, GpuRoot};
+use crate::hair::{GpuHair, GpuHairPose, GpuHairRegion};
 use crate::hair_detail::GpuHairView;
 use crate::material::{GpuIris, GpuMaterial};
 use crate::part::{GpuPart, GpuShapeOffset, GpuVertex, GpuVertexBones};
@@ -86,15 +86,14 @@ fn layouts() -> Vec<Layout> {
             field_cell,
             field_size,
             margin,
-            combed_reach,
-            lock_reach,
-            other_bones,
-            head_bone,
+            per_combed_reach,
+            per_lock_reach,
             strand_count,
             width_factor,
-            field_range
+            field_range,
+            field_cells
         ),
-        layout!("Root", GpuRoot, corners, region, barycentric, guide, comb, length, random, phase),
+        layout!("HairPose", GpuHairPose, head, others),
         layout!("Swing", GpuSwing, ticks, first, step, rest, tick, is_still, oscillators),
         layout!("Mote", GpuMote, position, velocity, held, held_at_frame),
         layout!("HairView", GpuHairView, strands, fading, width, least_pixels),
@@ -224,7 +223,6 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("vertex_bones", size_of::<GpuVertexBones>()),
         ("shape_offsets", size_of::<GpuShapeOffset>()),
         ("deformed", size_of::<GpuDeformedVertex>()),
-        ("roots", size_of::<GpuRoot>()),
         ("points", size_of::<[f32; 4]>()),
         ("guides", size_of::<[f32; 4]>()),
         ("offsets", size_of::<[f32; 4]>()),

@@ -108,6 +108,7 @@ mod swing;
 mod targets;
 mod texture;
 mod timer;
+mod vec4_texture;
 
 /// The crate whose [`Groom`](avatar_groom::Groom)s [`AvatarModel::set_hair`] plants.
 pub use avatar_groom;

@@ -35,7 +35,7 @@ impl<'a> Frame<'a> {
     }
 
     /// How many strands of each avatar are to grow.
-    pub(crate) fn growing(&self) -> impl Iterator<Item = (&'a AvatarState, u32)> {
+    pub(crate) fn growing(&self) -> impl Iterator<Item = (&'a AvatarState, u32)> + Clone {
         self.avatars.iter().filter_map(|(model, state)| {
             let (view, _) = strands_in_view(model, state, self.scene, self.pixels_per_unit, f32::INFINITY)?;
             Some((*state, view.count() as u32))

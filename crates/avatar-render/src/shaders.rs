@@ -8,6 +8,7 @@ use crate::material::{
     COLOR_TEXTURE, GLOSS_TEXTURE, NORMAL_TEXTURE, OCCLUSION_TEXTURE, SKIN_ALBEDO, THICKNESS_TEXTURE,
 };
 use crate::pores::PORE_CELLS;
+use crate::vec4_texture::VEC4S_PER_ROW;
 use crate::{RendererConfig, Scattering, Shading, Terms};
 use avatar_groom::{CURL_SHARE, FIRST_SEGMENT, NO_GUIDE, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
 use avatar_look::optics::diffusion_distance;
@@ -242,7 +243,14 @@ pub(crate) const GROW_PASS: Program = Program {
     label: "grow hair",
     entry: "grow_main",
     fragment: None,
-    modules: &[AVATAR, HAIR, module!("strands/field"), module!("strands/swung"), module!("strands/grow")],
+    modules: &[
+        AVATAR,
+        HAIR,
+        module!("strands/field"),
+        module!("strands/sources"),
+        module!("strands/swung"),
+        module!("strands/grow"),
+    ],
 };
 
 pub(crate) const SWING_PASS: Program = Program {
@@ -376,6 +384,7 @@ impl Constants {
             float("CURL_SHARE", CURL_SHARE),
             float("STEP_SUM", STEP_SUM as f32),
             number("REGION_COUNT", REGION_COUNT as u32),
+            number("VEC4S_PER_ROW", VEC4S_PER_ROW),
             number("OTHER_BONES", OTHER_BONES as u32),
             number("SCALP", Region::Scalp as u32),
             number("GROW_WORKGROUP_SIZE", GROW_WORKGROUP_SIZE),

@@ -203,6 +203,7 @@ impl AvatarState {
             return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
         }
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
+        self.hair.iter().for_each(|hair| hair.set_pose(queue, bones));
         self.active_shapes.clear();
         let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
         self.active_shapes.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
@@ -258,7 +259,7 @@ impl GpuBone {
         Bounds { min: center - half, max: center + half }
     }
 
-    fn new(posed_from_bind: &Affine3A) -> Self {
+    pub(crate) fn new(posed_from_bind: &Affine3A) -> Self {
         let columns = posed_from_bind.matrix3.transpose();
         let t = posed_from_bind.translation;
         let row = |axes: glam::Vec3A, t: f32| [axes.x, axes.y, axes.z, t];

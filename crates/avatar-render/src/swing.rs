@@ -60,7 +60,7 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("swing hair"),
         entries: &[
-            uniform_entry(compute),
+            uniform_entry(0, compute),
             storage_entry(1, compute, true),
             storage_entry(2, compute, false),
             storage_entry(3, compute, false),
@@ -93,7 +93,8 @@ impl SwingState {
         let bytes = size_of::<GpuSwing>() as u64;
         let uniform = written_buffer(device, "hair: swing", bytes, wgpu::BufferUsages::UNIFORM);
         let motes = buffer("hair: motes", points * size_of::<GpuMote>() as u64, storage);
-        let offsets = buffer("hair: offsets of guides", points * size_of::<[f32; 4]>() as u64, storage);
+        let copied = storage | wgpu::BufferUsages::COPY_SRC;
+        let offsets = buffer("hair: offsets of guides", points * size_of::<[f32; 4]>() as u64, copied);
         let buffers = [&uniform, guides, &motes, &offsets];
         let entries: Vec<_> = (0u32..)
             .zip(buffers)

@@ -71,8 +71,8 @@ fn strand_light(point: StrandPoint, color: vec3f, open: f32) -> vec3f {
 
 @vertex
 fn strand_main(@builtin(vertex_index) corner: u32, @builtin(instance_index) strand: u32) -> StrandOut {
-    let region = roots[strand].region;
-    let random = roots[strand].random;
+    let region = region_of(strand);
+    let random = random_of(strand);
     let style = hair.regions[region];
     let point = strand_point(strand, corner, region);
     let ribbon = ribbon_corner(point, corner);

@@ -1,46 +1,7 @@
 // Grows every strand anew on the deformed skin. The twin on the CPU is avatar_groom::grow, line by line.
 
-struct DeformedVertex {
-    position: vec3f,
-    normal: vec3f,
-}
-
-@group(0) @binding(0) var<uniform> hair: Hair;
-@group(0) @binding(1) var<storage, read> roots: array<Root>;
 // Per strand its points with their height above the skin in w, then the normal of the skin at the root.
 @group(0) @binding(3) var<storage, read_write> points: array<vec4f>;
-// The same of the strands that others follow.
-@group(0) @binding(4) var<storage, read> guides: array<vec4f>;
-@group(2) @binding(0) var<storage, read> deformed: array<DeformedVertex>;
-
-const POINT_STRIDE: u32 = SEGMENTS + 2u;
-
-fn normalize_or(v: vec3f, other: vec3f) -> vec3f {
-    let length2 = dot(v, v);
-    // Not inverseSqrt: some adapters only approximate it.
-    return select(other, v / sqrt(max(length2, 1e-30)), length2 > 1e-20);
-}
-
-// Bones are rigid: rows of rotation and translation.
-fn moved(bone: Bone, point: vec3f) -> vec3f {
-    return vec4f(point, 1.0) * bone;
-}
-
-fn turned_back(bone: Bone, direction: vec3f) -> vec3f {
-    return bone[0].xyz * direction.x + bone[1].xyz * direction.y + bone[2].xyz * direction.z;
-}
-
-// From the head's bind pose to that of another bone.
-fn other_from_head(index: u32, head: Bone) -> Bone {
-    let other = posed_from_bind[index];
-    let offset = vec3f(head[0].w - other[0].w, head[1].w - other[1].w, head[2].w - other[2].w);
-    let position = turned_back(other, offset);
-    let x = turned_back(other, vec3f(head[0].x, head[1].x, head[2].x));
-    let y = turned_back(other, vec3f(head[0].y, head[1].y, head[2].y));
-    let z = turned_back(other, vec3f(head[0].z, head[1].z, head[2].z));
-    return Bone(
-        vec4f(x.x, y.x, z.x, position.x), vec4f(x.y, y.y, z.y, position.y), vec4f(x.z, y.z, z.z, position.z));
-}
 
 @compute @workgroup_size(GROW_WORKGROUP_SIZE)
 fn grow_main(@builtin(global_invocation_id) id: vec3u) {
@@ -48,11 +9,11 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     if number >= min(hair.strand_count, arrayLength(&points) / POINT_STRIDE) {
         return;
     }
-    let root = roots[number];
+    let root = root_of(number);
     let style = hair.regions[root.region];
-    let a = deformed[root.corners.x];
-    let b = deformed[root.corners.y];
-    let c = deformed[root.corners.z];
+    let a = deformed_vertex(root.corners.x);
+    let b = deformed_vertex(root.corners.y);
+    let c = deformed_vertex(root.corners.z);
     let w = root.barycentric;
     let start_world = a.position * w.x + b.position * w.y + c.position * w.z;
     let normal_world =
@@ -61,9 +22,14 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     let z = normalize_or(cross(x, c.position - a.position), vec3f(0.0, 0.0, 1.0));
     let comb_world = x * root.comb.x + cross(z, x) * root.comb.y + z * root.comb.z;
     // All that follows is in the head's bind pose.
-    let head = posed_from_bind[hair.head_bone];
-    var others = array<Bone, OTHER_BONES>(
-        other_from_head(hair.other_bones.x, head), other_from_head(hair.other_bones.y, head));
+    // Uniforms are read once: software adapters read them anew wherever they stand.
+    let head = pose.head;
+    let other_0 = pose.others[0];
+    let other_1 = pose.others[1];
+    let grid = field_grid();
+    let margin = hair.margin;
+    let per_lock_reach = hair.per_lock_reach;
+    let per_combed_reach = hair.per_combed_reach;
     let posed_rows = mat3x3f(head[0].xyz, head[1].xyz, head[2].xyz);
     let head_position = vec3f(head[0].w, head[1].w, head[2].w);
     let start = posed_rows * (start_world - head_position);
@@ -92,8 +58,8 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     var near = 1.0;
     var skin: Near;
     for (var i = 2u; i <= SEGMENTS; i++) {
-        let t = f32(i - 1u) / f32(SEGMENTS - 1u);
-        let step = (root.length - first) * (f32(i + 1u) / STEP_SUM);
+        let t = f32(i - 1u) * (1.0 / f32(SEGMENTS - 1u));
+        let step = (root.length - first) * (f32(i + 1u) * (1.0 / STEP_SUM));
         // Along the skin: what supports hair takes the comb's push into it.
         let combed = (comb - skin_normal * (dot(comb, skin_normal) * near)) * max(near, style.hold * (1.0 - t));
         let force = combed + own * (style.noise * t) + down * style.gravity;
@@ -102,40 +68,41 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
         direction = normalize_or(direction + across * style.bend, direction);
         var next = before + direction * step;
         if has_guide {
-            let toward = posed_rows * (guides[guide + i].xyz - head_position) - next;
-            let share = saturate(2.0 - length(toward) / hair.lock_reach);
+            let toward = posed_rows * (vec4_of(guides, guide + i) - head_position) - next;
+            let share = saturate(2.0 - length(toward) * per_lock_reach);
             next += toward * (style.clump * t * share);
         }
         // Where the skin moves with other bones, the place is sought where they have it at bind pose. The shares are those of
         // the point before.
-        let moved_0 = (moved(others[0], next) - next) * skin.shares.x;
-        let moved_1 = (moved(others[1], next) - next) * skin.shares.y;
-        skin = field_at(next + moved_0 + moved_1);
-        let turned_0 = (turned_back(others[0], skin.outward) - skin.outward) * skin.shares.x;
-        let turned_1 = (turned_back(others[1], skin.outward) - skin.outward) * skin.shares.y;
-        skin.outward = normalize_or(skin.outward + turned_0 + turned_1, skin.outward);
+        skin = field_at(grid, next + moved(other_0, next) * skin.shares.x + moved(other_1, next) * skin.shares.y);
+        let turned_0 = turned_back(other_0, skin.outward) * skin.shares.x;
+        let turned_1 = turned_back(other_1, skin.outward) * skin.shares.y;
+        skin.outward = normalize_or(skin.outward + turned_0 + turned_1, vec3f(0.0, 1.0, 0.0));
         if root.region != SCALP {
             // Lids and brows move in the head's frame, and their hair is short: the plane of the skin says it.
             skin.outward = normal;
             skin.distance = dot(next - start, normal);
         }
-        let least = hair.margin * min(4.0 * t, 1.0) + lift * min(3.0 * t, 1.0);
+        let least = margin * min(4.0 * t, 1.0) + lift * min(3.0 * t, 1.0);
         next += skin.outward * max(least - skin.distance, 0.0);
-        direction = normalize_or(next - before, direction);
         // Pushed back, the segment gets shorter: at its full length it would be inside again.
-        before += direction * min(step, distance(next, before));
+        let segment = next - before;
+        let segment2 = dot(segment, segment);
+        let segment_length = sqrt(max(segment2, 1e-30));
+        direction = select(direction, segment * (1.0 / segment_length), segment2 > 1e-20);
+        before += direction * min(step, segment_length);
         let turn = style.curl_turn;
         phase = vec2f(turn.x * phase.x - turn.y * phase.y, turn.y * phase.x + turn.x * phase.y);
         let side = normalize_or(cross(direction, beside), normal);
         let curl = (beside * phase.x + side * phase.y) * (curl_radius * min(3.0 * t, 1.0));
         var placed = before + curl;
         if SWINGING && has_guide {
-            let offset = posed_rows * offsets[guide + i].xyz;
-            placed = swung(placed, offset, &others, skin.shares, hair.margin * min(4.0 * t, 1.0));
+            let offset = posed_rows * vec4_of(offsets, guide + i);
+            placed = swung(grid, placed, offset, skin.shares, margin * min(4.0 * t, 1.0));
         }
         points[out + i] = vec4f(head_position + placed * posed_rows, max(skin.distance, least));
         skin_normal = skin.outward;
-        near = saturate(1.0 - (skin.distance - least) / hair.combed_reach);
+        near = saturate(1.0 - (skin.distance - least) * per_combed_reach);
     }
     points[out + SEGMENTS + 1u] = vec4f(normal_world, 0.0);
 }

@@ -23,18 +23,20 @@ struct Hair {
     field_cell: f32,
     field_size: vec3u,
     margin: f32,
-    combed_reach: f32,
-    lock_reach: f32,
-    // Bones beside the head's that move the skin.
-    other_bones: vec2u,
-    head_bone: u32,
+    // One over how far hair is combed along the skin, and over how near it is drawn to its guide.
+    per_combed_reach: f32,
+    per_lock_reach: f32,
     strand_count: u32,
     // Fewer strands are wider, so that they cover as much.
     width_factor: f32,
     // The largest distance of the field.
     field_range: f32,
+    // Cells per unit.
+    field_cells: f32,
 }
 
+// A root is four texels of a texture, as all lists are that are read strand by strand: software adapters read textures several
+// times faster than buffers.
 struct Root {
     corners: vec3u,
     region: u32,
@@ -46,4 +48,9 @@ struct Root {
     random: vec3f,
     // Where its curl begins, in radians.
     phase: f32,
+}
+
+// Where the elements of a list are in a texture.
+fn texel_of(index: u32) -> vec2u {
+    return vec2u(index % VEC4S_PER_ROW, index / VEC4S_PER_ROW);
 }

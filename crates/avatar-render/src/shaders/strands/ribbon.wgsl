@@ -13,7 +13,7 @@ struct HairView {
 }
 
 @group(2) @binding(0) var<uniform> hair: Hair;
-@group(2) @binding(1) var<storage, read> roots: array<Root>;
+@group(2) @binding(1) var roots: texture_2d<u32>;
 @group(2) @binding(2) var<storage, read> points: array<vec4f>;
 @group(3) @binding(0) var<uniform> hair_view: HairView;
 
@@ -28,6 +28,14 @@ struct StrandPoint {
     // Of the skin at the root.
     normal: vec3f,
     radius: f32,
+}
+
+fn region_of(strand: u32) -> u32 {
+    return textureLoad(roots, texel_of(4u * strand), 0).w;
+}
+
+fn random_of(strand: u32) -> vec3f {
+    return bitcast<vec3f>(textureLoad(roots, texel_of(4u * strand + 3u), 0).xyz);
 }
 
 // `corner` counts the corners of the ribbon, two at each point.

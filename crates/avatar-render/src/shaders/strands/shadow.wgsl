@@ -12,7 +12,7 @@ fn hair_shadow_main(
     @builtin(vertex_index) corner: u32,
     @builtin(instance_index) strand: u32,
 ) -> ShadowStrandOut {
-    let point = strand_point(strand, corner, roots[strand].region);
+    let point = strand_point(strand, corner, region_of(strand));
     // Thinner than two texels, strands are that wide and cover less: the map holds no steps then.
     let texels = 2.0 * point.radius / hair_map_texel();
     let drawn = max(texels, 2.0);

@@ -1,11 +1,9 @@
 // Strands go with their guides as these swing, and stay outside of the skin.
 
 // How far the points of guides are from where they grow.
-@group(0) @binding(5) var<storage, read> offsets: array<vec4f>;
+@group(0) @binding(5) var offsets: texture_2d<f32>;
 
-fn swung(
-    placed: vec3f, offset: vec3f, others: ptr<function, array<Bone, OTHER_BONES>>, grown_shares: vec2f, least_grown: f32,
-) -> vec3f {
+fn swung(grid: FieldGrid, placed: vec3f, offset: vec3f, grown_shares: vec2f, least_grown: f32) -> vec3f {
     var at = placed + offset;
     // What moves fast over a turning neck keeps a little further away.
     let far = length(offset);
@@ -15,11 +13,9 @@ fn swung(
     var shares = grown_shares;
     // Far inside, the nearest way out is not known well: once more from there.
     for (var i = 0; i < 3; i++) {
-        let moved_0 = (moved((*others)[0], at) - at) * shares.x;
-        let moved_1 = (moved((*others)[1], at) - at) * shares.y;
-        let near = field_at(at + moved_0 + moved_1);
+        let near = field_at(grid, at + moved(pose.others[0], at) * shares.x + moved(pose.others[1], at) * shares.y);
         shares = near.shares;
-        at += near.outward * (max(least - near.distance, 0.0) * firmness);
+        at += normalize_or(near.outward, vec3f(0.0, 1.0, 0.0)) * (max(least - near.distance, 0.0) * firmness);
     }
     return at;
 }
