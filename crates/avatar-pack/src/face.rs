@@ -1,4 +1,4 @@
-use crate::Pack;
+use crate::{Pack, PaletteBone};
 use glam::Affine3A;
 use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
 
@@ -38,11 +38,15 @@ pub struct FaceState {
 impl FaceState {
     /// A state for this pack, at bind pose.
     pub fn new(pack: &Pack) -> Self {
+        let rest = |bone: &PaletteBone| {
+            let world_from_joint = pack.rig.world_from_bind().get(bone.joint.index());
+            world_from_joint.map_or(Affine3A::IDENTITY, |w| *w * bone.joint_from_mesh)
+        };
         Self {
             effective: pack.controls.defaults(),
             locals: pack.rig.locals(),
             pose: pack.rig.pose(),
-            bones: vec![Affine3A::IDENTITY; pack.palette.len()],
+            bones: pack.palette.iter().map(rest).collect(),
             weights: vec![0.0; pack.shapes.len()],
         }
     }
@@ -78,7 +82,11 @@ impl FaceState {
             self.locals.set(joint, local)?;
         }
         pack.rig.update(self.locals.as_slice(), &mut self.pose)?;
-        self.pose.gather(&pack.palette, &mut self.bones)?;
+        let joints = self.pose.world_from_joint();
+        for (bone, PaletteBone { joint, joint_from_mesh }) in self.bones.iter_mut().zip(&pack.palette) {
+            let unknown = UnknownJoint { index: joint.index(), joints: joints.len() };
+            *bone = *joints.get(joint.index()).ok_or(unknown)? * *joint_from_mesh;
+        }
         Ok(())
     }
 

@@ -35,6 +35,6 @@ mod textures;
 
 pub use error::{PackError, PackProblem, Warning};
 pub use face::{FaceError, FaceState};
-pub use pack::{Pack, Part, load_hair, load_materials};
+pub use pack::{Pack, PaletteBone, Part, load_hair, load_materials};
 pub use source::{MemorySource, Source, SourceError};
-pub use textures::{Texture, Textures};
+pub use textures::{PartImages, Texture, Textures};

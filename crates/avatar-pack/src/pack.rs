@@ -1,9 +1,10 @@
 use crate::{PackError, PackProblem, Source, Warning};
 use avatar_groom::Hair;
-use avatar_look::Materials;
+use avatar_look::{Material, Materials};
 use avatar_mesh::{
-    Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartSpec, Winding, raw,
+    Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartKind, PartSpec, Winding, raw,
 };
+use glam::Affine3A;
 use pose_anim::{Binding, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
 use std::borrow::Cow;
@@ -16,10 +17,10 @@ const RIG_FILES: [&str; 2] = ["Transformations.xml", "Transformationen.xml"];
 pub struct Pack {
     /// The joints.
     pub rig: Rig,
-    /// The parts, in the order of [`FACE_PARTS`].
+    /// The parts; of a pack in the raw format in the order of [`FACE_PARTS`].
     pub parts: Vec<Part>,
-    /// The joint that each bone index of the meshes means, in the order of [`FACE_BONES`].
-    pub palette: Vec<JointId>,
+    /// What each bone index of the meshes means; in the raw format in the order of [`FACE_BONES`].
+    pub palette: Vec<PaletteBone>,
     /// Names of the blend shapes, in the order of the blend weights.
     pub shapes: Vec<String>,
     /// The controls, from `controls.toml` or the default table.
@@ -36,17 +37,32 @@ pub struct Pack {
     pub warnings: Vec<Warning>,
 }
 
+/// What a bone index of a mesh means: `X = T · joint_from_mesh`, with `T` the joint's world matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PaletteBone {
+    /// The joint.
+    pub joint: JointId,
+    /// From the space that the meshes' vertices are in to the joint's at bind pose: `W⁻¹` where meshes are in world space.
+    pub joint_from_mesh: Affine3A,
+}
+
 /// One part of a face.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its place in the format.
-    pub spec: PartSpec,
-    /// Its valid mesh.
+    /// Name for people and for the command line.
+    pub name: String,
+    /// How it is drawn.
+    pub kind: PartKind,
+    /// Its valid mesh. Its shapes are the first of [`Pack::shapes`].
     pub mesh: Mesh,
-    /// Bytes of its two files.
+    /// Bytes that it was read from.
     pub bytes: usize,
     /// For a rigid part the bone that it follows, as an index into [`Pack::palette`].
     pub bone: Option<usize>,
+    /// Its looks, where the file that it comes from says them; else [`Pack::materials`] does.
+    pub material: Option<Material>,
+    /// The box around it at bind pose, in world space.
+    pub bounds: Option<Bounds>,
 }
 
 impl Pack {
@@ -77,12 +93,20 @@ impl Pack {
 
     /// The part of this name.
     pub fn part(&self, name: &str) -> Option<&Part> {
-        self.parts.iter().find(|part| part.spec.name == name)
+        self.parts.iter().find(|part| part.name == name)
+    }
+
+    /// The looks of the part of this index; the default ones of skin where there is no such part.
+    pub fn material(&self, part: usize) -> Material {
+        match self.parts.get(part) {
+            Some(part) => part.material.unwrap_or_else(|| self.materials.of(&part.name, part.kind)),
+            None => Material::of(PartKind::Skin),
+        }
     }
 
     /// The box around all parts at bind pose.
     pub fn bounds(&self) -> Option<Bounds> {
-        self.parts.iter().filter_map(|part| part.mesh.bounds()).reduce(Bounds::union)
+        self.parts.iter().filter_map(|part| part.bounds).reduce(Bounds::union)
     }
 }
 
@@ -116,15 +140,16 @@ fn load_rig(source: &impl Source) -> Result<(&'static str, Rig), PackError> {
     Err(at(source, RIG_FILES[0], PackProblem::Missing(RIG_FILES.join(" or "))))
 }
 
-fn load_palette(source: &impl Source, rig_file: &str, rig: &Rig) -> Result<Vec<JointId>, PackError> {
-    let joint = |name: &&str| {
-        rig.joint(name).ok_or_else(|| {
+fn load_palette(source: &impl Source, rig_file: &str, rig: &Rig) -> Result<Vec<PaletteBone>, PackError> {
+    let bone = |name: &&str| {
+        let joint = rig.joint(name).ok_or_else(|| {
             let problem =
                 PackProblem::MissingJoint { joint: (*name).to_owned(), found: rig.names().to_vec() };
             at(source, rig_file, problem)
-        })
+        })?;
+        Ok(PaletteBone { joint, joint_from_mesh: rig.bind_from_world()[joint.index()] })
     };
-    FACE_BONES.iter().map(joint).collect()
+    FACE_BONES.iter().map(bone).collect()
 }
 
 fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) -> Result<Part, PackError> {
@@ -158,7 +183,15 @@ fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) 
             triangles: mesh.triangles.len(),
         });
     }
-    Ok(Part { spec, mesh, bytes: vertices.len() + indices.len(), bone })
+    Ok(Part {
+        name: spec.name.to_owned(),
+        kind: spec.kind,
+        bounds: mesh.bounds(),
+        mesh,
+        bytes: vertices.len() + indices.len(),
+        bone,
+        material: None,
+    })
 }
 
 /// Reads the looks of a pack's parts: `materials.toml`, or the defaults where there is none. [`Pack::load`] calls it;

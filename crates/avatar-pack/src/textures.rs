@@ -1,4 +1,5 @@
 use crate::{Source, Warning};
+use avatar_mesh::PartKind;
 use image::{ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
@@ -59,12 +60,39 @@ impl Texture {
     }
 }
 
+/// The pictures that a part is drawn with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PartImages<'a> {
+    /// Colour, sRGB.
+    pub color: Option<&'a RgbaImage>,
+    /// Ambient occlusion, linear.
+    pub occlusion: Option<&'a RgbaImage>,
+    /// Gloss, linear.
+    pub gloss: Option<&'a RgbaImage>,
+    /// Relief, a tangent-space normal map, linear.
+    pub normal: Option<&'a RgbaImage>,
+    /// How thick it is, linear.
+    pub thickness: Option<&'a RgbaImage>,
+}
+
 /// The decoded textures of a pack.
 #[derive(Clone, Debug, Default)]
 pub struct Textures {
     images: Vec<(Texture, RgbaImage)>,
+    /// Pictures of an interchange file, and per part which of them is its colour and its relief.
+    own: Option<OwnImages>,
     /// What is missing or broken.
     pub warnings: Vec<Warning>,
+}
+
+/// Pictures that no names of the raw format stand for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct OwnImages {
+    pub(crate) images: Vec<Option<RgbaImage>>,
+    /// Per part of the pack.
+    pub(crate) color: Vec<Option<usize>>,
+    pub(crate) normal: Vec<Option<usize>>,
+    pub(crate) occlusion: Vec<Option<usize>>,
 }
 
 /// Larger pictures than this on a side are refused before they are decoded.
@@ -83,6 +111,35 @@ impl Textures {
     /// The texture, if the pack has it and it decodes.
     pub fn get(&self, texture: Texture) -> Option<&RgbaImage> {
         self.images.iter().find(|(other, _)| *other == texture).map(|(_, image)| image)
+    }
+
+    pub(crate) fn of_own(own: OwnImages, warnings: Vec<Warning>) -> Self {
+        Self { images: Vec::new(), own: Some(own), warnings }
+    }
+
+    /// What the part of this index and kind is drawn with.
+    pub fn of_part(&self, part: usize, kind: PartKind) -> PartImages<'_> {
+        if let Some(own) = &self.own {
+            let get = |list: &[Option<usize>]| own.images.get((*list.get(part)?)?)?.as_ref();
+            return PartImages {
+                color: get(&own.color),
+                normal: get(&own.normal),
+                occlusion: get(&own.occlusion),
+                ..PartImages::default()
+            };
+        }
+        match kind {
+            PartKind::Skin => PartImages {
+                color: self.get(Texture::SkinColor),
+                occlusion: self.get(Texture::SkinOcclusion),
+                gloss: self.get(Texture::SkinGloss),
+                normal: self.get(Texture::SkinNormal),
+                thickness: self.get(Texture::SkinThickness),
+            },
+            PartKind::Teeth => PartImages { color: self.get(Texture::Teeth), ..PartImages::default() },
+            PartKind::Eyeball => PartImages { color: self.get(Texture::Eye(0)), ..PartImages::default() },
+            PartKind::Cornea => PartImages::default(),
+        }
     }
 
     fn load_one(&mut self, source: &impl Source, texture: Texture) {
@@ -109,7 +166,7 @@ impl Textures {
     }
 }
 
-fn decode(bytes: &[u8]) -> Result<RgbaImage, image::ImageError> {
+pub(crate) fn decode(bytes: &[u8]) -> Result<RgbaImage, image::ImageError> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);

@@ -105,7 +105,7 @@ fn brows_and_lashes_grow_where_they_are_painted_and_nowhere_else() {
     assert!(textures.get(Texture::HairDensity).is_some());
     let hair = Hair { style: Style::SHORT, density: 0.5, seed: 3 };
     let (skin, groom) = pack.groom(&textures, &hair).expect("hair");
-    assert_eq!(pack.parts[skin].spec.name, "skin");
+    assert_eq!(pack.parts[skin].name, "skin");
     let mut counts = [0; 3];
     for (region, pixel, _) in places(&pack, &groom) {
         let painted = match (pixel.x, pixel.y) {

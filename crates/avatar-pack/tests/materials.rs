@@ -54,7 +54,7 @@ fn a_pack_has_the_materials_of_its_file() {
     assert_eq!(load_materials(&source).as_ref(), Ok(&pack.materials), "by itself as with the pack");
     let of = |name: &str| {
         let part = pack.part(name).expect("a part");
-        pack.materials.of(part.spec.name, part.spec.kind)
+        pack.materials.of(&part.name, part.kind)
     };
     assert_eq!((of("left-eyeball").iris.pupil, of("right-eyeball").iris.pupil), (0.2, 0.6));
     let teeth = Materials::default().of("upper-jaw", PartKind::Teeth);
@@ -69,8 +69,8 @@ fn every_part_takes_its_own_table() {
         source.files.insert(FILE.into(), text.into());
         let pack = Pack::load(&source).expect("a good pack");
         let changed: Vec<_> = (pack.parts.iter())
-            .filter(|part| pack.materials.of(part.spec.name, part.spec.kind).reflectance == 0.25)
-            .map(|part| part.spec.name)
+            .filter(|part| pack.materials.of(&part.name, part.kind).reflectance == 0.25)
+            .map(|part| part.name.as_str())
             .collect();
         assert_eq!(changed, [spec.name]);
     }

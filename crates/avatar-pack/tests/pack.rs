@@ -35,7 +35,8 @@ fn a_pack_is_whole() {
     let pack = Pack::load(&golden()).expect("a good pack");
     assert_eq!(pack.parts.len(), 7);
     assert_eq!(pack.palette.len(), 9);
-    let names: Vec<_> = pack.palette.iter().map(|joint| pack.rig.names()[joint.index()].as_str()).collect();
+    let names: Vec<_> =
+        pack.palette.iter().map(|bone| pack.rig.names()[bone.joint.index()].as_str()).collect();
     assert_eq!(names, avatar_mesh::FACE_BONES);
     assert_eq!(pack.controls.controls().len(), 15);
     assert!(pack.poses.iter().count() >= 16);

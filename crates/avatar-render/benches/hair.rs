@@ -114,7 +114,7 @@ fn avatar(
     let part = PartDesc {
         label: "skin",
         mesh: &skin.mesh,
-        kind: skin.spec.kind,
+        kind: skin.kind,
         bones: PartBones::PerVertex,
         textures: PartTextures::default(),
     };

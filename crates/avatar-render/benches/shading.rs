@@ -7,7 +7,7 @@
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
 use avatar_mesh::PartKind;
-use avatar_pack::{FaceState, Pack, Source, SourceError, Texture, Textures};
+use avatar_pack::{FaceState, Pack, PartImages, Source, SourceError, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
 use avatar_render::{
     AvatarModel, AvatarState, Camera, Image, Light, PartBones, PartDesc, PartTextures, PassTimer, Quality,
@@ -172,42 +172,31 @@ fn avatar(gpu: &Gpu) -> (AvatarModel, AvatarState, Scene) {
     let folder = Folder(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne"));
     let pack = Pack::load(&folder).expect("the built-in avatar");
     let textures = Textures::load(&folder);
-    let image = |texture| {
-        textures.get(texture).map(|image| Image {
-            width: image.width(),
-            height: image.height(),
-            rgba: image.as_raw().clone(),
+    let image = |image: &image::RgbaImage| Image {
+        width: image.width(),
+        height: image.height(),
+        rgba: image.as_raw().clone(),
+    };
+    let images: Vec<[Option<Image>; 5]> = (pack.parts.iter().enumerate())
+        .map(|(index, part)| {
+            let PartImages { color, occlusion, gloss, normal, thickness } =
+                textures.of_part(index, part.kind);
+            [color, occlusion, gloss, normal, thickness].map(|of| of.map(image))
         })
-    };
-    let [color, occlusion, gloss, normal, thickness, eye, teeth] = [
-        Texture::SkinColor,
-        Texture::SkinOcclusion,
-        Texture::SkinGloss,
-        Texture::SkinNormal,
-        Texture::SkinThickness,
-        Texture::Eye(0),
-        Texture::Teeth,
-    ]
-    .map(image);
-    let textures_of = |kind| match kind {
-        PartKind::Skin => PartTextures {
-            color: color.as_ref(),
-            occlusion: occlusion.as_ref(),
-            gloss: gloss.as_ref(),
-            normal: normal.as_ref(),
-            thickness: thickness.as_ref(),
-        },
-        PartKind::Teeth => PartTextures { color: teeth.as_ref(), ..PartTextures::default() },
-        PartKind::Eyeball => PartTextures { color: eye.as_ref(), ..PartTextures::default() },
-        PartKind::Cornea => PartTextures::default(),
-    };
-    let parts: Vec<PartDesc<'_>> = (pack.parts.iter())
-        .map(|part| PartDesc {
-            label: part.spec.name,
+        .collect();
+    let parts: Vec<PartDesc<'_>> = (pack.parts.iter().zip(&images))
+        .map(|(part, [color, occlusion, gloss, normal, thickness])| PartDesc {
+            label: &part.name,
             mesh: &part.mesh,
-            kind: part.spec.kind,
+            kind: part.kind,
             bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
-            textures: textures_of(part.spec.kind),
+            textures: PartTextures {
+                color: color.as_ref(),
+                occlusion: occlusion.as_ref(),
+                gloss: gloss.as_ref(),
+                normal: normal.as_ref(),
+                thickness: thickness.as_ref(),
+            },
         })
         .collect();
     let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, pack.palette.len()).expect("a model");

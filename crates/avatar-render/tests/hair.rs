@@ -45,7 +45,7 @@ fn bald(gpu: &Gpu, pack: &Pack) -> AvatarModel {
     let part = PartDesc {
         label: "skin",
         mesh: &pack.parts[0].mesh,
-        kind: pack.parts[0].spec.kind,
+        kind: pack.parts[0].kind,
         bones: PartBones::PerVertex,
         textures: PartTextures::default(),
     };

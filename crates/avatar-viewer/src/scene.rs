@@ -3,7 +3,7 @@
 use anyhow::Result;
 use avatar_groom::Hair;
 use avatar_mesh::{Bounds, PartKind};
-use avatar_pack::{Pack, Texture, Textures};
+use avatar_pack::{Pack, PartImages, Textures};
 use avatar_render::{
     AvatarModel, Camera, Image, Light, PartBones, PartDesc, PartTextures, Scene, linear_from_srgb8,
 };
@@ -45,7 +45,7 @@ pub(crate) fn scene(
     background: [u8; 4],
     light: Light,
 ) -> Scene {
-    let of_part = view.part.and_then(|part| pack.parts.get(part)?.mesh.bounds());
+    let of_part = view.part.and_then(|part| pack.parts.get(part)?.bounds);
     let bounds = of_part
         .or_else(|| pack.bounds())
         .unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
@@ -70,41 +70,31 @@ pub(crate) fn upload(
     queue: &wgpu::Queue,
     hair: Option<Hair>,
 ) -> Result<AvatarModel> {
-    let image = |texture| {
-        textures.get(texture).map(|image| Image {
-            width: image.width(),
-            height: image.height(),
-            rgba: image.as_raw().clone(),
+    let image = |image: &RgbaImage| Image {
+        width: image.width(),
+        height: image.height(),
+        rgba: image.as_raw().clone(),
+    };
+    let images: Vec<[Option<Image>; 5]> = (pack.parts.iter().enumerate())
+        .map(|(index, part)| {
+            let PartImages { color, occlusion, gloss, normal, thickness } =
+                textures.of_part(index, part.kind);
+            [color, occlusion, gloss, normal, thickness].map(|of| of.map(image))
         })
-    };
-    let skin = [
-        Texture::SkinColor,
-        Texture::SkinOcclusion,
-        Texture::SkinGloss,
-        Texture::SkinNormal,
-        Texture::SkinThickness,
-    ]
-    .map(image);
-    let (eye, teeth) = (image(Texture::Eye(0)), image(Texture::Teeth));
-    let textures_of = |kind| match kind {
-        PartKind::Skin => PartTextures {
-            color: skin[0].as_ref(),
-            occlusion: skin[1].as_ref(),
-            gloss: skin[2].as_ref(),
-            normal: skin[3].as_ref(),
-            thickness: skin[4].as_ref(),
-        },
-        PartKind::Teeth => PartTextures { color: teeth.as_ref(), ..PartTextures::default() },
-        PartKind::Eyeball => PartTextures { color: eye.as_ref(), ..PartTextures::default() },
-        PartKind::Cornea => PartTextures::default(),
-    };
-    let parts: Vec<PartDesc<'_>> = (pack.parts.iter())
-        .map(|part| PartDesc {
-            label: part.spec.name,
+        .collect();
+    let parts: Vec<PartDesc<'_>> = (pack.parts.iter().zip(&images))
+        .map(|(part, [color, occlusion, gloss, normal, thickness])| PartDesc {
+            label: &part.name,
             mesh: &part.mesh,
-            kind: part.spec.kind,
+            kind: part.kind,
             bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
-            textures: textures_of(part.spec.kind),
+            textures: PartTextures {
+                color: color.as_ref(),
+                occlusion: occlusion.as_ref(),
+                gloss: gloss.as_ref(),
+                normal: normal.as_ref(),
+                thickness: thickness.as_ref(),
+            },
         })
         .collect();
     let mut model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
@@ -123,7 +113,7 @@ pub(crate) fn set_hair(
     hair: Option<Hair>,
 ) -> Result<()> {
     let groom = hair.and_then(|hair| pack.groom(textures, &hair));
-    let Some(skin) = pack.parts.iter().position(|part| part.spec.kind == PartKind::Skin) else {
+    let Some(skin) = pack.parts.iter().position(|part| part.kind == PartKind::Skin) else {
         return Ok(());
     };
     model.set_hair(device, queue, skin, groom.as_ref().map(|(_, groom)| groom))?;
@@ -135,8 +125,8 @@ pub(crate) fn set_hair(
 /// # Errors
 /// A model with fewer parts than the pack has.
 pub(crate) fn set_materials(pack: &Pack, model: &AvatarModel, queue: &wgpu::Queue) -> Result<()> {
-    for (index, part) in pack.parts.iter().enumerate() {
-        model.set_material(queue, index, &pack.materials.of(part.spec.name, part.spec.kind))?;
+    for index in 0..pack.parts.len() {
+        model.set_material(queue, index, &pack.material(index))?;
     }
     Ok(())
 }

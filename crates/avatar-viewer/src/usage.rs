@@ -20,7 +20,7 @@ pub(crate) fn unknown<'a>(what: &str, found: &str, names: impl Iterator<Item = &
 
 /// The place of the part of this name.
 pub(crate) fn part(pack: &Pack, name: &str) -> anyhow::Result<usize> {
-    let names = || pack.parts.iter().map(|part| part.spec.name);
+    let names = || pack.parts.iter().map(|part| part.name.as_str());
     names().position(|other| other == name).ok_or_else(|| unknown("part", name, names()))
 }
 

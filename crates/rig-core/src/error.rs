@@ -186,6 +186,14 @@ pub enum RigError {
         /// [`crate::RIGID_TOLERANCE`].
         tolerance: f32,
     },
+    /// A bind matrix without an inverse.
+    #[error(
+        "joint {joint:?}: expected a bind matrix with an inverse, found one that flattens space or is no affine map"
+    )]
+    Singular {
+        /// Name of the joint.
+        joint: String,
+    },
     /// A bind matrix whose translation leaves no room for products: W would become infinite further down.
     #[error("joint {joint:?}: expected a translation of at most {limit} along each axis, found {found}")]
     TooFar {
@@ -229,6 +237,7 @@ impl RigError {
             | Self::UnknownParent { joint, .. }
             | Self::Cycle { joint }
             | Self::NotRigid { joint, .. }
+            | Self::Singular { joint }
             | Self::TooFar { joint, .. }
             | Self::UnwritableName { joint, .. }
             | Self::TooDeep { joint, .. }

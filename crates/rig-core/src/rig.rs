@@ -35,6 +35,27 @@ impl Rig {
     /// # Errors
     /// Names that are not unique, parents that are missing or form a cycle, matrices that are not rigid.
     pub fn from_raw(raw: &RawRig) -> Result<Self, RigError> {
+        Self::freeze(raw, rigid, rigid_inverse)
+    }
+
+    /// Freezes a rig whose bind matrices may scale and shear, as nodes of interchange formats do: all formulas stay, but that
+    /// `W⁻¹` is a general inverse.
+    ///
+    /// # Errors
+    /// As [`Rig::from_raw`], with matrices that have no inverse in the place of those that are not rigid.
+    pub fn from_raw_affine(raw: &RawRig) -> Result<Self, RigError> {
+        let rig = Self::freeze(raw, affine, |world_from_bind| world_from_bind.inverse())?;
+        match rig.bind_from_world.iter().position(|inverse| !inverse.is_finite()) {
+            Some(index) => Err(RigError::Singular { joint: rig.names[index].clone() }),
+            None => Ok(rig),
+        }
+    }
+
+    fn freeze(
+        raw: &RawRig,
+        check: fn(&str, Mat4) -> Result<Affine3A, RigError>,
+        inverse: fn(Affine3A) -> Affine3A,
+    ) -> Result<Self, RigError> {
         let (order, raw_parents) = raw.parents_first()?;
         let mut frozen_index = vec![0; order.len()];
         order.iter().enumerate().for_each(|(frozen, &index)| frozen_index[index] = frozen);
@@ -48,7 +69,7 @@ impl Rig {
         };
         for &index in &order {
             let joint = &raw.joints[index];
-            let parent_from_joint = rigid(&joint.name, joint.parent_from_joint)?;
+            let parent_from_joint = check(&joint.name, joint.parent_from_joint)?;
             let parent = raw_parents[index].map(|parent| JointId(frozen_index[parent]));
             let world_from_bind = match parent {
                 Some(parent) => rig.world_from_bind[parent.0] * parent_from_joint,
@@ -58,7 +79,7 @@ impl Rig {
             rig.parents.push(parent);
             rig.parent_from_joint.push(parent_from_joint);
             rig.world_from_bind.push(world_from_bind);
-            rig.bind_from_world.push(rigid_inverse(world_from_bind));
+            rig.bind_from_world.push(inverse(world_from_bind));
         }
         Ok(rig)
     }
@@ -117,7 +138,7 @@ impl Rig {
         &self.world_from_bind
     }
 
-    /// Rigid inverses of the world bind matrices, `W⁻¹`.
+    /// Inverses of the world bind matrices, `W⁻¹`.
     pub fn bind_from_world(&self) -> &[Affine3A] {
         &self.bind_from_world
     }
@@ -137,6 +158,19 @@ impl Rig {
 fn rigid_inverse(a_from_b: Affine3A) -> Affine3A {
     let transposed = a_from_b.matrix3.transpose();
     Affine3A { matrix3: transposed, translation: -(transposed * a_from_b.translation) }
+}
+
+/// The matrix as an affine one, if it is one and has an inverse.
+fn affine(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
+    if !matrix.is_finite() {
+        return Err(RigError::NotFinite { joint: joint.to_owned() });
+    }
+    let affine = Affine3A::from_mat4(matrix);
+    let is_affine = (matrix.row(3) - Vec4::W).abs().max_element() <= RIGID_TOLERANCE;
+    if !is_affine || !affine.inverse().is_finite() {
+        return Err(RigError::Singular { joint: joint.to_owned() });
+    }
+    near(joint, affine)
 }
 
 /// The matrix as an affine one, if it is rigid within [`RIGID_TOLERANCE`].
@@ -160,6 +194,10 @@ fn rigid(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
             return Err(RigError::NotRigid { joint: joint.to_owned(), what, deviation, tolerance });
         }
     }
+    near(joint, affine)
+}
+
+fn near(joint: &str, affine: Affine3A) -> Result<Affine3A, RigError> {
     let far = affine.translation.to_array().into_iter().find(|x| x.abs() > TRANSLATION_LIMIT);
     match far {
         Some(found) => Err(RigError::TooFar { joint: joint.to_owned(), found, limit: TRANSLATION_LIMIT }),

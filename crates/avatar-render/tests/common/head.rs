@@ -46,7 +46,7 @@ impl Head {
         let part = PartDesc {
             label: "skin",
             mesh: self.skin(),
-            kind: self.pack.parts[0].spec.kind,
+            kind: self.pack.parts[0].kind,
             bones: PartBones::PerVertex,
             textures: PartTextures::default(),
         };

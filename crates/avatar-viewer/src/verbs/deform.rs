@@ -24,7 +24,7 @@ pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
         face.apply(&pack, &mut state)?;
         on_cpu(&pack, part, &state)?
     };
-    let text = obj::write(part.spec.name, &deformed, &part.mesh.triangles);
+    let text = obj::write(&part.name, &deformed, &part.mesh.triangles);
     out.write(text.as_bytes())
 }
 

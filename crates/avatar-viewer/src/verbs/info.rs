@@ -6,8 +6,8 @@ use serde::Serialize;
 use std::fmt::Write;
 
 #[derive(Serialize)]
-struct Report {
-    parts: Vec<PartReport>,
+struct Report<'a> {
+    parts: Vec<PartReport<'a>>,
     joints: Vec<String>,
     controls: Vec<ControlReport>,
     poses: Vec<PoseReport>,
@@ -15,8 +15,8 @@ struct Report {
 }
 
 #[derive(Serialize)]
-struct PartReport {
-    name: &'static str,
+struct PartReport<'a> {
+    name: &'a str,
     vertices: usize,
     triangles: usize,
     bytes: usize,
@@ -50,11 +50,11 @@ pub(super) fn run(args: &InfoArgs) -> Result<()> {
     output::print(&text(&report))
 }
 
-fn report(pack: &Pack, textures: &Textures) -> Report {
+fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
     let parts = pack.parts.iter().map(|part| {
-        let bounds = part.mesh.bounds();
+        let bounds = part.bounds;
         PartReport {
-            name: part.spec.name,
+            name: &part.name,
             vertices: part.mesh.positions.len(),
             triangles: part.mesh.triangles.len(),
             bytes: part.bytes,
@@ -79,7 +79,7 @@ fn report(pack: &Pack, textures: &Textures) -> Report {
     }
 }
 
-fn text(report: &Report) -> String {
+fn text(report: &Report<'_>) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "part            vertices  triangles      bytes  bounds");
     for part in &report.parts {
