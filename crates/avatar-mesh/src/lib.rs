@@ -35,6 +35,8 @@
 
 mod bounds;
 mod deform;
+pub mod drivers;
+mod in_between;
 mod mesh;
 pub mod obj;
 mod offsets;
@@ -43,6 +45,7 @@ pub mod raw;
 mod shape;
 mod smooth;
 mod validate;
+pub mod weights;
 mod weld;
 mod winding;
 
