@@ -34,6 +34,7 @@
 //! This crate knows no files and no GPU.
 
 mod bounds;
+pub mod coherence;
 mod deform;
 pub mod drivers;
 mod in_between;
@@ -42,6 +43,7 @@ pub mod obj;
 mod offsets;
 mod parts;
 pub mod raw;
+pub mod sequence;
 mod shape;
 mod smooth;
 mod validate;
