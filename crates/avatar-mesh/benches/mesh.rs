@@ -19,7 +19,7 @@ fn main() {
 fn skin() -> Mesh {
     let mut mesh = Mesh::default();
     let mut skinning = Skinning::default();
-    let mut shapes = ["SSmile", "Frown"].map(|name| Shape { name: name.to_owned(), ..Shape::default() });
+    let mut offsets = [(); 2].map(|()| (Vec::new(), Vec::new()));
     for i in 0..VERTICES {
         let (x, y) = ((i / 2 % 176) as f32, (i / 2 / 176) as f32);
         mesh.positions.push(Vec3::new(x * 0.1, y * 0.1, (x * 0.05).sin()));
@@ -28,14 +28,15 @@ fn skin() -> Mesh {
         skinning.bones.push(std::array::from_fn(|slot| ((i / 2 + slot) % 9) as u16));
         skinning.weights.push([0.5, 0.25, 0.125, 0.125]);
         skinning.blend_index.push(Vec3::Y);
-        for shape in &mut shapes {
-            shape.positions.push(Vec3::new(0.1, x * 0.01, 0.0));
-            shape.normals.push(Vec3::new(0.0, 0.1, 0.1));
+        for (positions, normals) in &mut offsets {
+            positions.push(Vec3::new(0.1, x * 0.01, 0.0));
+            normals.push(Vec3::new(0.0, 0.1, 0.1));
         }
     }
     mesh.triangles = (0..TRIANGLES as u32).map(|i| [2 * i, 2 * i + 1, 2 * i + 2]).collect();
     mesh.skinning = Some(skinning);
-    mesh.shapes = shapes.into();
+    let named = ["SSmile", "Frown"].into_iter().zip(offsets);
+    mesh.shapes = named.map(|(name, (p, n))| Shape::new(name, p).with_normals(n)).collect();
     mesh.validate(9).unwrap();
     mesh
 }

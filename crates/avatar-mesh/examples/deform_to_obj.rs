@@ -10,7 +10,7 @@ const STEPS: u32 = 16;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut mesh = Mesh::default();
     let mut skinning = Skinning::default();
-    let mut bulge = Shape { name: "Bulge".to_owned(), ..Shape::default() };
+    let (mut bulge, mut tilt) = (Vec::new(), Vec::new());
     for step in 0..=STEPS {
         let t = step as f32 / STEPS as f32;
         for side in [-1.0, 1.0] {
@@ -19,8 +19,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             mesh.normals.push(Vec3::Z);
             skinning.bones.push([0, 1, 0, 0]);
             skinning.weights.push([1.0 - t, t, 0.0, 0.0]);
-            bulge.positions.push(Vec3::Z * (t * (1.0 - t)));
-            bulge.normals.push(Vec3::Y * (2.0 * t - 1.0));
+            bulge.push(Vec3::Z * (t * (1.0 - t)));
+            tilt.push(Vec3::Y * (2.0 * t - 1.0));
         }
     }
     for step in 0..STEPS {
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         mesh.triangles.extend([[a, b, d], [a, d, c]]);
     }
     mesh.skinning = Some(skinning);
-    mesh.shapes.push(bulge);
+    mesh.shapes.push(Shape::new("Bulge", bulge).with_normals(tilt));
     for warning in mesh.validate(2)? {
         eprintln!("{warning}");
     }

@@ -1,16 +1,32 @@
-use crate::Mesh;
-use glam::{Affine3A, Vec3, Vec3A};
+use crate::{Mesh, SmoothNormals};
+use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
 /// A blended or skinned normal shorter than this has no direction: the undeformed normal takes its place.
 pub const MIN_NORMAL_LENGTH: f32 = 1e-6;
 
-/// Deformed positions and normals, one each per vertex of the mesh, in its order.
+/// What becomes of normals when shapes move positions.
+#[derive(Debug, Default)]
+pub enum ShapeNormals<'a> {
+    /// Shapes add their own offsets, `n + Σ_k b_k · dn_k`; those without any leave normals alone.
+    #[default]
+    Given,
+    /// Normals change as those computed from the blended positions do; offsets for normals are not used. Costs time per triangle
+    /// while any weight is other than 0.
+    Recomputed(&'a mut SmoothNormals),
+    /// Normals stay those of the base shape, only bones turn them: folds of a shape are seen in its outline, not in its
+    /// shading.
+    Unblended,
+}
+
+/// Deformed positions, normals and, where the mesh has them, tangents, one each per vertex of the mesh, in its order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Deformed {
     /// Positions in world space.
     pub positions: Vec<Vec3>,
     /// Unit normals in world space.
     pub normals: Vec<Vec3>,
+    /// Unit tangents in world space, with the handedness of the mesh; empty where the mesh has none.
+    pub tangents: Vec<Vec4>,
 }
 
 /// Why a mesh could not be deformed.
@@ -49,7 +65,8 @@ pub enum DeformError {
 /// Blends and skins all vertices in f32: the reference for every other implementation. Allocates nothing.
 ///
 /// `bones` are bone matrices `X` in the order that the mesh's bone indices mean; a mesh without skinning follows
-/// `bones[0]`. `weights` has one blend weight per shape; a shape with weight 0 costs nothing.
+/// `bones[0]`. `weights` has one blend weight per shape; a shape with weight 0 costs nothing, and one that stores moved vertices
+/// only costs time for these.
 ///
 /// # Errors
 /// Lengths that do not fit the mesh, or a bone beyond the palette; `out` may then be partly written.
@@ -59,13 +76,65 @@ pub fn deform(
     weights: &[f32],
     out: &mut Deformed,
 ) -> Result<(), DeformError> {
-    check_lengths(mesh, weights, out)?;
+    deform_with(mesh, bones, weights, ShapeNormals::Given, out)
+}
+
+/// [`deform()`] with a choice of what becomes of normals.
+///
+/// # Errors
+/// As [`deform()`], and normals to be recomputed of another mesh.
+pub fn deform_with(
+    mesh: &Mesh,
+    bones: &[Affine3A],
+    weights: &[f32],
+    normals: ShapeNormals<'_>,
+    out: &mut Deformed,
+) -> Result<(), DeformError> {
+    if let Some(skinning) = &mesh.skinning {
+        let check = count_check(mesh.positions.len());
+        check("the bone indices", skinning.bones.len())?;
+        check("the bone weights", skinning.weights.len())?;
+    }
+    blend(mesh, weights, normals, out)?;
+    skin(mesh, bones, out)
+}
+
+/// The part of [`deform()`] before the bones: `v + Σ_k b_k · d_k`, and the same for normals and tangents, which are not made unit
+/// vectors yet.
+///
+/// # Errors
+/// Lengths that do not fit the mesh.
+pub fn blend(
+    mesh: &Mesh,
+    weights: &[f32],
+    normals: ShapeNormals<'_>,
+    out: &mut Deformed,
+) -> Result<(), DeformError> {
+    check_lengths(mesh, weights, &normals, out)?;
     out.positions.copy_from_slice(&mesh.positions);
     out.normals.copy_from_slice(&mesh.normals);
+    out.tangents.copy_from_slice(&mesh.tangents);
+    let mut any = false;
     for (shape, &weight) in mesh.shapes.iter().zip(weights).filter(|(_, weight)| **weight != 0.0) {
-        add_scaled(&mut out.positions, &shape.positions, weight);
-        add_scaled(&mut out.normals, &shape.normals, weight);
+        any = true;
+        shape.positions.add_scaled(weight, &mut out.positions);
+        if let (Some(offsets), ShapeNormals::Given) = (&shape.normals, &normals) {
+            offsets.add_scaled(weight, &mut out.normals);
+        }
+        if let (Some(offsets), false) = (&shape.tangents, out.tangents.is_empty()) {
+            for (vertex, offset) in offsets.iter() {
+                out.tangents[vertex] += (weight * offset).extend(0.0);
+            }
+        }
     }
+    if let (ShapeNormals::Recomputed(smooth), true) = (normals, any) {
+        smooth.add_change(&out.positions, &mut out.normals);
+    }
+    Ok(())
+}
+
+/// The part of [`deform()`] after the shapes. Lengths fit.
+fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), DeformError> {
     match &mesh.skinning {
         Some(skinning) => {
             for (vertex, (bone, weight)) in skinning.bones.iter().zip(&skinning.weights).enumerate() {
@@ -85,6 +154,14 @@ pub fn deform(
                 out.positions[vertex] = posed_position.into();
                 out.normals[vertex] = unit(posed_normal, mesh.normals[vertex]);
             }
+            for (vertex, (tangent, undeformed)) in out.tangents.iter_mut().zip(&mesh.tangents).enumerate() {
+                let blended = blended_normal(tangent.truncate(), undeformed.truncate());
+                let both = skinning.bones[vertex].iter().zip(&skinning.weights[vertex]);
+                let posed = both
+                    .filter_map(|(bone, weight)| Some((bones.get(usize::from(*bone))?, *weight)))
+                    .fold(Vec3A::ZERO, |sum, (x, weight)| sum + weight * x.transform_vector3a(blended));
+                *tangent = unit(posed, undeformed.truncate()).extend(undeformed.w);
+            }
         }
         None => {
             let missing = DeformError::MissingBone { vertex: 0, found: 0, bones: 0 };
@@ -94,15 +171,13 @@ pub fn deform(
                 out.positions[vertex] = x.transform_point3a(out.positions[vertex].into()).into();
                 out.normals[vertex] = unit(x.transform_vector3a(normal), *undeformed);
             }
+            for (tangent, undeformed) in out.tangents.iter_mut().zip(&mesh.tangents) {
+                let blended = blended_normal(tangent.truncate(), undeformed.truncate());
+                *tangent = unit(x.transform_vector3a(blended), undeformed.truncate()).extend(undeformed.w);
+            }
         }
     }
     Ok(())
-}
-
-fn add_scaled(sums: &mut [Vec3], offsets: &[Vec3], weight: f32) {
-    for (sum, offset) in sums.iter_mut().zip(offsets) {
-        *sum += weight * *offset;
-    }
 }
 
 fn blended_normal(blended: Vec3, undeformed: Vec3) -> Vec3A {
@@ -114,25 +189,38 @@ fn unit(posed: Vec3A, undeformed: Vec3) -> Vec3 {
     if length < MIN_NORMAL_LENGTH { undeformed } else { (posed / length).into() }
 }
 
-fn check_lengths(mesh: &Mesh, weights: &[f32], out: &Deformed) -> Result<(), DeformError> {
+fn count_check(expected: usize) -> impl Fn(&'static str, usize) -> Result<(), DeformError> {
+    move |what, found| match found == expected {
+        true => Ok(()),
+        false => Err(DeformError::VertexCount { what, expected, found }),
+    }
+}
+
+fn check_lengths(
+    mesh: &Mesh,
+    weights: &[f32],
+    normals: &ShapeNormals<'_>,
+    out: &Deformed,
+) -> Result<(), DeformError> {
     if weights.len() != mesh.shapes.len() {
         return Err(DeformError::WeightCount { expected: mesh.shapes.len(), found: weights.len() });
     }
-    let expected = mesh.positions.len();
-    let check = |what, found| match found == expected {
-        true => Ok(()),
-        false => Err(DeformError::VertexCount { what, expected, found }),
-    };
+    let check = count_check(mesh.positions.len());
     check("the mesh's normals", mesh.normals.len())?;
     check("the output's positions", out.positions.len())?;
     check("the output's normals", out.normals.len())?;
     for shape in &mesh.shapes {
         check("a shape's positions", shape.positions.len())?;
-        check("a shape's normals", shape.normals.len())?;
+        let others = [("a shape's normals", &shape.normals), ("a shape's tangents", &shape.tangents)];
+        for (what, offsets) in others {
+            offsets.as_ref().map_or(Ok(()), |offsets| check(what, offsets.len()))?;
+        }
     }
-    if let Some(skinning) = &mesh.skinning {
-        check("the bone indices", skinning.bones.len())?;
-        check("the bone weights", skinning.weights.len())?;
+    if let ShapeNormals::Recomputed(smooth) = normals {
+        check("the normals to be recomputed", smooth.vertex_count())?;
     }
-    Ok(())
+    if !mesh.tangents.is_empty() {
+        check("the mesh's tangents", mesh.tangents.len())?;
+    }
+    count_check(mesh.tangents.len())("the output's tangents", out.tangents.len())
 }

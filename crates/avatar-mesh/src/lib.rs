@@ -34,19 +34,30 @@
 //! This crate knows no files and no GPU.
 
 mod bounds;
+pub mod coherence;
 mod deform;
+pub mod drivers;
+mod in_between;
 mod mesh;
 pub mod obj;
+mod offsets;
 mod parts;
 pub mod raw;
+pub mod sequence;
+mod shape;
+mod smooth;
 mod validate;
+pub mod weights;
 mod weld;
 mod winding;
 
 pub use bounds::Bounds;
-pub use deform::{DeformError, Deformed, MIN_NORMAL_LENGTH, deform};
-pub use mesh::{Mesh, Shape, Skinning};
+pub use deform::{DeformError, Deformed, MIN_NORMAL_LENGTH, ShapeNormals, blend, deform, deform_with};
+pub use mesh::{Mesh, Skinning};
+pub use offsets::{Offsets, OffsetsError};
 pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec};
+pub use shape::Shape;
+pub use smooth::SmoothNormals;
 pub use validate::{MeshError, MeshWarning, WEIGHT_SUM_LIMIT, WEIGHT_SUM_TOLERANCE};
 pub use weld::{Welded, weld, weld_positions};
 pub use winding::Winding;

@@ -1,7 +1,8 @@
-use crate::{Bounds, Deformed};
-use glam::{Vec2, Vec3};
+use crate::{Bounds, Deformed, Shape};
+use glam::{Vec2, Vec3, Vec4};
 
-/// A triangle mesh that shapes and bones can deform. All vertex arrays have one length.
+/// A triangle mesh that shapes and bones can deform. All vertex arrays have one length, but for those that may be
+/// empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions in world space at bind pose.
@@ -10,6 +11,9 @@ pub struct Mesh {
     pub uvs: Vec<Vec2>,
     /// Normals in world space at bind pose, of about unit length.
     pub normals: Vec<Vec3>,
+    /// Tangents as in glTF 2.0: unit directions of growing u, and in w the handedness ±1 of `bitangent = w · (n × t)`. May
+    /// be empty.
+    pub tangents: Vec<Vec4>,
     /// Triangles, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Bones of each vertex; a mesh without follows one matrix.
@@ -29,21 +33,14 @@ pub struct Skinning {
     pub blend_index: Vec<Vec3>,
 }
 
-/// A blend shape in relative form: offsets from the base shape at weight 1.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Shape {
-    /// Name, unique in the mesh.
-    pub name: String,
-    /// Offset of each position.
-    pub positions: Vec<Vec3>,
-    /// Offset of each normal.
-    pub normals: Vec<Vec3>,
-}
-
 impl Mesh {
     /// Room for the result of [`crate::deform()`], holding the undeformed mesh.
     pub fn deformed(&self) -> Deformed {
-        Deformed { positions: self.positions.clone(), normals: self.normals.clone() }
+        Deformed {
+            positions: self.positions.clone(),
+            normals: self.normals.clone(),
+            tangents: self.tangents.clone(),
+        }
     }
 
     /// The box around the undeformed mesh; `None` without vertices.

@@ -5,7 +5,7 @@
 //! | skin, 124 bytes | position 3, uv 2, normal 3, bone index 4, weight 4, blend index 3, then position offset 3 and normal offset 3 of each of the two shapes |
 //! | other parts, 32 bytes | position 3, uv 2, normal 3 |
 
-use crate::{FACE_BONES, FACE_SHAPES, Mesh, MeshError, Shape, Skinning};
+use crate::{FACE_BONES, FACE_SHAPES, Mesh, MeshError, Offsets, Shape, Skinning};
 use glam::{Vec2, Vec3};
 
 /// Floats of a skin vertex.
@@ -25,24 +25,24 @@ pub fn read_skin(vertices: &[u8], indices: &[u8]) -> Result<Mesh, MeshError> {
         weights: Vec::with_capacity(vertices.len()),
         blend_index: Vec::with_capacity(vertices.len()),
     };
-    let mut shapes = FACE_SHAPES.map(|name| Shape {
-        name: name.to_owned(),
-        positions: Vec::with_capacity(vertices.len()),
-        normals: Vec::with_capacity(vertices.len()),
-    });
+    let room = || Vec::with_capacity(vertices.len());
+    let mut offsets = FACE_SHAPES.map(|name| (name, room(), room()));
     for (vertex, bytes) in vertices.iter().enumerate() {
         let floats: [f32; SKIN_FLOATS] = floats(bytes);
         push_common(&mut mesh, &floats);
         skinning.bones.push(bone_indices(vertex, [floats[8], floats[9], floats[10], floats[11]])?);
         skinning.weights.push([floats[12], floats[13], floats[14], floats[15]]);
         skinning.blend_index.push(vec3(&floats, 16));
-        for (k, shape) in shapes.iter_mut().enumerate() {
-            shape.positions.push(vec3(&floats, 19 + 6 * k));
-            shape.normals.push(vec3(&floats, 22 + 6 * k));
+        for (k, (_, positions, normals)) in offsets.iter_mut().enumerate() {
+            positions.push(vec3(&floats, 19 + 6 * k));
+            normals.push(vec3(&floats, 22 + 6 * k));
         }
     }
     mesh.skinning = Some(skinning);
-    mesh.shapes = shapes.into();
+    mesh.shapes = offsets
+        .into_iter()
+        .map(|(name, positions, normals)| Shape::new(name, positions).with_normals(normals))
+        .collect();
     Ok(mesh)
 }
 
@@ -76,8 +76,9 @@ pub fn write_vertices(mesh: &Mesh) -> Vec<u8> {
         push(&at(&skinning.blend_index, vertex));
         for k in 0..FACE_SHAPES.len() {
             let shape = mesh.shapes.get(k);
-            push(&shape.map_or([0.0; 3], |shape| at(&shape.positions, vertex)));
-            push(&shape.map_or([0.0; 3], |shape| at(&shape.normals, vertex)));
+            let offset = |offsets: Option<&Offsets>| offsets.and_then(|d| d.get(vertex)).unwrap_or_default();
+            push(&offset(shape.map(|shape| &shape.positions)).to_array());
+            push(&offset(shape.and_then(|shape| shape.normals.as_ref())).to_array());
         }
     }
     out

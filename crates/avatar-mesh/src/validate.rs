@@ -1,4 +1,4 @@
-use crate::Mesh;
+use crate::{Mesh, Offsets};
 use std::fmt;
 
 /// Weights whose sum is this close to 1 are taken as they are.
@@ -135,9 +135,13 @@ impl Mesh {
         };
         check("uvs", self.uvs.len())?;
         check("normals", self.normals.len())?;
+        if !self.tangents.is_empty() {
+            check("tangents", self.tangents.len())?;
+        }
         for shape in &self.shapes {
-            check(&format!("position offsets of shape {:?}", shape.name), shape.positions.len())?;
-            check(&format!("normal offsets of shape {:?}", shape.name), shape.normals.len())?;
+            for (what, offsets) in shape.arrays() {
+                check(&format!("{what} offsets of shape {:?}", shape.name), offsets.len())?;
+            }
         }
         if let Some(skinning) = &self.skinning {
             check("bone indices", skinning.bones.len())?;
@@ -153,12 +157,11 @@ impl Mesh {
         finite("position", self.positions.iter().map(|p| p.to_array()))?;
         finite("uv", self.uvs.iter().map(|uv| uv.to_array()))?;
         finite("normal", self.normals.iter().map(|n| n.to_array()))?;
+        finite("tangent", self.tangents.iter().map(|t| t.to_array()))?;
         for shape in &self.shapes {
-            finite(
-                &format!("position offset of {}", shape.name),
-                shape.positions.iter().map(|p| p.to_array()),
-            )?;
-            finite(&format!("normal offset of {}", shape.name), shape.normals.iter().map(|n| n.to_array()))?;
+            for (what, offsets) in shape.arrays() {
+                finite_offsets(&format!("{what} offset of {}", shape.name), offsets)?;
+            }
         }
         match &self.skinning {
             Some(skinning) => {
@@ -207,6 +210,18 @@ impl Mesh {
         }
         let warning = MeshWarning::Renormalised { vertices: renormalised, worst, sum: worst_sum };
         Ok((renormalised > 0).then_some(warning))
+    }
+}
+
+fn finite_offsets(field: &str, offsets: &Offsets) -> Result<(), MeshError> {
+    match finite(field, offsets.stored().iter().map(|d| d.to_array())) {
+        // The place among what is stored need not be the vertex.
+        Err(MeshError::NotFinite { found, .. }) => {
+            let vertex =
+                offsets.iter().find(|(_, offset)| !offset.is_finite()).map_or(0, |(vertex, _)| vertex);
+            Err(MeshError::NotFinite { vertex, field: field.to_owned(), found })
+        }
+        other => other,
     }
 }
 

@@ -1,4 +1,4 @@
-use crate::{Mesh, Shape, Skinning};
+use crate::{Mesh, Offsets, Shape, Skinning};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
@@ -30,6 +30,7 @@ pub fn weld(mesh: &Mesh) -> Welded {
         positions: pick(&mesh.positions, &originals),
         uvs: pick(&mesh.uvs, &originals),
         normals: pick(&mesh.normals, &originals),
+        tangents: pick(&mesh.tangents, &originals),
         triangles: mesh.triangles.iter().map(|t| t.map(|i| renamed(&welded_from_original, i))).collect(),
         skinning: mesh.skinning.as_ref().map(|skinning| Skinning {
             bones: pick(&skinning.bones, &originals),
@@ -39,8 +40,9 @@ pub fn weld(mesh: &Mesh) -> Welded {
         shapes: (mesh.shapes.iter())
             .map(|shape| Shape {
                 name: shape.name.clone(),
-                positions: pick(&shape.positions, &originals),
-                normals: pick(&shape.normals, &originals),
+                positions: pick_offsets(&shape.positions, &originals),
+                normals: shape.normals.as_ref().map(|offsets| pick_offsets(offsets, &originals)),
+                tangents: shape.tangents.as_ref().map(|offsets| pick_offsets(offsets, &originals)),
             })
             .collect(),
     };
@@ -55,6 +57,10 @@ fn pick<T: Copy>(values: &[T], originals: &[usize]) -> Vec<T> {
     originals.iter().filter_map(|&original| values.get(original).copied()).collect()
 }
 
+fn pick_offsets(offsets: &Offsets, originals: &[usize]) -> Offsets {
+    originals.iter().filter_map(|&original| offsets.get(original)).collect()
+}
+
 fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
     let mut bits = Vec::with_capacity(20 + 6 * mesh.shapes.len());
     let mut push = |values: &[f32]| bits.extend(values.iter().map(|value| value.to_bits()));
@@ -62,9 +68,11 @@ fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
     push(&at(&mesh.positions));
     push(&at(&mesh.normals));
     push(&mesh.uvs.get(vertex).copied().unwrap_or_default().to_array());
-    for shape in &mesh.shapes {
-        push(&at(&shape.positions));
-        push(&at(&shape.normals));
+    if let Some(tangent) = mesh.tangents.get(vertex) {
+        push(&tangent.to_array());
+    }
+    for (_, offsets) in mesh.shapes.iter().flat_map(Shape::arrays) {
+        push(&offsets.get(vertex).unwrap_or_default().to_array());
     }
     if let Some(skinning) = &mesh.skinning {
         push(&skinning.bones.get(vertex).copied().unwrap_or_default().map(f32::from));

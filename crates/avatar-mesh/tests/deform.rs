@@ -31,8 +31,8 @@ fn naive(mesh: &Mesh, bones: &[Affine3A], weights: &[f32], vertex: usize) -> (V,
         }
         sum
     };
-    let v = blend(mesh.positions[vertex], &|shape| shape.positions[vertex]);
-    let n = blend(mesh.normals[vertex], &|shape| shape.normals[vertex]);
+    let v = blend(mesh.positions[vertex], &|shape| shape.positions.get(vertex).unwrap());
+    let n = blend(mesh.normals[vertex], &|shape| shape.normals.as_ref().unwrap().get(vertex).unwrap());
     let (bone, bone_weights) = match &mesh.skinning {
         Some(skinning) => (skinning.bones[vertex], skinning.weights[vertex]),
         None => ([0; 4], [1.0, 0.0, 0.0, 0.0]),
@@ -135,7 +135,7 @@ proptest! {
         let mut random = Random(seed);
         let mesh = random.mesh(10, 2, 3);
         let palette: Vec<Affine3A> = (0..3).map(|_| random.rigid()).collect();
-        let mut out = Deformed { positions: vec![Vec3::NAN; 10], normals: vec![Vec3::INFINITY; 10] };
+        let mut out = Deformed { positions: vec![Vec3::NAN; 10], normals: vec![Vec3::INFINITY; 10], tangents: vec![] };
         let room = (out.positions.as_ptr(), out.normals.as_ptr());
         deform(&mesh, &palette, &[0.3, 0.9], &mut out).unwrap();
         prop_assert_eq!(room, (out.positions.as_ptr(), out.normals.as_ptr()));
@@ -151,7 +151,8 @@ fn cancelled(skinning: Option<Skinning>) -> Mesh {
         normals: vec![Vec3::Y],
         triangles: vec![],
         skinning,
-        shapes: vec![Shape { name: "s".to_owned(), positions: vec![Vec3::ZERO], normals: vec![Vec3::NEG_Y] }],
+        tangents: vec![],
+        shapes: vec![Shape::new("s", vec![Vec3::ZERO]).with_normals(vec![Vec3::NEG_Y])],
     }
 }
 
@@ -188,7 +189,7 @@ fn lengths_that_do_not_fit_are_errors() {
             mesh,
             bones,
             weights,
-            &mut Deformed { positions: vec![Vec3::ZERO; 6], normals: vec![Vec3::ZERO; 6] },
+            &mut Deformed { positions: vec![Vec3::ZERO; 6], normals: vec![Vec3::ZERO; 6], tangents: vec![] },
         )
     };
     for found in [0, 1, 3] {
@@ -208,9 +209,9 @@ fn lengths_that_do_not_fit_are_errors() {
     shorter[0].0 = "the mesh's normals";
     shorter[0].1.normals.pop();
     shorter[1].0 = "a shape's positions";
-    shorter[1].1.shapes[1].positions.pop();
+    shorter[1].1.shapes[1].positions = vec![Vec3::X; 5].into();
     shorter[2].0 = "a shape's normals";
-    shorter[2].1.shapes[0].normals.pop();
+    shorter[2].1.shapes[0].normals = Some(vec![Vec3::X; 5].into());
     shorter[3].0 = "the bone indices";
     skinning(&mut shorter[3].1, &|s| s.bones.truncate(5));
     shorter[4].0 = "the bone weights";

@@ -34,10 +34,10 @@ fn every_column_of_a_skin_lands_in_its_field() {
     assert_eq!(skinning.blend_index[1], Vec3::new(216., 217., 218.));
     assert_eq!(mesh.shapes.len(), 2);
     assert_eq!((mesh.shapes[0].name.as_str(), mesh.shapes[1].name.as_str()), ("SSmile", "Frown"));
-    assert_eq!(mesh.shapes[0].positions[1], Vec3::new(219., 220., 221.));
-    assert_eq!(mesh.shapes[0].normals[1], Vec3::new(222., 223., 224.));
-    assert_eq!(mesh.shapes[1].positions[1], Vec3::new(225., 226., 227.));
-    assert_eq!(mesh.shapes[1].normals[1], Vec3::new(228., 229., 230.));
+    assert_eq!(mesh.shapes[0].positions.get(1).unwrap(), Vec3::new(219., 220., 221.));
+    assert_eq!(mesh.shapes[0].normals.as_ref().unwrap().get(1).unwrap(), Vec3::new(222., 223., 224.));
+    assert_eq!(mesh.shapes[1].positions.get(1).unwrap(), Vec3::new(225., 226., 227.));
+    assert_eq!(mesh.shapes[1].normals.as_ref().unwrap().get(1).unwrap(), Vec3::new(228., 229., 230.));
 }
 
 #[test]
@@ -84,8 +84,8 @@ fn a_mesh_from_elsewhere_is_written_with_zeros_for_what_it_lacks() {
     let again = raw::read_skin(&raw::write_vertices(&mesh), &raw::write_triangles(&mesh)).unwrap();
     assert_eq!(again.positions, mesh.positions);
     assert_eq!(again.shapes[0].positions, mesh.shapes[0].positions);
-    assert_eq!(again.shapes[1].positions, [Vec3::ZERO; 3]);
-    assert_eq!(again.shapes[1].normals, [Vec3::ZERO; 3]);
+    assert_eq!(again.shapes[1].positions, vec![Vec3::ZERO; 3].into());
+    assert_eq!(again.shapes[1].normals, Some(vec![Vec3::ZERO; 3].into()));
     assert_eq!(again.skinning.unwrap().blend_index, [Vec3::ZERO; 3]);
 }
 

@@ -59,7 +59,8 @@ fn bounds_are_the_extreme_coordinates() {
 
 #[test]
 fn obj_text_is_what_the_format_says() {
-    let deformed = Deformed { positions: vec![Vec3::new(1., -0.5, 1e-7)], normals: vec![Vec3::Z] };
+    let deformed =
+        Deformed { positions: vec![Vec3::new(1., -0.5, 1e-7)], normals: vec![Vec3::Z], tangents: vec![] };
     let text = obj::write("a\nb", &deformed, &[[0, 0, 0]]);
     assert_eq!(text, "o a b\nv 1 -0.5 0.0000001\nvn 0 0 1\nf 1//1 1//1 1//1\n");
 }
@@ -76,7 +77,7 @@ fn obj_text_reads_back_to_the_bit() {
     let mut points = |n: usize| -> Vec<Vec3> {
         (0..n).map(|_| Vec3::from_array([(); 3].map(|()| any(&mut random)))).collect()
     };
-    let mut deformed = Deformed { positions: points(500), normals: points(500) };
+    let mut deformed = Deformed { positions: points(500), normals: points(500), tangents: vec![] };
     deformed.positions[0] = Vec3::new(-0.0, f32::from_bits(1), f32::MAX);
     let triangles: Vec<[u32; 3]> = (0..498).map(|i| [i, i + 2, i + 1]).chain([[u32::MAX, 0, 499]]).collect();
     let text = obj::write("skin", &deformed, &triangles);

@@ -3,8 +3,9 @@
 
 mod common;
 
-use avatar_mesh::{Mesh, MeshError, MeshWarning};
-use common::Random;
+use avatar_mesh::{Mesh, MeshError, MeshWarning, Offsets, Shape};
+use common::{Random, edit_offset};
+use glam::Vec3;
 
 const VERTICES: usize = 10;
 const BONES: usize = 5;
@@ -47,8 +48,15 @@ fn every_array_is_as_long_as_the_positions() {
     assert_eq!(after(|m| m.uvs.truncate(9)), count("uvs", 9));
     assert_eq!(after(|m| m.normals.push(glam::Vec3::X)), count("normals", 11));
     let shape = "position offsets of shape \"shape 1\"";
-    assert_eq!(after(|m| m.shapes[1].positions.truncate(3)), count(shape, 3));
-    assert_eq!(after(|m| m.shapes[0].normals.clear()), count("normal offsets of shape \"shape 0\"", 0));
+    assert_eq!(after(|m| m.shapes[1].positions = vec![Vec3::X; 3].into()), count(shape, 3));
+    assert_eq!(
+        after(|m| m.shapes[0].normals = Some(Offsets::default())),
+        count("normal offsets of shape \"shape 0\"", 0)
+    );
+    let tangents = Shape::new("t", vec![Vec3::X; VERTICES]).with_tangents(vec![Vec3::X; 2]);
+    assert_eq!(after(|m| m.shapes.push(tangents)), count("tangent offsets of shape \"t\"", 2));
+    assert_eq!(after(|m| m.tangents = vec![glam::Vec4::W; 4]), count("tangents", 4));
+    assert_eq!(after(|m| m.shapes[0].normals = None), Ok(vec![]));
     assert_eq!(after(|m| weights(m).truncate(1)), count("bone weights", 1));
     assert_eq!(after(|m| m.skinning.as_mut().unwrap().bones.truncate(2)), count("bone indices", 2));
     assert_eq!(after(|m| m.skinning.as_mut().unwrap().blend_index.truncate(4)), count("blend indices", 4));
@@ -70,8 +78,25 @@ fn every_number_is_finite() {
             check("position", &|m| m.positions[vertex].z = bad);
             check("uv", &|m| m.uvs[vertex].y = bad);
             check("normal", &|m| m.normals[vertex].x = bad);
-            check("position offset of shape 0", &|m| m.shapes[0].positions[vertex].x = bad);
-            check("normal offset of shape 1", &|m| m.shapes[1].normals[vertex].y = bad);
+            check("position offset of shape 0", &|m| {
+                edit_offset(&mut m.shapes[0].positions, vertex, |d| d.x = bad)
+            });
+            check("normal offset of shape 1", &|m| {
+                edit_offset(m.shapes[1].normals.as_mut().unwrap(), vertex, |d| d.y = bad)
+            });
+            check("position offset of far", &|m| {
+                let one = Shape::from_pairs("far", VERTICES, [(vertex as u32, Vec3::new(0.0, 1.0, bad))]);
+                m.shapes.push(one.unwrap());
+            });
+            check("tangent offset of shape 0", &|m| {
+                let mut offsets = vec![Vec3::ZERO; VERTICES];
+                offsets[vertex].x = bad;
+                m.shapes[0].tangents = Some(offsets.into());
+            });
+            check("tangent", &|m| {
+                m.tangents = vec![glam::Vec4::W; VERTICES];
+                m.tangents[vertex].w = bad;
+            });
             check("bone weight", &|m| weights(m)[vertex][3] = bad);
             check("blend index", &|m| m.skinning.as_mut().unwrap().blend_index[vertex].y = bad);
         }

@@ -8,9 +8,9 @@
 
 mod common;
 
-use avatar_mesh::{Mesh, Shape, Skinning, deform, raw, weld, weld_positions};
-use common::Random;
-use glam::{Affine3A, Vec3};
+use avatar_mesh::{Mesh, Offsets, Shape, Skinning, deform, raw, weld, weld_positions};
+use common::{Random, edit_offset};
+use glam::{Affine3A, Vec3, Vec4};
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
 
@@ -19,11 +19,13 @@ fn far_from_welded(random: &mut Random, distinct: usize, vertices: usize) -> (Me
     let source = random.mesh(distinct, 2, 9);
     let copies: Vec<usize> = (0..vertices).map(|_| random.below(distinct)).collect();
     let skinning = source.skinning.as_ref().unwrap();
+    let offsets = |d: &Offsets| copies.iter().map(|&i| d.get(i).unwrap()).collect::<Offsets>();
     let vec3s = |values: &[Vec3]| copies.iter().map(|&i| values[i]).collect::<Vec<_>>();
     let mesh = Mesh {
         positions: vec3s(&source.positions),
         uvs: copies.iter().map(|&i| source.uvs[i]).collect(),
         normals: vec3s(&source.normals),
+        tangents: Vec::new(),
         triangles: (0..vertices).map(|_| std::array::from_fn(|_| random.below(vertices) as u32)).collect(),
         skinning: Some(Skinning {
             bones: copies.iter().map(|&i| skinning.bones[i]).collect(),
@@ -31,10 +33,9 @@ fn far_from_welded(random: &mut Random, distinct: usize, vertices: usize) -> (Me
             blend_index: vec3s(&skinning.blend_index),
         }),
         shapes: (source.shapes.iter())
-            .map(|shape| Shape {
-                name: shape.name.clone(),
-                positions: vec3s(&shape.positions),
-                normals: vec3s(&shape.normals),
+            .map(|shape| {
+                let normals = offsets(shape.normals.as_ref().unwrap());
+                Shape::new(shape.name.clone(), offsets(&shape.positions)).with_normals(normals)
             })
             .collect(),
     };
@@ -120,14 +121,17 @@ fn all_pairs(points: &[Vec3], tolerance: f32) -> Vec<u32> {
 fn every_attribute_that_shows_keeps_vertices_apart() {
     let base = far_from_welded(&mut Random(1), 1, 2).0;
     assert_eq!(weld(&base).welded_from_original, [0, 0]);
-    let edits: [&dyn Fn(&mut Mesh); 9] = [
+    let edits: [&dyn Fn(&mut Mesh); 12] = [
         &|m| m.positions[1].x += 1e-5,
         &|m| m.uvs[1].y += 1.0,
         &|m| m.normals[1].z += 1e-5,
-        &|m| m.shapes[0].positions[1].x += 1e-5,
-        &|m| m.shapes[0].normals[1].x += 1e-5,
-        &|m| m.shapes[1].positions[1].y += 1e-5,
-        &|m| m.shapes[1].normals[1].y += 1e-5,
+        &|m| edit_offset(&mut m.shapes[0].positions, 1, |d| d.x += 1e-5),
+        &|m| edit_offset(m.shapes[0].normals.as_mut().unwrap(), 1, |d| d.x += 1e-5),
+        &|m| edit_offset(&mut m.shapes[1].positions, 1, |d| d.y += 1e-5),
+        &|m| edit_offset(m.shapes[1].normals.as_mut().unwrap(), 1, |d| d.y += 1e-5),
+        &|m| m.shapes[1].tangents = Some(vec![Vec3::ZERO, Vec3::X * 1e-5].into()),
+        &|m| m.shapes.push(Shape::from_pairs("s", 2, [(1, Vec3::X * 1e-5)]).unwrap()),
+        &|m| m.tangents = vec![Vec4::W, -Vec4::W],
         &|m| m.skinning.as_mut().unwrap().bones[1][3] ^= 1,
         &|m| m.skinning.as_mut().unwrap().weights[1][2] += 1e-5,
     ];

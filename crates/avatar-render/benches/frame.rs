@@ -60,10 +60,10 @@ fn skin() -> Mesh {
         blend_index: Vec::new(),
     });
     mesh.shapes = (0..SHAPES)
-        .map(|k| Shape {
-            name: format!("shape {k}"),
-            positions: mesh.positions.iter().map(|p| *p * (0.001 * k as f32)).collect(),
-            normals: mesh.normals.iter().map(|n| *n * 0.01).collect(),
+        .map(|k| {
+            let positions: Vec<Vec3> = mesh.positions.iter().map(|p| *p * (0.001 * k as f32)).collect();
+            let normals: Vec<Vec3> = mesh.normals.iter().map(|n| *n * 0.01).collect();
+            Shape::new(format!("shape {k}"), positions).with_normals(normals)
         })
         .collect();
     mesh

@@ -184,6 +184,7 @@ impl Deformer {
         Ok(Deformed {
             positions: vertices.iter().map(|vertex| vertex.position.into()).collect(),
             normals: vertices.iter().map(|vertex| vertex.normal.into()).collect(),
+            tangents: Vec::new(),
         })
     }
 }

@@ -3,7 +3,7 @@
 use crate::PartBones;
 use crate::curvature::curvatures;
 use crate::model::PartProblem;
-use avatar_mesh::{Bounds, Mesh, Shape, Skinning, Winding};
+use avatar_mesh::{Bounds, Mesh, Offsets, Shape, Skinning, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use wgpu::util::DeviceExt;
@@ -217,7 +217,7 @@ fn bone_boxes(mesh: &Mesh, skinning: Option<&Skinning>, rigid_bone: usize) -> Ve
             if boxes.len() <= bone {
                 boxes.resize(bone + 1, None);
             }
-            let offset = |shape: &Shape| shape.positions.get(vertex).copied().unwrap_or(Vec3::ZERO);
+            let offset = |shape: &Shape| shape.positions.get(vertex).unwrap_or(Vec3::ZERO);
             boxes[bone]
                 .get_or_insert_with(|| BoneBox::empty(bone, mesh.shapes.len()))
                 .add(position, mesh.shapes.iter().map(offset));
@@ -234,9 +234,15 @@ fn bone_boxes(mesh: &Mesh, skinning: Option<&Skinning>, rigid_bone: usize) -> Ve
 }
 
 fn shape_offsets(mesh: &Mesh) -> Vec<GpuShapeOffset> {
-    let all = mesh.shapes.iter().flat_map(|shape| shape.positions.iter().zip(&shape.normals));
-    all.map(|(position, normal)| GpuShapeOffset { position: position.to_array(), normal: normal.to_array() })
-        .collect()
+    let still = [0.0; 3];
+    let mut all =
+        vec![GpuShapeOffset { position: still, normal: still }; mesh.shapes.len() * mesh.positions.len()];
+    for (shape, offsets) in mesh.shapes.iter().zip(all.chunks_mut(mesh.positions.len().max(1))) {
+        shape.positions.iter().for_each(|(vertex, offset)| offsets[vertex].position = offset.to_array());
+        let normals = shape.normals.iter().flat_map(Offsets::iter);
+        normals.for_each(|(vertex, offset)| offsets[vertex].normal = offset.to_array());
+    }
+    all
 }
 
 /// The triangles, turned around where most contradict their normals (mirrored parts with the original's indices).
@@ -304,7 +310,8 @@ fn check(
     count("uvs", mesh.uvs.len())?;
     for shape in &mesh.shapes {
         count("position offsets of a shape", shape.positions.len())?;
-        count("normal offsets of a shape", shape.normals.len())?;
+        let normals = shape.normals.as_ref().map_or(expected, Offsets::len);
+        count("normal offsets of a shape", normals)?;
     }
     match (bones, &mesh.skinning) {
         (PartBones::Rigid(found), _) if found >= palette_len => {
@@ -349,11 +356,7 @@ mod tests {
 
     fn shaped_mesh(positions: &[[f32; 3]], shapes: [&[[f32; 3]]; 2]) -> Mesh {
         let points = |all: &[[f32; 3]]| all.iter().copied().map(Vec3::from_array).collect::<Vec<_>>();
-        let shape = |offsets: &[[f32; 3]]| Shape {
-            name: String::new(),
-            positions: points(offsets),
-            normals: vec![Vec3::ZERO; offsets.len()],
-        };
+        let shape = |offsets: &[[f32; 3]]| Shape::new("", points(offsets));
         Mesh { positions: points(positions), shapes: shapes.map(shape).to_vec(), ..Mesh::default() }
     }
 
@@ -380,7 +383,7 @@ mod tests {
             let mesh = shaped_mesh(&column(0), [&column(1), &column(2)]);
             let around = bone_boxes(&mesh, None, 0)[0].shaped(weights.into_iter().enumerate());
             for (vertex, position) in mesh.positions.iter().enumerate() {
-                let moved = weights.iter().zip(&mesh.shapes).map(|(w, shape)| *w * shape.positions[vertex]);
+                let moved = weights.iter().zip(&mesh.shapes).map(|(w, shape)| *w * shape.positions.get(vertex).unwrap_or_default());
                 let moved = *position + moved.sum::<Vec3>();
                 prop_assert!((moved.clamp(around.min, around.max) - moved).length() < 1e-4, "{moved} {around:?}");
             }

@@ -40,7 +40,7 @@ fn meshes_that_contradict_themselves_are_errors() {
     assert_eq!(per_vertex(&bad), PartProblem::Count { what: "normals", expected: 5, found: 4 });
 
     let mut bad = good.clone();
-    bad.shapes[0].positions.push(Vec3::ZERO);
+    bad.shapes[0].positions = vec![Vec3::X; 6].into();
     let what = "position offsets of a shape";
     assert_eq!(per_vertex(&bad), PartProblem::Count { what, expected: 5, found: 6 });
 

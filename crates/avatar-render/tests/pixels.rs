@@ -21,9 +21,8 @@ const SIZE: u32 = 64;
 fn two_avatars_of_one_model_have_their_own_states() {
     let Some(gpu) = gpu() else { return };
     let mut mesh = ball(Vec3::ZERO, 0.6, 12);
-    let swollen = mesh.normals.iter().map(|n| *n * 0.5).collect();
-    let calm = vec![Vec3::ZERO; mesh.normals.len()];
-    mesh.shapes.push(avatar_mesh::Shape { name: "swell".to_owned(), positions: swollen, normals: calm });
+    let swollen: Vec<Vec3> = mesh.normals.iter().map(|n| *n * 0.5).collect();
+    mesh.shapes.push(avatar_mesh::Shape::new("swell", swollen));
     let (model, mut small) = model(gpu, &[part(&mesh, PartKind::Skin, PartTextures::default())]);
     let mut large = AvatarState::new(&gpu.device, &model);
     let at = |x: f32| [Affine3A::from_translation(Vec3::new(x, 0.0, 0.0))];

@@ -1,6 +1,6 @@
 //! From the sculptor's double precision to the meshes of the raw format.
 
-use avatar_mesh::{FACE_SHAPES, Mesh, Shape, Skinning};
+use avatar_mesh::{FACE_SHAPES, Mesh, Offsets, Shape, Skinning};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use crate::{mesh::Part, skin::Skin};
@@ -30,15 +30,16 @@ pub fn part(part: &Part) -> Mesh {
 #[must_use]
 pub fn skin(skin: &Skin) -> Mesh {
     let vertices = &skin.vertices;
-    let shape = |(k, name): (usize, &&str)| Shape {
-        name: (*name).to_owned(),
-        positions: vertices.iter().map(|v| vec3(v.shapes[k].0)).collect(),
-        normals: vertices.iter().map(|v| vec3(v.shapes[k].1)).collect(),
+    let shape = |(k, name): (usize, &&str)| {
+        let positions = vertices.iter().map(|v| vec3(v.shapes[k].0)).collect::<Offsets>();
+        Shape::new(*name, positions)
+            .with_normals(vertices.iter().map(|v| vec3(v.shapes[k].1)).collect::<Offsets>())
     };
     Mesh {
         positions: vertices.iter().map(|v| vec3(v.p)).collect(),
         uvs: vertices.iter().map(|v| vec2(v.uv)).collect(),
         normals: vertices.iter().map(|v| vec3(v.normal)).collect(),
+        tangents: Vec::new(),
         triangles: skin.triangles.clone(),
         skinning: Some(Skinning {
             bones: vertices.iter().map(|v| v.influence.map(|(bone, _)| bone as u16)).collect(),

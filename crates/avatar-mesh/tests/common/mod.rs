@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test program uses a part")]
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-use avatar_mesh::{Mesh, Shape, Skinning};
+use avatar_mesh::{Mesh, Offsets, Shape, Skinning};
 use glam::{Affine3A, Quat, Vec2, Vec3};
 
 /// The folder of real data beside the repository, or `None` with a printed reason.
@@ -19,6 +19,13 @@ pub(crate) fn shared_data() -> Option<std::path::PathBuf> {
 
 pub(crate) fn bytes(floats: &[f32]) -> Vec<u8> {
     floats.iter().flat_map(|x| x.to_le_bytes()).collect()
+}
+
+/// Changes the offset of one vertex.
+pub(crate) fn edit_offset(offsets: &mut Offsets, vertex: usize, edit: impl FnOnce(&mut Vec3)) {
+    let mut all: Vec<Vec3> = offsets.per_vertex().collect();
+    edit(&mut all[vertex]);
+    *offsets = all.into();
 }
 
 /// SplitMix64: a seed gives the same numbers on every machine.
@@ -77,9 +84,9 @@ impl Random {
             skinning.blend_index.push(self.vec3(1.0));
         }
         for k in 0..shapes {
-            let positions = (0..vertices).map(|_| self.vec3(2.0)).collect();
-            let normals = (0..vertices).map(|_| self.vec3(0.3)).collect();
-            mesh.shapes.push(Shape { name: format!("shape {k}"), positions, normals });
+            let positions: Vec<Vec3> = (0..vertices).map(|_| self.vec3(2.0)).collect();
+            let normals: Vec<Vec3> = (0..vertices).map(|_| self.vec3(0.3)).collect();
+            mesh.shapes.push(Shape::new(format!("shape {k}"), positions).with_normals(normals));
         }
         mesh.triangles =
             (0..vertices).map(|_| std::array::from_fn(|_| self.below(vertices) as u32)).collect();

@@ -80,7 +80,18 @@ pub(crate) fn random_mesh(random: &mut Random, vertices: usize, shapes: usize, b
             let mut shape_normals = vec3s(random, 0.5);
             // Some shapes cancel a normal exactly: the undeformed one takes its place.
             shape_normals.iter_mut().zip(&normals).step_by(7).for_each(|(d, n)| *d = -*n);
-            Shape { name: format!("shape {k}"), positions: vec3s(random, 2.0), normals: shape_normals }
+            let mut offsets = vec3s(random, 2.0);
+            // Some move a few vertices only, and some have no normals of their own.
+            if k % 3 == 1 {
+                offsets
+                    .iter_mut()
+                    .enumerate()
+                    .filter(|(v, _)| v % 10 != 3)
+                    .for_each(|(_, d)| *d = Vec3::ZERO);
+                shape_normals = offsets.iter().map(|d| *d * 0.2).collect();
+            }
+            let shape = Shape::new(format!("shape {k}"), offsets);
+            if k % 4 == 2 { shape } else { shape.with_normals(shape_normals) }
         })
         .collect();
     let skinning = bones.map(|bones| {
@@ -93,7 +104,7 @@ pub(crate) fn random_mesh(random: &mut Random, vertices: usize, shapes: usize, b
         skinning
     });
     let uvs = vec![Vec2::ZERO; vertices];
-    Mesh { positions, uvs, normals, triangles: Vec::new(), skinning, shapes }
+    Mesh { positions, uvs, normals, skinning, shapes, ..Mesh::default() }
 }
 
 /// A ball around `center`.
