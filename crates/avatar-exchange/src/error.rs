@@ -1,0 +1,33 @@
+/// Why a file could not be read: where it is wrong, and in which way.
+///
+/// One type for all formats, since what a caller can do about it is the same: show it. Errors of
+/// [`crate::Scene::from_raw`] have no file until a reader adds it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{place}: expected {expected}, found {found}", file_prefix(.file))]
+pub struct ImportError {
+    /// Name of the file, as the caller gave it; may be empty.
+    pub file: String,
+    /// The place in it: "accessor 3", "animation 'Wave', channel 2", "byte 12".
+    pub place: String,
+    /// What should stand there.
+    pub expected: String,
+    /// What stands there.
+    pub found: String,
+}
+
+fn file_prefix(file: &str) -> String {
+    if file.is_empty() { String::new() } else { format!("{file}: ") }
+}
+
+impl ImportError {
+    /// An error at a place of a file that is not known here; see [`ImportError::in_file`].
+    pub fn new(place: impl Into<String>, expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self { file: String::new(), place: place.into(), expected: expected.into(), found: found.into() }
+    }
+
+    /// The same, in a file of this name.
+    #[must_use]
+    pub fn in_file(self, file: &str) -> Self {
+        Self { file: file.to_owned(), ..self }
+    }
+}

@@ -1,0 +1,119 @@
+use crate::interpolate::sample;
+use crate::scene::{narrow, widen};
+use crate::{Channel, ChannelTarget, ImportError, Scene, Transform};
+use glam::{Affine3A, DAffine3, Quat, Vec3};
+
+/// Where all nodes are, relative to their parents, and how much all shapes count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ScenePose {
+    /// `parent_from_node` for each node.
+    pub locals: Vec<Transform>,
+    /// Blend weights for each node.
+    pub weights: Vec<Vec<f32>>,
+}
+
+impl Scene {
+    /// The pose of the file outside of its animations.
+    pub fn rest(&self) -> ScenePose {
+        ScenePose {
+            locals: self.nodes.iter().map(|node| node.local).collect(),
+            weights: self.nodes.iter().map(|node| node.weights.clone()).collect(),
+        }
+    }
+
+    /// The pose of a clip at a time in seconds; what the clip does not move is at rest. Before the first key and
+    /// after the last one, the nearest key holds.
+    ///
+    /// # Errors
+    /// A clip that there is not.
+    pub fn at(&self, clip: usize, time_secs: f32) -> Result<ScenePose, ImportError> {
+        let mut pose = self.rest();
+        self.apply(clip, time_secs, &mut pose)?;
+        Ok(pose)
+    }
+
+    /// Overwrites what a clip moves, in a pose of this scene. Allocates nothing.
+    ///
+    /// # Errors
+    /// A clip that there is not, or a pose of another scene.
+    pub fn apply(&self, clip: usize, time_secs: f32, pose: &mut ScenePose) -> Result<(), ImportError> {
+        let clips = self.clips.len();
+        let clip = self
+            .clips
+            .get(clip)
+            .ok_or_else(|| ImportError::new("the pose", format!("a clip below {clips}"), clip.to_string()))?;
+        let fits = pose.locals.len() == self.nodes.len() && pose.weights.len() == self.nodes.len();
+        if !fits {
+            let expected = format!("locals and weights of {} nodes", self.nodes.len());
+            let found = format!("{} and {}", pose.locals.len(), pose.weights.len());
+            return Err(ImportError::new("the pose", expected, found));
+        }
+        for channel in &clip.channels {
+            apply_channel(channel, time_secs, pose);
+        }
+        Ok(())
+    }
+
+    /// `world_from_node` for each node, in the nodes' order, computed in f64. Locals that the pose lacks are taken
+    /// from rest.
+    pub fn worlds(&self, pose: &ScenePose) -> Vec<DAffine3> {
+        let mut worlds = vec![DAffine3::IDENTITY; self.nodes.len()];
+        for &number in self.order() {
+            let node = &self.nodes[number];
+            let parent_from_node = pose.locals.get(number).unwrap_or(&node.local).affine();
+            worlds[number] = match node.parent {
+                Some(parent) => worlds[parent] * parent_from_node,
+                None => parent_from_node,
+            };
+        }
+        worlds
+    }
+
+    /// The bone matrices `world_from_mesh` for all parts, one for each entry of the palette. A skinned part is
+    /// moved by its joints alone, not by its node (glTF 2.0, section 3.7.3.3).
+    pub fn bones(&self, pose: &ScenePose) -> Vec<Affine3A> {
+        let worlds = self.worlds(pose);
+        let bone = |entry: &crate::PaletteEntry| narrow(worlds[entry.node] * widen(&entry.node_from_mesh));
+        self.palette().entries.iter().map(bone).collect()
+    }
+
+    /// What [`avatar_mesh::deform`] needs of the bones for a part: all for a skinned one, its own for a rigid one.
+    /// Empty where there is no such part, or the bones are not this scene's.
+    pub fn bones_of<'a>(&self, part: usize, bones: &'a [Affine3A]) -> &'a [Affine3A] {
+        let Some(part) = self.parts.get(part) else { return &[] };
+        match (part.skin, self.palette().rigid[part.node]) {
+            (Some(_), _) => bones,
+            (None, Some(entry)) => bones.get(entry..=entry).unwrap_or(&[]),
+            (None, None) => &[],
+        }
+    }
+
+    /// The blend weights of a part in a pose; empty where there is no such part.
+    pub fn weights_of<'a>(&self, part: usize, pose: &'a ScenePose) -> &'a [f32] {
+        self.parts.get(part).and_then(|part| pose.weights.get(part.node)).map_or(&[], Vec::as_slice)
+    }
+}
+
+fn apply_channel(channel: &Channel, time_secs: f32, pose: &mut ScenePose) {
+    if channel.target == ChannelTarget::Weights {
+        sample(channel, time_secs, &mut pose.weights[channel.node]);
+        return;
+    }
+    let Transform::Trs(trs) = &mut pose.locals[channel.node] else { return };
+    let mut value = [0.0; 4];
+    match channel.target {
+        ChannelTarget::Translation => {
+            sample(channel, time_secs, &mut value[..3]);
+            trs.translation = Vec3::from_slice(&value);
+        }
+        ChannelTarget::Scale => {
+            sample(channel, time_secs, &mut value[..3]);
+            trs.scale = Vec3::from_slice(&value);
+        }
+        ChannelTarget::Rotation => {
+            sample(channel, time_secs, &mut value);
+            trs.rotation = Quat::from_array(value);
+        }
+        ChannelTarget::Weights => {}
+    }
+}

@@ -1,0 +1,46 @@
+//! Scenes of rigged meshes from interchange formats: what the formats have in common, and how to pose it.
+//!
+//! ```text
+//!  bytes ──reader──▶ RawScene ──Scene::from_raw──▶ Scene ──at(clip, time)──▶ ScenePose ──bones──▶ matrices
+//!                    (editable)                   (checked)                                         │
+//!                                                   parts ────────── avatar_mesh::deform ◀──────────┘
+//! ```
+//!
+//! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up; a reader of a format
+//! with other axes turns them. Transforms are called `a_from_b`.
+//!
+//! ```
+//! use avatar_exchange::{Node, RawScene, Scene, ScenePart};
+//! use glam::{Affine3A, Vec3};
+//!
+//! let mut raw = RawScene::default();
+//! raw.nodes.push(Node { name: "root".to_owned(), ..Node::default() });
+//! let mesh = avatar_mesh::Mesh {
+//!     positions: vec![Vec3::X],
+//!     uvs: vec![glam::Vec2::ZERO],
+//!     normals: vec![Vec3::Y],
+//!     ..avatar_mesh::Mesh::default()
+//! };
+//! raw.parts.push(ScenePart::rigid("dot", 0, mesh));
+//! let scene = Scene::from_raw(raw)?;
+//! let bones = scene.bones(&scene.rest());
+//! assert_eq!(scene.bones_of(0, &bones), [Affine3A::IDENTITY]);
+//! # Ok::<(), avatar_exchange::ImportError>(())
+//! ```
+//!
+//! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
+
+mod error;
+mod evaluate;
+mod freeze;
+mod interpolate;
+mod material;
+mod scene;
+
+pub use error::ImportError;
+pub use evaluate::ScenePose;
+pub use freeze::{Palette, PaletteEntry, Scene};
+pub use material::{AlphaMode, Material, SceneImage};
+pub use scene::{
+    Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,
+};
