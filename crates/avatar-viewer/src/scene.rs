@@ -7,6 +7,7 @@ use avatar_pack::{Pack, PartImages, Textures};
 use avatar_render::{
     AvatarModel, Camera, Image, Light, PartBones, PartDesc, PartTextures, Scene, linear_from_srgb8,
 };
+use image::RgbaImage;
 
 /// Samples per pixel, unless said otherwise.
 pub(crate) const SAMPLES: u32 = 4;
