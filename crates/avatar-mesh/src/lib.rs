@@ -36,6 +36,7 @@
 mod bounds;
 pub mod coherence;
 mod deform;
+mod deform_bounds;
 pub mod drivers;
 mod in_between;
 mod mesh;
@@ -53,6 +54,7 @@ mod winding;
 
 pub use bounds::Bounds;
 pub use deform::{DeformError, Deformed, MIN_NORMAL_LENGTH, ShapeNormals, blend, deform, deform_with};
+pub use deform_bounds::{BoneBounds, DeformBounds};
 pub use mesh::{Mesh, Skinning};
 pub use offsets::{Offsets, OffsetsError};
 pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec};
