@@ -47,6 +47,7 @@ pub mod raw;
 pub mod sequence;
 mod shape;
 mod smooth;
+pub mod space;
 mod validate;
 pub mod weights;
 mod weld;
