@@ -30,9 +30,12 @@
 //!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
+mod assemble;
 mod error;
 mod evaluate;
 mod freeze;
+#[cfg(feature = "gltf")]
+pub mod gltf;
 mod interpolate;
 mod material;
 mod scene;
