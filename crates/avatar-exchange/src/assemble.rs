@@ -1,6 +1,6 @@
 //! What several readers need to make meshes: shapes, bones of vertices, normals that a file lacks.
 
-use avatar_mesh::{Shape, Skinning, WEIGHT_SUM_TOLERANCE};
+use avatar_mesh::{Offsets, Shape, Skinning, WEIGHT_SUM_TOLERANCE};
 use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 
@@ -12,9 +12,10 @@ pub(crate) fn shape(
     positions: Option<Vec<Vec3>>,
     normals: Option<Vec<Vec3>>,
 ) -> Shape {
-    let still = || vec![Vec3::ZERO; vertices];
-    let (positions, normals) = (positions.unwrap_or_else(still), normals.unwrap_or_else(still));
-    Shape { name, positions, normals }
+    let still = || Offsets::from_pairs(vertices, []).unwrap_or_default();
+    let mut shape = Shape::new(name, positions.map_or_else(still, Offsets::from_dense));
+    shape.normals = normals.map(Offsets::from_dense);
+    shape
 }
 
 /// Bytes that [`shape`] takes for so many vertices.
