@@ -38,12 +38,14 @@ mod freeze;
 pub mod gltf;
 mod interpolate;
 mod material;
+mod read;
 mod scene;
 
 pub use error::ImportError;
 pub use evaluate::ScenePose;
 pub use freeze::{Palette, PaletteEntry, Scene};
 pub use material::{AlphaMode, Material, SceneImage};
+pub use read::{Format, Resolve, read};
 pub use scene::{
     Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,
 };

@@ -1,7 +1,8 @@
 use super::budget::Budget;
 use super::container::Container;
+use super::json;
 use super::uri::Uri;
-use super::{Resolve, json};
+use crate::Resolve;
 use crate::{ImportError, Note};
 use gltf::json::{Index, Root, buffer};
 use std::borrow::Cow;

@@ -22,14 +22,10 @@ mod skin;
 mod triangles;
 mod uri;
 
-use crate::{ImportError, RawScene, Scene};
+use crate::{ImportError, RawScene, Resolve, Scene};
 use document::Document;
 
 pub use container::{Container, split};
-
-/// Brings a file that a glTF file refers to: takes a relative path with `/` between folders, never absolute and never
-/// leading upwards, and returns the file's bytes, or what went wrong.
-pub type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
 /// Reads `.gltf` (JSON) or `.glb`. `file` is its name for messages.
 ///

@@ -20,12 +20,10 @@ use std::fmt;
 /// An avatar from a file of an interchange format.
 #[derive(Clone, Debug)]
 pub struct Import {
-    /// Rig, parts, shapes and controls.
+    /// Rig, parts, shapes, controls and clips.
     pub pack: Pack,
     /// The pictures of its parts.
     pub textures: Textures,
-    /// Its clips.
-    pub motion: SceneMotion,
     /// What was recognised, and what could not be represented.
     pub report: ImportReport,
 }
@@ -93,7 +91,6 @@ impl Import {
         let names: Vec<&str> = shapes.names.iter().map(String::as_str).collect();
         let binding = controls.bind(&joints.rig, &names)?;
         let (parts, textures) = parts::parts(&scene, &shapes, &mut report);
-        let motion = SceneMotion::new(scene, &joints, &shapes);
         let poses = controls::poses(&controls);
         let mut pack = Pack {
             palette: joints.palette,
@@ -105,11 +102,12 @@ impl Import {
             poses,
             materials: Materials::default(),
             hair: None,
+            motion: Some(SceneMotion::new(scene, joints.of_node, joints.node_from_parent, shapes.first)),
             warnings: Vec::new(),
         };
         measure(&mut pack)?;
         pack.warnings = report.notes.iter().cloned().map(Warning::Import).collect();
-        Ok(Self { pack, textures, motion, report })
+        Ok(Self { pack, textures, report })
     }
 }
 

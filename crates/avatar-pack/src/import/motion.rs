@@ -1,5 +1,3 @@
-use super::parts::ShapeNames;
-use super::rig::Joints;
 use avatar_exchange::Scene;
 use glam::{Affine3A, DAffine3};
 use rig_core::JointId;
@@ -33,13 +31,13 @@ pub struct MotionAt {
 }
 
 impl SceneMotion {
-    pub(super) fn new(scene: Scene, joints: &Joints, shapes: &ShapeNames) -> Self {
-        Self {
-            scene,
-            joints: joints.of_node.clone(),
-            node_from_parent: joints.node_from_parent.clone(),
-            first_shape: shapes.first.clone(),
-        }
+    pub(super) fn new(
+        scene: Scene,
+        joints: Vec<JointId>,
+        node_from_parent: Vec<DAffine3>,
+        first_shape: Vec<usize>,
+    ) -> Self {
+        Self { scene, joints, node_from_parent, first_shape }
     }
 
     /// The scene that the avatar was made of.
