@@ -101,8 +101,16 @@ impl Table {
 
 /// Those default poses that the avatar can take, and one for each shape.
 pub(super) fn poses(controls: &ControlTable) -> PoseSet {
+    let face = ControlTable::default_face();
+    let whole = PoseSet::default_face(&face);
+    let can_take = |pose: &Pose| {
+        let moved = |(index, value): &&(usize, f32)| face.controls()[*index].default != *value;
+        let mut moving = pose.values.iter().filter(moved).peekable();
+        moving.peek().is_some()
+            && moving.all(|(index, _)| controls.index(&face.controls()[*index].name).is_some())
+    };
     let mut set = PoseSet::default_face(controls);
-    set.poses.retain(|pose| !pose.values.is_empty());
+    set.poses.retain(|pose| pose.name == "neutral" || whole.get(&pose.name).is_some_and(can_take));
     if set.get("neutral").is_none() {
         set.poses.insert(0, Pose::new("neutral", Vec::new()));
     }
