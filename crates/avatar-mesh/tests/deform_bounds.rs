@@ -8,7 +8,9 @@
 
 mod common;
 
-use avatar_mesh::{Bounds, DeformBounds, FACE_BONES, Mesh, Offsets, Shape, ShapeNormals, blend, deform, raw};
+use avatar_mesh::{
+    Bounds, DeformBounds, FACE_BONES, Mesh, Offsets, Shape, ShapeNormals, Skinning, blend, deform, raw,
+};
 use common::{Random, shared_data};
 use glam::{Affine3A, Mat3, Quat, Vec3};
 use proptest::prelude::*;
@@ -72,6 +74,10 @@ proptest! {
             let weights = &mut mesh.skinning.as_mut().unwrap().weights;
             weights.iter_mut().for_each(|w| *w = [(); 4].map(|()| random.signed()));
             weights[0] = [0.0; 4];
+        } else if seed % 4 == 1 {
+            // None below 0, but with any sum.
+            let weights = &mut mesh.skinning.as_mut().unwrap().weights;
+            weights.iter_mut().for_each(|w| *w = [(); 4].map(|()| random.signed().abs()));
         }
         let palette: Vec<Affine3A> = (0..bones).map(|_| {
             let stretch = if seed % 3 == 0 { Mat3::from_diagonal(random.vec3(2.0)) } else { Mat3::IDENTITY };
@@ -175,6 +181,32 @@ fn boxes_of_the_default_avatar_are_seldom_half_as_large_again() {
 fn boxes_of_a_real_face_are_seldom_half_as_large_again() {
     let Some(data) = shared_data() else { return };
     boxes_of(&data.join("avatar-course-format-makehuman"), "makehuman");
+}
+
+/// What is exact in the box and rounded in f32.
+#[test]
+fn boxes_leave_room_for_rounding() {
+    // Each offset is too small to count, all together are not: the vertex stays where it is.
+    let tiny = |k: usize| Shape::new(k.to_string(), vec![Vec3::splat(0.4 * f32::EPSILON)]);
+    let mesh = Mesh { shapes: (0..200).map(tiny).collect(), ..cloud(Vec3::ONE, [1.0, 0.0, 0.0, 0.0]) };
+    let inner = deformed(&mesh, &[Affine3A::IDENTITY], &[1.0; 200]);
+    assert_eq!(inner.min, Vec3::ONE);
+    assert!(holds(DeformBounds::new(&mesh).around(&[Affine3A::IDENTITY], &[1.0; 200]).unwrap(), inner));
+    // Far away, weights round more than the box's own numbers do.
+    let mut random = Random(8);
+    for _ in 0..5000 {
+        let raw: [f32; 4] = [(); 4].map(|()| random.signed().abs() + 0.01);
+        let mesh = cloud(random.unit(), raw.map(|w| w / raw.iter().sum::<f32>()));
+        let far = Affine3A::from_translation(random.vec3(1e6)) * random.rigid();
+        let (outer, inner) = (DeformBounds::new(&mesh).around(&[far], &[]), deformed(&mesh, &[far], &[]));
+        assert!(holds(outer.unwrap(), inner), "{outer:?} {inner:?}");
+    }
+}
+
+/// One vertex that follows bone 0 four times.
+fn cloud(position: Vec3, weights: [f32; 4]) -> Mesh {
+    let skinning = Skinning { bones: vec![[0; 4]], weights: vec![weights], blend_index: vec![] };
+    Mesh { positions: vec![position], normals: vec![Vec3::X], skinning: Some(skinning), ..Mesh::default() }
 }
 
 #[test]
