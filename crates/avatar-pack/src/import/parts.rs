@@ -62,10 +62,13 @@ fn in_common_places(mesh: &Mesh, first: usize) -> Mesh {
     if mesh.shapes.is_empty() {
         return mesh.clone();
     }
+    let mut own = mesh.clone();
+    // What moves positions only gets the normals of the moved surface.
+    own.add_shape_normals();
     let still = || Shape::new("", Offsets::from_pairs(mesh.positions.len(), []).unwrap_or_default());
     let mut shapes: Vec<Shape> = std::iter::repeat_with(still).take(first).collect();
-    shapes.extend(mesh.shapes.iter().cloned());
-    Mesh { shapes, ..mesh.clone() }
+    shapes.append(&mut own.shapes);
+    Mesh { shapes, ..own }
 }
 
 /// How a part is drawn, guessed from the names of part, node and material.

@@ -22,6 +22,8 @@ pub(super) struct Stage {
     targets: Option<Targets>,
     model: AvatarModel,
     avatar: AvatarState,
+    /// Of the hair, if there is any.
+    style: Option<avatar_groom::Style>,
     look: LookArgs,
 }
 
