@@ -38,12 +38,14 @@ mod freeze;
 pub mod gltf;
 mod interpolate;
 mod material;
+mod normals;
 mod scene;
 
 pub use error::ImportError;
 pub use evaluate::ScenePose;
 pub use freeze::{Palette, PaletteEntry, Scene};
 pub use material::{AlphaMode, Material, SceneImage};
+pub use normals::deform_unevenly;
 pub use scene::{
     Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,
 };
