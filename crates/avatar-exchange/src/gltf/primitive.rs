@@ -180,7 +180,7 @@ impl Document<'_> {
         Ok(shape(name, vertices, positions, normals))
     }
 
-    fn per_vertex<const N: usize, T: From<[f32; N]>>(
+    fn per_vertex<const N: usize, T: From<[f32; N]> + bytemuck::Pod>(
         &mut self,
         primitive: &Primitive,
         semantic: Semantic,
