@@ -310,6 +310,40 @@ fn claims_are_limited_by_the_size_of_the_file() {
     assert!(start.elapsed() < LIMIT, "{:?}", start.elapsed());
 }
 
+/// Lists that are read once for each of many nodes.
+#[test]
+fn many_nodes_with_one_long_mesh_end_soon() {
+    let nodes = vec![r#"{"mesh":0}"#; 20_000].join(",");
+    let long = format!(r#"{{"attributes":{{"_{}":0}}}}"#, "x".repeat(300_000));
+    let many = vec![r#"{"attributes":{}}"#; 20_000].join(",");
+    let targets = format!(r#"{{"attributes":{{}},"targets":[{}]}}"#, vec!["{}"; 100_000].join(","));
+    for primitives in [long, many, targets] {
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"meshes":[{{"primitives":[{primitives}]}}],"nodes":[{nodes}]}}"#
+        );
+        assert!(wrong(&json).place.starts_with("mesh 0"));
+    }
+    let channel = r#"{"sampler":0,"target":{"node":0,"path":"?"}}"#;
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}],"animations":[{{"name":"{}","samplers":[],"channels":[{}]}}]}}"#,
+        "é".repeat(500_000),
+        vec![channel; 10_000].join(",")
+    );
+    let start = Instant::now();
+    let scene = read(json.as_bytes()).expect("a scene");
+    assert!(scene.notes.len() == 10_000 && scene.notes[0].place.len() < 200, "{}", scene.notes[0]);
+    assert!(start.elapsed() < LIMIT, "{:?}", start.elapsed());
+}
+
+/// Lists in the place of objects, which the structures take for their members in order.
+#[test]
+fn arrays_instead_of_objects_are_errors() {
+    let target = r#"[[], [{"channels": [{"sampler": 0, "target": {}}], "samplers": []}]]"#;
+    for json in [target, "[]", "[[]]", "null", "7", "", r#"{"asset": []}"#, r#"{"asset": {"version": 2}}"#] {
+        assert!(!wrong(json).place.is_empty());
+    }
+}
+
 #[test]
 fn views_and_accessors_beyond_their_bytes() {
     let beyond = |view: &str, accessor: &str| {

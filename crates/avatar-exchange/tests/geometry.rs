@@ -4,6 +4,7 @@
 
 mod common;
 
+use avatar_exchange::{AlphaMode, Material};
 use common::{Builder, F32, I8, I16, U8, U16, U32, floats, one_primitive};
 use glam::{Vec2, Vec3};
 
@@ -215,4 +216,56 @@ fn vertices_that_are_no_numbers_are_errors() {
     let position = file.floats(&[0.0, 0.0, 0.0, 0.0, f32::NAN, 0.0], "VEC3");
     let error = file.error(&one_primitive(&format!(r#"{{"attributes": {{"POSITION": {position}}}}}"#)));
     assert!(error.place.starts_with("part 0") && error.found.contains("vertex 1"), "{error}");
+}
+
+#[test]
+fn materials_arrive_and_what_they_cannot_say_is_noted() {
+    let json = r#"{"asset": {"version": "2.0"}, "images": [{"uri": "data:image/png;base64,Zm9v", "name": "pores"}],
+        "samplers": [{"wrapS": 33071}], "textures": [{}, {"source": 0, "sampler": 0}], "materials": [{}, {"name": "skin",
+        "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.6,
+        "baseColorTexture": {"index": 1, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}},
+        "metallicRoughnessTexture": {"index": 0}},
+        "normalTexture": {"index": 1, "scale": 0.7, "texCoord": 1}, "occlusionTexture": {"index": 1, "strength": 0.8},
+        "emissiveTexture": {"index": 1}, "emissiveFactor": [1, 0, 0], "alphaMode": "MASK", "alphaCutoff": 0.25,
+        "doubleSided": true, "extensions": {"KHR_materials_sheen": {}}}]}"#;
+    let scene = common::read(json.as_bytes()).expect("a scene");
+    assert_eq!(scene.materials[0], Material::default());
+    let expected = Material {
+        name: "skin".to_owned(),
+        base_color: [0.1, 0.2, 0.3, 0.4],
+        base_color_texture: Some(0),
+        metallic: 0.5,
+        roughness: 0.6,
+        metallic_roughness_texture: None,
+        normal_texture: Some(0),
+        normal_scale: 0.7,
+        occlusion_texture: Some(0),
+        occlusion_strength: 0.8,
+        emissive: [1.0, 0.0, 0.0],
+        emissive_texture: Some(0),
+        alpha_mode: AlphaMode::Mask,
+        alpha_cutoff: 0.25,
+        double_sided: true,
+    };
+    assert_eq!(scene.materials[1], expected);
+    let notes: Vec<_> = scene.notes.iter().map(ToString::to_string).collect();
+    for note in [
+        "material 1: KHR_materials_sheen is not represented",
+        "material 1, baseColorTexture: KHR_texture_transform is not represented",
+        "material 1, baseColorTexture: is repeated, not clamped or mirrored",
+        "material 1, metallicRoughnessTexture: has no image",
+        "material 1, normalTexture: TEXCOORD_1 is not represented",
+    ] {
+        assert!(notes.iter().any(|found| found == note), "{note}: {notes:?}");
+    }
+    for (right, lie, place) in [
+        (r#""source": 0"#, r#""source": 1"#, "material 1 'skin'"),
+        (r#""index": 1, "strength""#, r#""index": 2, "strength""#, "textures"),
+        (r#""sampler": 0"#, r#""sampler": 1"#, "samplers"),
+        ("0.6", "1e39", "material 1 'skin'"),
+        ("MASK", "NONE", "material 1"),
+    ] {
+        let error = common::read(json.replace(right, lie).as_bytes()).expect_err("an error");
+        assert_eq!(error.place, place, "{error}");
+    }
 }
