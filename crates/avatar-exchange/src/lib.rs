@@ -39,6 +39,7 @@ mod freeze;
 pub mod gltf;
 mod interpolate;
 mod material;
+mod normals;
 mod read;
 mod scene;
 
@@ -46,6 +47,7 @@ pub use error::ImportError;
 pub use evaluate::ScenePose;
 pub use freeze::{Palette, PaletteEntry, Scene};
 pub use material::{AlphaMode, Material, SceneImage};
+pub use normals::deform_unevenly;
 pub use read::{Format, Resolve, read};
 pub use scene::{
     Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,

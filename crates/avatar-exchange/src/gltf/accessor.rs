@@ -1,6 +1,7 @@
 use super::component::{float, whole};
 use super::document::{Document, View, in_range};
 use crate::ImportError;
+use bytemuck::Pod;
 use gltf::json::accessor::{ComponentType, IndexComponentType, Type, sparse::Sparse};
 use gltf::json::validation::Checked;
 use gltf::json::{Accessor, Index};
@@ -42,7 +43,7 @@ impl Header<'_> {
 
 impl Document<'_> {
     /// All elements of an accessor of `type_` as `N` floats each. Normalised integers become fractions.
-    pub(super) fn floats<const N: usize, T: From<[f32; N]>>(
+    pub(super) fn floats<const N: usize, T: From<[f32; N]> + Pod>(
         &mut self,
         index: Index<Accessor>,
         type_: Type,
@@ -64,12 +65,14 @@ impl Document<'_> {
         };
         let mut values: Vec<T> = match self.elements(&header)? {
             None => (0..count).map(|_| T::from([0.0; N])).collect(),
-            // The common case, and the one that large files are made of: no more than a copy.
-            Some(packed) if kind == ComponentType::F32 && packed.stride == 4 * N => packed.bytes
-                [..count * 4 * N]
-                .chunks_exact(4 * N)
-                .map(|element| T::from(packed_floats(element)))
-                .collect(),
+            // The common case, and the one that large files are made of: a copy of the bytes.
+            Some(packed)
+                if kind == ComponentType::F32 && packed.stride == 4 * N && cfg!(target_endian = "little") =>
+            {
+                let mut values = vec![T::zeroed(); count];
+                bytemuck::cast_slice_mut(&mut values).copy_from_slice(&packed.bytes[..count * 4 * N]);
+                values
+            }
             Some(strided) if kind == ComponentType::F32 => {
                 strided.iter().map(|element| T::from(packed_floats(element))).collect()
             }

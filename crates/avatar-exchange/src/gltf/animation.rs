@@ -1,4 +1,5 @@
 use super::document::{Document, in_range};
+use crate::error::quoted;
 use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, RawScene};
 use gltf::json::accessor::Type;
 use gltf::json::animation;
@@ -13,7 +14,7 @@ impl Document<'_> {
             let mut moved = BTreeSet::new();
             for (index, channel) in animation.channels.iter().enumerate() {
                 let place = || {
-                    let name = animation.name.as_ref().map_or(number.to_string(), |name| format!("'{name}'"));
+                    let name = animation.name.as_ref().map_or(number.to_string(), |name| quoted(name));
                     format!("animation {name}, channel {index}")
                 };
                 let Some(channel) = self.channel(&animation.samplers, channel).map_err(|error| {

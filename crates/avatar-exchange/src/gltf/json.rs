@@ -28,7 +28,7 @@ fn wrong(error: &serde_json::Error) -> ImportError {
 
 fn drop_channels_without_node(root: &mut Value) -> usize {
     let mut dropped = 0;
-    for animation in root["animations"].as_array_mut().into_iter().flatten() {
+    for animation in root.get_mut("animations").and_then(Value::as_array_mut).into_iter().flatten() {
         let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) else { continue };
         let before = channels.len();
         channels.retain(|channel| channel.get("target").is_none_or(|target| target.get("node").is_some()));

@@ -1,4 +1,5 @@
 use super::document::Document;
+use crate::error::quoted;
 use crate::{ImportError, Node, RawScene, Transform, Trs};
 use glam::{DMat4, Quat, Vec3};
 
@@ -30,7 +31,7 @@ impl Document<'_> {
                     return Err(ImportError::new(place(), expected, child.value().to_string()));
                 };
                 if let Some(other) = child.parent.replace(parent) {
-                    let found = format!("'{}', which is a child of node {other}, too", child.name);
+                    let found = format!("{}, which is a child of node {other}, too", quoted(&child.name));
                     return Err(ImportError::new(place(), "nodes without another parent", found));
                 }
             }

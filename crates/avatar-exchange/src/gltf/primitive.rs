@@ -10,6 +10,13 @@ use gltf::json::validation::Checked;
 use gltf::json::{self, Accessor, Index};
 use serde_json::Value;
 
+/// What a primitive without any data counts, in bytes.
+const PRIMITIVE_COST: usize = 1024;
+/// The same of one of its targets, half of it.
+const TARGET_COST: usize = 256;
+/// The same of one of its attributes.
+const ATTRIBUTE_COST: usize = 128;
+
 impl Document<'_> {
     /// All meshes at all nodes, and the blend weights of these nodes.
     pub(super) fn read_parts(&mut self, scene: &mut RawScene) -> Result<(), ImportError> {
@@ -42,7 +49,10 @@ impl Document<'_> {
                     let expected = format!("{targets} targets, as primitive 0 has");
                     return Err(ImportError::new(place, expected, found.to_string()));
                 }
-                self.budget.take(|| place.clone(), name.len(), 1)?;
+                // Looking at it costs, too: few bytes can put many primitives at many nodes.
+                let attributes: usize =
+                    primitive.attributes.keys().map(|key| ATTRIBUTE_COST + extra_name(key).len()).sum();
+                self.budget.take(|| place.clone(), PRIMITIVE_COST + name.len() + attributes, 1)?;
                 let Some((mut mesh, tangents)) = self.mesh(&place, primitive, &names)? else { continue };
                 let skin = match node.skin {
                     None => None,
@@ -78,7 +88,7 @@ impl Document<'_> {
         targets: usize,
     ) -> Result<Vec<String>, ImportError> {
         let extras = mesh.extras.as_ref().map_or("", |extras| extras.get());
-        self.budget.take(|| place.to_owned(), extras.len() + 32 * targets, 2)?;
+        self.budget.take(|| place.to_owned(), extras.len() + TARGET_COST * targets, 2)?;
         let extras: Value = serde_json::from_str(extras).unwrap_or_default();
         let given = extras.get("targetNames").and_then(Value::as_array);
         let name = |number: usize| given.and_then(|names| names.get(number)?.as_str());
@@ -180,7 +190,7 @@ impl Document<'_> {
         Ok(shape(name, vertices, positions, normals))
     }
 
-    fn per_vertex<const N: usize, T: From<[f32; N]>>(
+    fn per_vertex<const N: usize, T: From<[f32; N]> + bytemuck::Pod>(
         &mut self,
         primitive: &Primitive,
         semantic: Semantic,
@@ -256,12 +266,20 @@ impl Document<'_> {
             let name = match semantic {
                 Checked::Valid(Semantic::Colors(set)) => format!("COLOR_{set}"),
                 Checked::Valid(Semantic::TexCoords(set)) if *set > 0 => format!("TEXCOORD_{set}"),
-                Checked::Valid(Semantic::Extras(name)) => format!("_{name}"),
+                Checked::Valid(Semantic::Extras(_)) => format!("_{}", extra_name(semantic)),
                 Checked::Invalid => "an unknown attribute".to_owned(),
                 _ => continue,
             };
             self.note(place, format!("{name} is left out"));
         }
+    }
+}
+
+/// The name of an attribute that the file made up, without its underscore; empty for others.
+fn extra_name(semantic: &Checked<Semantic>) -> &str {
+    match semantic {
+        Checked::Valid(Semantic::Extras(name)) => name,
+        _ => "",
     }
 }
 
