@@ -35,7 +35,7 @@ fn exercise(scene: &Scene) {
 }
 
 /// Reads what may be broken. Whether it was.
-fn survives(bytes: &[u8], resolve: &mut gltf::Resolve<'_>) -> bool {
+fn survives(bytes: &[u8], resolve: &mut avatar_exchange::Resolve<'_>) -> bool {
     let start = Instant::now();
     let result = gltf::read("damaged", bytes, resolve);
     let took = start.elapsed();
