@@ -30,12 +30,24 @@
 //!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
+#[cfg(any(feature = "obj", feature = "md5"))]
+mod angle_normals;
+#[cfg(feature = "bvh")]
+pub mod bvh;
 mod error;
 mod evaluate;
 mod freeze;
 mod interpolate;
 mod material;
+#[cfg(feature = "md5")]
+pub mod md5;
+#[cfg(feature = "obj")]
+pub mod obj;
 mod scene;
+#[cfg(feature = "target")]
+pub mod target;
+#[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
+mod text;
 
 pub use error::ImportError;
 pub use evaluate::ScenePose;
