@@ -30,8 +30,12 @@
 //!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
+#[cfg(any(feature = "obj", feature = "md5"))]
+mod angle_normals;
 #[allow(dead_code, reason = "which readers are built in decides what of it is used")]
 mod assemble;
+#[cfg(feature = "bvh")]
+pub mod bvh;
 mod error;
 mod evaluate;
 mod freeze;
@@ -39,9 +43,17 @@ mod freeze;
 pub mod gltf;
 mod interpolate;
 mod material;
+#[cfg(feature = "md5")]
+pub mod md5;
 mod normals;
+#[cfg(feature = "obj")]
+pub mod obj;
 mod read;
 mod scene;
+#[cfg(feature = "target")]
+pub mod target;
+#[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
+mod text;
 
 pub use error::ImportError;
 pub use evaluate::ScenePose;

@@ -4,7 +4,8 @@ use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
 use crate::usage;
 use anyhow::Result;
-use avatar_mesh::{Deformed, obj};
+use avatar_mesh::Deformed;
+use avatar_mesh::obj::{self, ObjPart};
 use avatar_pack::{FaceState, Pack, Textures};
 use clap::ArgMatches;
 
@@ -23,10 +24,17 @@ pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
         face.apply(&pack, &mut state)?;
         parts.iter().map(|part| Ok(state.deform(&pack, *part)?)).collect::<Result<_>>()?
     };
-    let objects: Vec<obj::Object<'_>> = (parts.iter().map(|part| &pack.parts[*part]).zip(&deformed))
-        .map(|(part, deformed)| obj::Object { name: &part.name, deformed, triangles: &part.mesh.triangles })
+    let objects: Vec<ObjPart<'_>> = (parts.iter().map(|part| &pack.parts[*part]).zip(&deformed))
+        .map(|(part, deformed)| ObjPart {
+            name: &part.name,
+            positions: &deformed.positions,
+            normals: &deformed.normals,
+            // A single part is for comparing numbers.
+            uvs: if args.world { &part.mesh.uvs } else { &[] },
+            triangles: &part.mesh.triangles,
+        })
         .collect();
-    out.write(obj::write_all(&objects).as_bytes())
+    out.write(obj::write_parts(&objects).as_bytes())
 }
 
 /// The part that was asked for; without a word the skin, or the first part of an avatar that has none.

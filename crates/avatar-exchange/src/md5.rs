@@ -1,0 +1,1 @@
+//! Meshes and animations of id Tech 4.

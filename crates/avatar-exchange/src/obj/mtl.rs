@@ -1,0 +1,236 @@
+//! Material libraries of OBJ files.
+
+use super::ObjFile;
+use crate::Resolve;
+use crate::text::{at_line, decode, float};
+use crate::{AlphaMode, ImportError, Material, Note, SceneImage};
+use std::collections::HashMap;
+
+/// Options of texture statements and how many words follow them; `-o`, `-s` and `-t` take up to three numbers.
+const OPTIONS: [(&str, usize); 9] = [
+    ("-blendu", 1),
+    ("-blendv", 1),
+    ("-bm", 1),
+    ("-boost", 1),
+    ("-cc", 1),
+    ("-clamp", 1),
+    ("-imfchan", 1),
+    ("-mm", 2),
+    ("-texres", 1),
+];
+
+/// Materials by name, and what they have beside what [`Material`] can tell yet.
+#[derive(Default)]
+struct Library {
+    found: HashMap<String, usize>,
+    materials: Vec<Draft>,
+}
+
+#[derive(Default)]
+struct Draft {
+    material: Material,
+    /// A height map, or a normal map under its statement, which is the usual use of it.
+    bump: Option<usize>,
+}
+
+/// Gives the parts of a file the materials that it names, in their order. What cannot be found gets a note.
+pub(super) fn attach(
+    obj: &mut ObjFile,
+    names: &[String],
+    libraries: &[String],
+    resolve: &mut Resolve<'_>,
+) -> Result<(), ImportError> {
+    let mut library = Library::default();
+    let mut read = std::collections::HashSet::new();
+    for path in libraries.iter().flat_map(|line| paths(line)) {
+        if !read.insert(path.clone()) {
+            continue;
+        }
+        match resolve(&path) {
+            Ok(bytes) => {
+                parse(&mut library, obj, &path, &decode(&bytes)).map_err(|error| error.in_file(&path))?;
+            }
+            Err(reason) => {
+                obj.notes.push(note(&path, &format!("the material library could not be read: {reason}")))
+            }
+        }
+    }
+    for name in names {
+        let material = match library.found.get(name).and_then(|&index| library.materials.get(index)) {
+            Some(Draft { material, bump }) => {
+                if let (None, Some(_)) = (material.normal_texture, bump) {
+                    obj.notes
+                        .push(note(&format!("material {name:?}"), "its bump map is taken for a normal map"));
+                }
+                Material { normal_texture: material.normal_texture.or(*bump), ..material.clone() }
+            }
+            None => {
+                obj.notes
+                    .push(note(&format!("material {name:?}"), "is in no library: it gets default values"));
+                Material { name: name.clone(), metallic: 0.0, ..Material::default() }
+            }
+        };
+        obj.materials.push(material);
+    }
+    keep_used_images(obj);
+    for image in obj.images.iter_mut() {
+        match resolve(&image.name) {
+            Ok(bytes) => {
+                image.mime = mime(&bytes).to_owned();
+                image.bytes = bytes;
+            }
+            Err(reason) => {
+                obj.notes.push(note(&image.name, &format!("the image could not be read: {reason}")))
+            }
+        }
+    }
+    Ok(())
+}
+
+fn note(place: &str, text: &str) -> Note {
+    Note { place: place.to_owned(), text: text.to_owned() }
+}
+
+/// A line may name several libraries, or one whose name contains spaces.
+fn paths(line: &str) -> Vec<String> {
+    let words = || line.split_whitespace();
+    let each_is_a_library = words().all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
+    if each_is_a_library { words().map(path).collect() } else { vec![path(line)] }
+}
+
+fn path(written: &str) -> String {
+    let path = written.trim().replace('\\', "/");
+    path.strip_prefix("./").map(str::to_owned).unwrap_or(path)
+}
+
+fn mime(bytes: &[u8]) -> &'static str {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => "image/png",
+        [0xff, 0xd8, 0xff, ..] => "image/jpeg",
+        _ => "",
+    }
+}
+
+fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Result<(), ImportError> {
+    let mut current = None;
+    let mut images: HashMap<String, usize> =
+        obj.images.iter().enumerate().map(|(index, image)| (image.name.clone(), index)).collect();
+    for (row, text) in text.lines().enumerate() {
+        let line = row + 1;
+        let text = text.trim();
+        let (keyword, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        let rest = rest.trim();
+        if keyword.is_empty() || keyword.starts_with('#') {
+            continue;
+        }
+        if keyword == "newmtl" {
+            library.found.entry(rest.to_owned()).or_insert(library.materials.len());
+            let material = Material { name: rest.to_owned(), metallic: 0.0, ..Material::default() };
+            library.materials.push(Draft { material, bump: None });
+            current = library.materials.last_mut();
+            continue;
+        }
+        let Some(draft) = &mut current else {
+            return Err(at_line(line, "newmtl before anything else", crate::text::shown(keyword)));
+        };
+        let material = &mut draft.material;
+        let one = |what| float(line, what, rest.split_whitespace().next());
+        let mut image = |images: &mut HashMap<String, usize>| texture(obj, images, path, line, rest);
+        match keyword {
+            "Kd" => color(line, rest, &mut material.base_color[..3])?,
+            "Ke" => color(line, rest, &mut material.emissive)?,
+            "d" => {
+                // `d -halo` depends on the angle of sight.
+                let word = rest.split_whitespace().find(|word| *word != "-halo");
+                opacity(material, float(line, "an opacity", word)?);
+            }
+            "Tr" => opacity(material, 1.0 - one("a transparency")?),
+            // Of the same width: B. Karis, "Specular BRDF Reference" (2013), α² = 2 / (n + 2) with α the roughness squared.
+            "Ns" => material.roughness = (2.0 / (one("an exponent")?.max(0.0) + 2.0)).sqrt().sqrt(),
+            "Pr" => material.roughness = one("a roughness")?.clamp(0.0, 1.0),
+            "Pm" => material.metallic = one("a metalness")?.clamp(0.0, 1.0),
+            "map_Kd" => material.base_color_texture = image(&mut images),
+            "map_Ke" => material.emissive_texture = image(&mut images),
+            "norm" | "map_norm" => material.normal_texture = image(&mut images),
+            "bump" | "map_bump" | "map_Bump" => draft.bump = image(&mut images),
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn opacity(material: &mut Material, opacity: f32) {
+    material.base_color[3] = opacity.clamp(0.0, 1.0);
+    material.alpha_mode = if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
+}
+
+/// One number counts for all three. Spectra and CIE colours are left as they were.
+fn color(line: usize, rest: &str, color: &mut [f32]) -> Result<(), ImportError> {
+    if rest.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return Ok(());
+    }
+    let words: Vec<&str> = rest.split_whitespace().take(color.len()).collect();
+    for (channel, value) in color.iter_mut().enumerate() {
+        *value = float(line, "a colour", words.get(channel).or(words.first()).copied())?;
+    }
+    Ok(())
+}
+
+/// The image that a texture statement names after its options.
+fn texture(
+    obj: &mut ObjFile,
+    images: &mut HashMap<String, usize>,
+    library: &str,
+    line: usize,
+    rest: &str,
+) -> Option<usize> {
+    let mut rest = rest;
+    let mut moved = false;
+    let split = |text: &str| -> (usize, usize) {
+        let end = text.find(char::is_whitespace).unwrap_or(text.len());
+        (end, text.len() - text[end..].trim_start().len())
+    };
+    while rest.starts_with('-') {
+        let (end, next) = split(rest);
+        let option = rest[..end].to_ascii_lowercase();
+        rest = &rest[next..];
+        let known = OPTIONS.iter().find(|(name, _)| *name == option);
+        let most = known.map_or(if option == "-type" { 1 } else { 3 }, |(_, words)| *words);
+        moved |= ["-o", "-s", "-t"].contains(&option.as_str());
+        for _ in 0..most {
+            let (end, next) = split(rest);
+            if known.is_none() && option != "-type" && rest[..end].parse::<f32>().is_err() {
+                break;
+            }
+            rest = &rest[next..];
+        }
+    }
+    if moved {
+        obj.notes.push(note(&format!("{library}, line {line}"), "where the texture lies is left out"));
+    }
+    if rest.is_empty() {
+        return None;
+    }
+    let name = path(rest);
+    Some(*images.entry(name.clone()).or_insert_with(|| {
+        obj.images.push(SceneImage { name, ..SceneImage::default() });
+        obj.images.len() - 1
+    }))
+}
+
+/// Drops images that no material of the file shows; libraries are often shared by many files.
+fn keep_used_images(obj: &mut ObjFile) {
+    let mut places = vec![None; obj.images.len()];
+    let mut kept = Vec::new();
+    for material in &mut obj.materials {
+        let slots =
+            [&mut material.base_color_texture, &mut material.emissive_texture, &mut material.normal_texture];
+        for image in slots.into_iter().flatten() {
+            *image = *places[*image].get_or_insert_with(|| {
+                kept.push(std::mem::take(&mut obj.images[*image]));
+                kept.len() - 1
+            });
+        }
+    }
+    obj.images = kept;
+}
