@@ -1,1 +1,0 @@
-//! Meshes and animations of id Tech 4.
