@@ -60,7 +60,7 @@ pub use evaluate::ScenePose;
 pub use freeze::{Palette, PaletteEntry, Scene};
 pub use material::{AlphaMode, Material, SceneImage};
 pub use normals::deform_unevenly;
-pub use read::{Format, Resolve, read};
+pub use read::{FRAMES_PER_SECOND, Format, Resolve, TextFile, read};
 pub use scene::{
     Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,
 };

@@ -1,11 +1,16 @@
 //! Meshes and animations of id Tech 4.
 #![cfg(feature = "md5")]
-#![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "a test may panic and look at the clock"
+)]
 
 mod texts;
 
-use avatar_exchange::md5::{TextFile, read};
-use avatar_exchange::{ImportError, Scene};
+use avatar_exchange::md5::read;
+use avatar_exchange::{ImportError, Scene, TextFile};
 use avatar_mesh::deform;
 use glam::{DVec3, Vec2, Vec3};
 
@@ -125,7 +130,7 @@ fn vertices_come_from_weights() {
     // y is up in the world.
     let worlds = scene.worlds(&scene.rest());
     assert_eq!(scene.nodes[2].name, "hand");
-    assert!(DVec3::from(worlds[2].translation).abs_diff_eq(DVec3::new(4.0, 10.0, 0.0), 1e-6));
+    assert!(worlds[2].translation.abs_diff_eq(DVec3::new(4.0, 10.0, 0.0), 1e-6));
 }
 
 #[test]

@@ -1,9 +1,10 @@
 use anyhow::{Context, Result, anyhow, bail};
+use avatar_exchange::TextFile;
 use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning};
 use include_dir::{Dir, include_dir};
 use std::borrow::Cow;
 use std::io::ErrorKind;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/marsienne");
 
@@ -18,11 +19,14 @@ pub(crate) enum Files {
 
 impl Files {
     /// The folder, if there is one of that name; without a name the built-in avatar.
-    pub(crate) fn open(pack: Option<&Path>) -> Result<Self> {
+    pub(crate) fn open(pack: Option<&Path>, further: &[PathBuf]) -> Result<Self> {
         let Some(path) = pack else { return Ok(Self::BuiltIn) };
         match std::fs::metadata(path) {
-            Ok(metadata) if metadata.is_dir() => Ok(Self::Folder(path.to_owned())),
-            Ok(_) => import(path).map(|import| Self::File(path.to_owned(), Box::new(import))),
+            Ok(metadata) if metadata.is_dir() && further.is_empty() => Ok(Self::Folder(path.to_owned())),
+            Ok(metadata) if metadata.is_dir() => {
+                bail!("{}: expected a file that further files belong to, found a folder", path.display())
+            }
+            Ok(_) => import(path, further).map(|import| Self::File(path.to_owned(), Box::new(import))),
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 bail!(
                     "{}: expected the folder or file of an avatar (or a verb), found nothing of that name",
@@ -88,14 +92,45 @@ impl Files {
 /// Larger files than this are not read.
 const MAX_FILE_BYTES: u64 = 4 << 30;
 
-/// Reads an avatar from a file of an interchange format, and what that refers to from its folder.
-fn import(path: &Path) -> Result<Import> {
+/// Reads an avatar from a file of an interchange format, what belongs to it, and what it refers to from its folder.
+fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     let file = path.display().to_string();
     let bytes = read_file(path).map_err(|reason| anyhow!("{file}: {reason}"))?;
+    let mut files = Vec::new();
+    for path in further {
+        let name = path.display().to_string();
+        let found = with_its_files(path).map_err(|reason| anyhow!("{name}: {reason}"))?;
+        for path in found {
+            let name = path.display().to_string();
+            files.push((read_file(&path).map_err(|reason| anyhow!("{name}: {reason}"))?, name));
+        }
+    }
+    let further: Vec<_> = files.iter().map(|(bytes, file)| TextFile { file, bytes }).collect();
     let folder = path.parent().unwrap_or(Path::new(""));
-    // The reader has checked that the name stays in the folder.
-    let scene = avatar_exchange::read(&file, &bytes, &mut |name| read_file(&folder.join(name)))?;
+    let mut resolve = |name: &str| read_file(&folder.join(inside(name)?));
+    let scene = avatar_exchange::read(&file, &bytes, &further, &mut resolve)?;
     Import::from_scene(scene).map_err(|error| anyhow!("{file}: {error}"))
+}
+
+/// A file, or the files of a folder in the order of their names.
+fn with_its_files(path: &Path) -> Result<Vec<PathBuf>, String> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let unreadable = |error: std::io::Error| format!("expected a readable folder, found: {error}");
+    let entries = std::fs::read_dir(path).map_err(unreadable)?;
+    let mut files =
+        entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>().map_err(unreadable)?;
+    files.retain(|file| file.is_file());
+    files.sort();
+    Ok(files)
+}
+
+/// What a file refers to is beside it or below.
+fn inside(name: &str) -> Result<&Path, String> {
+    let path = Path::new(name);
+    let is_inside = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    if is_inside { Ok(path) } else { Err("expected a file in the same folder or below".to_owned()) }
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, String> {

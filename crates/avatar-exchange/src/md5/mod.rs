@@ -5,7 +5,7 @@
 //! computed, since there are none in the file, and a shader is a name only.
 //!
 //! ```
-//! use avatar_exchange::md5::{TextFile, read};
+//! use avatar_exchange::{TextFile, md5::read};
 //!
 //! let mesh = b"MD5Version 10 numJoints 1 numMeshes 1
 //! joints { \"origin\" -1 ( 0 0 1 ) ( 0 0 0 ) }
@@ -26,18 +26,9 @@ mod mesh;
 mod words;
 
 use crate::text::{decode, stem};
-use crate::{ImportError, Node, Note, RawScene, Scene, ScenePart, Skin, Transform, Trs};
+use crate::{ImportError, Node, Note, RawScene, Scene, ScenePart, Skin, TextFile, Transform, Trs};
 use glam::{DAffine3, Quat};
 use words::Words;
-
-/// A file and its name.
-#[derive(Clone, Copy, Debug)]
-pub struct TextFile<'a> {
-    /// Name, for messages; clips are called like their files.
-    pub file: &'a str,
-    /// Contents.
-    pub bytes: &'a [u8],
-}
 
 /// Reads a mesh and any number of its animations, each of which becomes a clip.
 ///

@@ -32,5 +32,5 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
 }
 
 fn open(pack: &PackArg) -> Result<Files> {
-    Files::open(pack.pack.as_deref())
+    Files::open(pack.pack.as_deref(), &pack.with)
 }

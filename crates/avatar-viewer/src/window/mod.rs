@@ -43,7 +43,7 @@ const SETTLED: Duration = Duration::from_millis(100);
 
 /// Opens the window and runs until it is closed.
 pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
-    let files = Files::open(args.pack.pack.as_deref())?;
+    let files = Files::open(args.pack.pack.as_deref(), &args.pack.with)?;
     let pack = files.load_pack()?;
     let textures = files.load_textures();
     let start = args.face.resolve(&pack, matches)?;
