@@ -36,9 +36,17 @@ mod evaluate;
 mod freeze;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+#[cfg(feature = "gltf")]
+mod gltf_write;
 mod interpolate;
 mod material;
 mod scene;
+
+/// Writing GLB, the binary form of glTF 2.0; [`gltf`] reads it.
+#[cfg(feature = "gltf")]
+pub mod glb {
+    pub use crate::gltf_write::{ExportError, write, write_raw};
+}
 
 pub use error::ImportError;
 pub use evaluate::ScenePose;
