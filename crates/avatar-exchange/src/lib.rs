@@ -41,6 +41,8 @@ mod evaluate;
 mod freeze;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+#[cfg(feature = "gltf")]
+mod gltf_write;
 mod interpolate;
 mod material;
 #[cfg(feature = "md5")]
@@ -54,6 +56,12 @@ mod scene;
 pub mod target;
 #[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
 mod text;
+
+/// Writing GLB, the binary form of glTF 2.0; [`gltf`] reads it.
+#[cfg(feature = "gltf")]
+pub mod glb {
+    pub use crate::gltf_write::{ExportError, write, write_raw};
+}
 
 pub use error::ImportError;
 pub use evaluate::ScenePose;

@@ -2,6 +2,8 @@
 #![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
 #![allow(clippy::expect_used, clippy::panic, clippy::disallowed_methods, reason = "helpers of tests")]
 
+pub mod random;
+
 use avatar_exchange::{ImportError, Scene, gltf};
 use std::io::Write;
 use std::path::{Path, PathBuf};
