@@ -30,17 +30,27 @@
 //!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
+#[cfg(feature = "collada")]
+pub mod collada;
+#[cfg(any(feature = "collada", feature = "fbx"))]
+mod corners;
 mod error;
 mod evaluate;
+#[cfg(feature = "fbx")]
+pub mod fbx;
 mod freeze;
 mod interpolate;
 mod material;
+#[cfg(any(feature = "collada", feature = "fbx"))]
+mod resolve;
 mod scene;
 
 pub use error::ImportError;
 pub use evaluate::ScenePose;
 pub use freeze::{Palette, PaletteEntry, Scene};
 pub use material::{AlphaMode, Material, SceneImage};
+#[cfg(any(feature = "collada", feature = "fbx"))]
+pub use resolve::Resolve;
 pub use scene::{
-    Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,
+    Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, Note, RawScene, ScenePart, Skin, Transform, Trs,
 };
