@@ -9,11 +9,11 @@ use std::time::{Duration, Instant};
 const MAX_TIME: Duration = Duration::from_secs(20);
 
 /// A reader without other files.
-pub type Read = fn(&str, &[u8]) -> Result<Scene, ImportError>;
+pub(crate) type Read = fn(&str, &[u8]) -> Result<Scene, ImportError>;
 
 /// The folder of the Open Asset Import Library's test models, as Debian packages them: `assimp-testmodels`. None where
 /// it is not there, which is told on the terminal past the capturing of tests' output.
-pub fn models(folder: &str) -> Option<PathBuf> {
+pub(crate) fn models(folder: &str) -> Option<PathBuf> {
     let root = std::env::var_os("MIMIK_ASSIMP_MODELS").unwrap_or_else(|| "/usr/share/assimp/models".into());
     let folder = Path::new(&root).join(folder);
     if folder.is_dir() {
@@ -24,7 +24,7 @@ pub fn models(folder: &str) -> Option<PathBuf> {
 }
 
 /// All files below a folder with one of these endings, in order.
-pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -39,7 +39,7 @@ pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
 }
 
 /// Reads bytes of any kind: a scene that can be posed at rest and in its clips, or an error with its place, in time.
-pub fn read_any(read: Read, name: &str, bytes: &[u8]) -> Result<Scene, ImportError> {
+pub(crate) fn read_any(read: Read, name: &str, bytes: &[u8]) -> Result<Scene, ImportError> {
     let start = Instant::now();
     let result = std::panic::catch_unwind(|| {
         let result = read(name, bytes);
@@ -68,7 +68,7 @@ pub fn read_any(read: Read, name: &str, bytes: &[u8]) -> Result<Scene, ImportErr
 }
 
 /// Cuts and flips, most of which a reader must refuse, and none of which may harm it. Returns how many it took.
-pub fn damage(read: Read, name: &str, bytes: &[u8], flips: usize) -> usize {
+pub(crate) fn damage(read: Read, name: &str, bytes: &[u8], flips: usize) -> usize {
     let mut loaded = 0;
     for end in (0..bytes.len()).step_by(64) {
         loaded += usize::from(read_any(read, name, &bytes[..end]).is_ok());
@@ -92,7 +92,7 @@ pub fn damage(read: Read, name: &str, bytes: &[u8], flips: usize) -> usize {
 }
 
 /// The box around all parts at rest.
-pub fn bounds(scene: &Scene) -> [[f32; 3]; 2] {
+pub(crate) fn bounds(scene: &Scene) -> [[f32; 3]; 2] {
     let pose = scene.rest();
     let bones = scene.bones(&pose);
     let mut bounds = [[f32::MAX; 3], [f32::MIN; 3]];
@@ -110,18 +110,7 @@ pub fn bounds(scene: &Scene) -> [[f32; 3]; 2] {
     bounds
 }
 
-/// Points, triangles, materials, joints and clips in a line, to compare scenes by eye.
-pub fn summary(scene: &Scene) -> String {
-    let triangles: usize = scene.parts.iter().map(|part| part.mesh.triangles.len()).sum();
-    let joints: usize = scene.skins.iter().map(|skin| skin.joints.len()).sum();
-    let shapes: usize = scene.parts.iter().map(|part| part.mesh.shapes.len()).sum();
-    format!(
-        "{} nodes, {} parts, {triangles} triangles, {joints} joints, {shapes} shapes, {} clips, {} materials, {} images, {:?}",
-        scene.nodes.len(),
-        scene.parts.len(),
-        scene.clips.len(),
-        scene.materials.len(),
-        scene.images.len(),
-        bounds(scene),
-    )
+/// Triangles of all parts.
+pub(crate) fn triangles(scene: &Scene) -> usize {
+    scene.parts.iter().map(|part| part.mesh.triangles.len()).sum()
 }
