@@ -1,5 +1,6 @@
 use crate::error::quoted;
 use crate::{Channel, ChannelTarget, ImportError, Interpolation, Node, Note, RawScene, Transform};
+use avatar_mesh::drivers::ShapeDrivers;
 use glam::Affine3A;
 use std::ops::Deref;
 
@@ -51,6 +52,7 @@ impl Scene {
         check_nodes(&raw.nodes)?;
         check_skins(&raw)?;
         check_parts(&mut raw)?;
+        check_drivers(&raw)?;
         check_clips(&raw)?;
         check_materials(&raw)?;
         let palette = Palette::of(&raw);
@@ -201,6 +203,22 @@ fn check_parts(raw: &mut RawScene) -> Result<(), ImportError> {
                 .notes
                 .extend(warnings.iter().map(|warning| Note { place: place(), text: warning.to_string() })),
             Err(error) => return Err(ImportError::new(place(), "a valid mesh", error.to_string())),
+        }
+    }
+    Ok(())
+}
+
+fn check_drivers(raw: &RawScene) -> Result<(), ImportError> {
+    for (number, drivers) in raw.drivers.iter().enumerate() {
+        let place = || format!("drivers {number}");
+        in_range(place, "a node", raw.nodes.len(), drivers.node)?;
+        let (shapes, weights) = (drivers.shapes.len(), raw.nodes[drivers.node].weights.len());
+        if shapes != weights {
+            let expected = format!("{weights} shapes, one for each weight of its node");
+            return Err(ImportError::new(place(), expected, shapes.to_string()));
+        }
+        if let Err(error) = ShapeDrivers::new(&drivers.drivers, &drivers.shapes, &drivers.rules) {
+            return Err(ImportError::new(place(), "rules that can be followed", error.to_string()));
         }
     }
     Ok(())

@@ -36,8 +36,12 @@ mod angle_normals;
 mod assemble;
 #[cfg(feature = "bvh")]
 pub mod bvh;
+#[cfg(feature = "fbx")]
+mod corners;
 mod error;
 mod evaluate;
+#[cfg(feature = "fbx")]
+pub mod fbx;
 mod freeze;
 #[cfg(feature = "gltf")]
 pub mod gltf;
@@ -51,6 +55,8 @@ mod normals;
 #[cfg(feature = "obj")]
 pub mod obj;
 mod read;
+#[cfg(feature = "fbx")]
+mod resolve;
 mod scene;
 #[cfg(feature = "target")]
 pub mod target;
@@ -70,5 +76,6 @@ pub use material::{AlphaMode, Material, SceneImage};
 pub use normals::deform_unevenly;
 pub use read::{FRAMES_PER_SECOND, Format, Resolve, TextFile, read};
 pub use scene::{
-    Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,
+    Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, Note, RawScene, ScenePart, Skin,
+    Transform, Trs,
 };

@@ -21,6 +21,8 @@ pub enum Format {
     Gltf,
     /// Wavefront OBJ.
     Obj,
+    /// Autodesk FBX.
+    Fbx,
     /// Meshes of id Tech 4.
     Md5,
     /// Biovision hierarchies.
@@ -29,13 +31,14 @@ pub enum Format {
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 4] = [Self::Gltf, Self::Obj, Self::Md5, Self::Bvh];
+    pub const ALL: [Self; 5] = [Self::Gltf, Self::Obj, Self::Fbx, Self::Md5, Self::Bvh];
 
     /// How files of the format end, in lower case and without the dot.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Gltf => &["glb", "gltf"],
             Self::Obj => &["obj"],
+            Self::Fbx => &["fbx"],
             Self::Md5 => &["md5mesh"],
             Self::Bvh => &["bvh"],
         }
@@ -46,7 +49,7 @@ impl Format {
         match self {
             Self::Obj => &["target", "obj"],
             Self::Md5 => &["md5anim"],
-            Self::Gltf | Self::Bvh => &[],
+            Self::Gltf | Self::Fbx | Self::Bvh => &[],
         }
     }
 
@@ -100,6 +103,8 @@ pub fn read(
         Format::Gltf => crate::gltf::read(file, bytes, resolve),
         #[cfg(feature = "obj")]
         Format::Obj => read_obj(file, bytes, further, resolve),
+        #[cfg(feature = "fbx")]
+        Format::Fbx => crate::fbx::read(file, bytes, resolve),
         #[cfg(feature = "md5")]
         Format::Md5 => crate::md5::read(TextFile { file, bytes }, further),
         #[cfg(feature = "bvh")]

@@ -1,5 +1,6 @@
 use crate::{Material, SceneImage};
 use avatar_mesh::Mesh;
+use avatar_mesh::drivers::ShapeRule;
 use glam::{Affine3A, DAffine3, DMat4, Quat, Vec3, Vec4};
 
 /// What a reader makes of a file, editable and unchecked; [`crate::Scene::from_raw`] checks it.
@@ -11,6 +12,8 @@ pub struct RawScene {
     pub parts: Vec<ScenePart>,
     /// Which nodes move the vertices of parts.
     pub skins: Vec<Skin>,
+    /// Which shapes are in-betweens of which drivers; nodes that have none are left out.
+    pub drivers: Vec<NodeDrivers>,
     /// Motion.
     pub clips: Vec<Clip>,
     /// Looks of parts.
@@ -32,6 +35,20 @@ pub struct Node {
     pub local: Transform,
     /// Blend weights at rest, one for each shape of the parts at this node.
     pub weights: Vec<f32>,
+}
+
+/// How drivers blend the shapes of the parts at a node, for [`avatar_mesh::drivers::ShapeDrivers::new`]. Weights of
+/// nodes and clips are those of shapes, so that nothing needs these to show a pose of the file: they are for sliders.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NodeDrivers {
+    /// Position of the node.
+    pub node: usize,
+    /// Names of the drivers: a slider for each.
+    pub drivers: Vec<String>,
+    /// Names of the shapes, one for each weight of the node.
+    pub shapes: Vec<String>,
+    /// What the shapes that do not simply have the weight of the driver of their name follow.
+    pub rules: Vec<ShapeRule>,
 }
 
 /// `parent_from_node`.

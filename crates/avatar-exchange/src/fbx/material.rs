@@ -1,0 +1,90 @@
+use super::note;
+use crate::resolve::{self, mime_of, relative};
+use crate::{AlphaMode, Material, RawScene, Resolve, SceneImage};
+use std::collections::HashMap;
+
+/// Reads all materials in the file's order, with the images that they use.
+pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut RawScene) {
+    let mut images = Images { resolve, of_texture: HashMap::new() };
+    for material in &fbx.materials {
+        let pbr = &material.pbr;
+        let number = |map: &ufbx::MaterialMap, default: f32| match map.has_value {
+            true => (map.value_vec4.x as f32).clamp(0.0, 1.0),
+            false => default,
+        };
+        let color = |color: &ufbx::MaterialMap, factor: f32, default: f32| match color.has_value {
+            true => [color.value_vec4.x, color.value_vec4.y, color.value_vec4.z]
+                .map(|x| finite(x as f32) * factor),
+            false => [default; 3],
+        };
+        let base_color_texture = images.of(&pbr.base_color, scene);
+        // A texture replaces the colour of FBX, it is not multiplied.
+        let [r, g, b] = match base_color_texture {
+            Some(_) => [1.0; 3],
+            None => color(&pbr.base_color, number(&pbr.base_factor, 1.0), 1.0),
+        };
+        let opacity = number(&pbr.opacity, 1.0);
+        let read = Material {
+            name: material.element.name.to_string(),
+            base_color: [r, g, b, opacity],
+            base_color_texture,
+            metallic: number(&pbr.metalness, 0.0),
+            roughness: number(&pbr.roughness, 1.0),
+            normal_texture: images.of(&pbr.normal_map, scene),
+            emissive: color(&pbr.emission_color, number(&pbr.emission_factor, 1.0), 0.0),
+            emissive_texture: images.of(&pbr.emission_color, scene),
+            alpha_mode: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+            double_sided: material.features.double_sided.enabled,
+            ..Material::default()
+        };
+        scene.materials.push(read);
+    }
+}
+
+fn finite(x: f32) -> f32 {
+    if x.is_finite() { x } else { 0.0 }
+}
+
+/// Images read so far, by the number of their texture.
+struct Images<'a, 'b> {
+    resolve: &'a mut Resolve<'b>,
+    of_texture: HashMap<u32, Option<usize>>,
+}
+
+impl Images<'_, '_> {
+    fn of(&mut self, map: &ufbx::MaterialMap, scene: &mut RawScene) -> Option<usize> {
+        let texture = map.texture.as_ref().filter(|_| map.texture_enabled)?;
+        // What is layered or computed: the first picture in it.
+        let texture = texture.file_textures.first().unwrap_or(texture);
+        let key = texture.element.typed_id;
+        if let Some(known) = self.of_texture.get(&key) {
+            return *known;
+        }
+        let image = self.read(texture, scene);
+        self.of_texture.insert(key, image);
+        image
+    }
+
+    fn read(&mut self, texture: &ufbx::Texture, scene: &mut RawScene) -> Option<usize> {
+        let place = format!("texture '{}'", &*texture.element.name);
+        let names = [&texture.relative_filename, &texture.filename, &texture.absolute_filename];
+        let name = names.into_iter().find(|name| !name.is_empty()).map_or("", |name| &**name);
+        let video = texture.video.as_ref().map_or(&[][..], |video| &video.content);
+        let content = if texture.content.is_empty() { video } else { &texture.content };
+        if !content.is_empty() {
+            let name = relative(name);
+            let mime = mime_of(&name).to_owned();
+            scene.images.push(SceneImage { name, mime, bytes: content.to_vec() });
+        } else if name.is_empty() {
+            note(&mut scene.notes, place, "it has neither a picture nor a name, it is left out");
+            return None;
+        } else {
+            let (image, problem) = resolve::image(name, self.resolve);
+            scene.images.push(image);
+            if let Some(problem) = problem {
+                note(&mut scene.notes, place, problem);
+            }
+        }
+        Some(scene.images.len() - 1)
+    }
+}

@@ -1,0 +1,125 @@
+//! Parts: for each node with a mesh, one for each of the mesh's materials.
+
+use super::shapes::Blend;
+use super::skin::BoundSkin;
+use super::{note, place_of, vec3};
+use crate::corners::{Budget, Corner, Corners};
+use crate::{ImportError, RawScene, ScenePart};
+use glam::{Vec2, Vec3};
+
+/// Reads all parts, and their skins, shapes and weights on the way. Returns the shapes of nodes that have any.
+pub(super) fn read<'a>(
+    fbx: &'a ufbx::Scene,
+    scene: &mut RawScene,
+    budget: &mut Budget,
+) -> Result<Vec<Blend<'a>>, ImportError> {
+    let mut blends = Vec::new();
+    for node in &fbx.nodes {
+        let Some(mesh) = &node.mesh else { continue };
+        let place = place_of(node);
+        let wrong = |(expected, found): (String, String)| ImportError::new(place.as_str(), expected, found);
+        budget.take(mesh.vertices.len()).map_err(wrong)?;
+        let points: Vec<Vec3> = mesh.vertices.iter().map(|point| vec3(*point)).collect();
+        let blend = Blend::of(node, mesh, &mut scene.notes);
+        let mut skin = None;
+        for (primitive, segment) in mesh.material_parts.iter().enumerate() {
+            let corners = corners(mesh, segment, budget).map_err(wrong)?;
+            if corners.is_empty() {
+                continue;
+            }
+            let number = node.element.typed_id as usize;
+            let (mut mesh_here, tangents) = corners.mesh(&points);
+            mesh_here.shapes = match &blend {
+                Some(blend) => blend.shapes(&corners, budget).map_err(wrong)?,
+                None => Vec::new(),
+            };
+            let mut part = ScenePart::rigid(&name_of(node, mesh), number, mesh_here);
+            part.primitive = primitive;
+            part.tangents = tangents;
+            part.material = material_of(node, mesh, segment.index).filter(|at| *at < scene.materials.len());
+            if skin.is_none() {
+                skin = BoundSkin::read(node, mesh, scene)?;
+            }
+            if let Some(skin) = &skin {
+                part.skin = Some(skin.number);
+                part.mesh.skinning = Some(skin.influences.skinning(&corners));
+            }
+            scene.parts.push(part);
+        }
+        if mesh.num_line_faces + mesh.num_point_faces > 0 {
+            note(&mut scene.notes, place.as_str(), "faces with less than three corners are left out");
+        }
+        if mesh.uv_sets.len() > 1 {
+            let text = format!("{} further sets of texture coordinates are left out", mesh.uv_sets.len() - 1);
+            note(&mut scene.notes, place.as_str(), text);
+        }
+        if let Some(blend) = blend {
+            blend.write(scene);
+            blends.push(blend);
+        }
+    }
+    Ok(blends)
+}
+
+fn name_of(node: &ufbx::Node, mesh: &ufbx::Mesh) -> String {
+    let name = if node.element.name.is_empty() { &mesh.element.name } else { &node.element.name };
+    name.to_string()
+}
+
+/// Nodes have materials of their own for the mesh they show.
+fn material_of(node: &ufbx::Node, mesh: &ufbx::Mesh, index: u32) -> Option<usize> {
+    let materials = if node.materials.is_empty() { &mesh.materials } else { &node.materials };
+    Some(materials.get(index as usize)?.element.typed_id as usize)
+}
+
+fn corners(
+    mesh: &ufbx::Mesh,
+    segment: &ufbx::MeshPart,
+    budget: &mut Budget,
+) -> Result<Corners, (String, String)> {
+    let mut corners = Corners::default();
+    let mut triangles = vec![0; mesh.max_face_triangles.saturating_mul(3)];
+    for &face in &segment.face_indices {
+        let hole = mesh.face_hole.get(face as usize).copied().unwrap_or(false);
+        let Some(&face) = mesh.faces.get(face as usize).filter(|face| face.num_indices >= 3 && !hole) else {
+            continue;
+        };
+        // The library's function stops the program where this room is too small.
+        if (face.num_indices as usize - 2).saturating_mul(3) > triangles.len() {
+            return Err((
+                format!("at most {} corners in a face", triangles.len() / 3 + 2),
+                face.num_indices.to_string(),
+            ));
+        }
+        let count = mesh.triangulate_face(&mut triangles, face) as usize;
+        budget.take(count)?;
+        for triangle in triangles.as_chunks::<3>().0.iter().take(count) {
+            corners.triangle(triangle.map(|index| corner(mesh, index as usize)));
+        }
+    }
+    Ok(corners)
+}
+
+fn corner(mesh: &ufbx::Mesh, index: usize) -> Corner {
+    let value = |values: &ufbx::VertexVec3| {
+        let at = *values.indices.get(index)?;
+        Some(vec3(*values.values.get(at as usize)?)).filter(|value| value.is_finite())
+    };
+    let uv = mesh.vertex_uv.indices.get(index).and_then(|at| mesh.vertex_uv.values.get(*at as usize));
+    // Origin bottom left in FBX.
+    let uv = uv.map(|uv| Vec2::new(uv.x as f32, 1.0 - uv.y as f32)).filter(|uv| uv.is_finite());
+    let normal = value(&mesh.vertex_normal).and_then(Vec3::try_normalize);
+    let tangent = value(&mesh.vertex_tangent).and_then(Vec3::try_normalize);
+    let bitangent = value(&mesh.vertex_bitangent);
+    let tangent = match (normal, tangent, bitangent) {
+        (Some(normal), Some(tangent), Some(bitangent)) => {
+            // v grows downward here and upward in FBX, so its direction is the opposite one; glTF's definition of the
+            // bitangent counts v upward on the picture, too, and keeps the sign.
+            let hand = if normal.cross(tangent).dot(bitangent) < 0.0 { -1.0 } else { 1.0 };
+            tangent.extend(hand)
+        }
+        _ => glam::Vec4::ZERO,
+    };
+    let point = mesh.vertex_indices.get(index).copied().unwrap_or(0);
+    Corner { point, uv: uv.unwrap_or_default(), normal, tangent }
+}
