@@ -47,6 +47,8 @@ pub(crate) enum Verb {
     Bones(BonesArgs),
     /// Writes a part's deformed positions and normals as OBJ
     Deform(DeformArgs),
+    /// Writes the avatar in another format: .glb with rig, shapes and clips, or .obj as it is posed
+    Convert(ConvertArgs),
     /// Writes the strands of hair as the GPU grew them, as JSON
     Strands(StrandsArgs),
     /// Prints the motion of all controls while poses are pressed, as CSV
@@ -138,6 +140,17 @@ pub(crate) struct DeformArgs {
     /// Compute on the GPU, with the function that draws
     #[arg(long)]
     pub(crate) gpu: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ConvertArgs {
+    #[command(flatten)]
+    pub(crate) pack: PackArg,
+    #[command(flatten)]
+    pub(crate) face: FaceArgs,
+    /// The file to write; its end says the format
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,7 @@
 //! One module per verb of the command line.
 
 mod bones;
+mod convert;
 mod deform;
 mod info;
 mod keys;
@@ -24,6 +25,7 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
         Verb::Sheet(args) => sheet::run(&args),
         Verb::Bones(args) => bones::run(&args, matches),
         Verb::Deform(args) => deform::run(&args, matches),
+        Verb::Convert(args) => convert::run(&args, matches),
         Verb::Strands(args) => strands::run(&args, matches),
         Verb::Trace(args) => trace::run(&args),
         Verb::Info(args) => info::run(&args),
