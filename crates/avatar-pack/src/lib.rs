@@ -27,6 +27,7 @@
 //! ```
 
 mod error;
+mod export;
 mod face;
 mod hair;
 mod import;
@@ -35,6 +36,7 @@ mod source;
 mod textures;
 
 pub use error::{PackError, PackProblem, Warning};
+pub use export::export;
 pub use face::{FaceError, FaceState};
 pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet};
 pub use pack::{Pack, PaletteBone, Part, load_hair, load_materials};

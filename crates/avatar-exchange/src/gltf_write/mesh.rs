@@ -45,8 +45,13 @@ fn primitive(scene: &Scene, number: usize, buffer: &mut Buffer) -> Result<Value,
         let tangents = tangents.iter().map(|tangent| with_handedness(*tangent).to_array());
         attribute("TANGENT", buffer.vectors(tangents, vertices, false));
     }
+    let textures = part.material.map_or(0, |material| scene.materials[material].textures().count());
+    let says_something =
+        textures > 0 || mesh.uvs.iter().any(|uv| uv.to_array().iter().any(|x| x.to_bits() != 0));
     let uvs = mesh.uvs.iter().map(|uv| uv.to_array());
-    attribute("TEXCOORD_0", buffer.vectors(uvs, vertices, false));
+    if says_something {
+        attribute("TEXCOORD_0", buffer.vectors(uvs, vertices, false));
+    }
     if let (Some(skin), Some(skinning)) = (part.skin, &mesh.skinning) {
         let (joints, weights) = influences(part, number, skinning, scene.palette().skins[skin])?;
         attribute("JOINTS_0", buffer.joints(&joints));

@@ -1,0 +1,284 @@
+//! An avatar as a scene, for files of interchange formats: the way back from `import`.
+
+use crate::{Pack, Part, Textures};
+use avatar_exchange::{
+    AlphaMode, Channel, ChannelTarget, Clip, Interpolation, Material, Node, Note, RawScene, SceneImage,
+    ScenePart, Skin, Transform, Trs,
+};
+use avatar_mesh::{Mesh, PartKind, Skinning, Winding};
+use glam::{Affine3A, DAffine3, DQuat, Vec3};
+use image::{ImageFormat, Rgba, RgbaImage};
+use pose_anim::{Drive, Pose};
+use std::collections::BTreeSet;
+use std::io::Cursor;
+
+/// Makes a scene of an avatar.
+///
+/// * Each joint is a node with its bind matrix, and each part a node at the root with a mesh.
+/// * All parts share one skin, the pack's palette; vertices of a rigid part have all their weight on its one bone. So no
+///   vertex is moved into another space and rounded there: a reader that does as glTF 2.0 says has the avatar's own numbers.
+/// * Shapes are morph targets, their weights at rest the controls' defaults.
+/// * Each pose is a clip with one key at 0 s: where its controls and the couplings take joints and shapes from the defaults.
+/// * Parts whose triangles contradict their normals are turned around, as for drawing.
+/// * Looks are glTF's metallic-roughness model: colour, relief, occlusion, roughness from gloss. Textures are PNG.
+///
+/// Notes of the scene say what of the avatar it does not represent. The scene of a pack that was loaded is valid: [`avatar_exchange::Scene::from_raw`]
+/// takes it.
+pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
+    let mut scene = RawScene { nodes: joints(pack), ..RawScene::default() };
+    let joint_from_mesh = pack.palette.iter().map(|bone| bone.joint_from_mesh);
+    scene.skins.push(Skin {
+        name: "palette".to_owned(),
+        joints: pack.palette.iter().map(|bone| bone.joint.index()).collect(),
+        inverse_binds: joint_from_mesh.collect(),
+    });
+    let mut images = Images::default();
+    let rest = weights_of_defaults(pack);
+    let mut shapes_of_nodes = Vec::new();
+    for (number, part) in pack.parts.iter().enumerate() {
+        let kept = kept_shapes(part);
+        let node = scene.nodes.len();
+        let weights = kept.iter().map(|shape| rest.get(*shape).copied().unwrap_or(0.0)).collect();
+        scene.nodes.push(Node { name: part.name.clone(), weights, ..Node::default() });
+        let mesh = mesh(pack, part, &kept);
+        let material = material(pack, textures, number, &mut images, &mut scene.notes);
+        scene.parts.push(ScenePart {
+            material: Some(scene.materials.len()),
+            ..ScenePart::skinned(&part.name, node, mesh, 0)
+        });
+        scene.materials.push(material);
+        shapes_of_nodes.push((node, kept));
+    }
+    scene.images = images.encoded;
+    scene.clips = clips(pack, &scene.nodes, &shapes_of_nodes, &mut scene.notes);
+    let mut note =
+        |text: &str| scene.notes.push(Note { place: "the avatar".to_owned(), text: text.to_owned() });
+    note("controls, couplings and times of poses are left out");
+    if pack.hair.is_some() {
+        note("hair is left out");
+    }
+    scene
+}
+
+/// A node per joint, in the order of the rig, so that positions are the same.
+fn joints(pack: &Pack) -> Vec<Node> {
+    let rig = &pack.rig;
+    let joint = |((name, parent), bind): ((&String, &Option<rig_core::JointId>), &Affine3A)| Node {
+        name: name.clone(),
+        parent: parent.map(|parent| parent.index()),
+        local: Transform::Trs(trs(widen(*bind))),
+        weights: Vec::new(),
+    };
+    rig.names().iter().zip(rig.parents()).zip(rig.parent_from_joint()).map(joint).collect()
+}
+
+fn widen(affine: Affine3A) -> DAffine3 {
+    DAffine3::from_cols_array(&affine.to_cols_array().map(f64::from))
+}
+
+/// The nearest product of translation, rotation and scale: clips move nothing else. Bind matrices are rigid to within the
+/// digits that their files print.
+fn trs(parent_from_joint: DAffine3) -> Trs {
+    let (scale, rotation, translation) = parent_from_joint.to_scale_rotation_translation();
+    let rotation =
+        Some(rotation.normalize()).filter(|rotation| rotation.is_finite()).unwrap_or(DQuat::IDENTITY);
+    Trs {
+        translation: translation.as_vec3(),
+        rotation: rotation.as_quat(),
+        scale: unit_scale(scale.as_vec3()),
+    }
+}
+
+/// Scale that is nothing but the rounding of a rotation is none.
+fn unit_scale(scale: Vec3) -> Vec3 {
+    if scale.abs_diff_eq(Vec3::ONE, 1e-6) { Vec3::ONE } else { scale }
+}
+
+/// Positions of shapes that are the part's own: those of other parts have neither name nor offsets.
+fn kept_shapes(part: &Part) -> Vec<usize> {
+    let is_own =
+        |(_, shape): &(usize, &avatar_mesh::Shape)| !shape.name.is_empty() || shape.moved_vertices() > 0;
+    part.mesh.shapes.iter().enumerate().filter(is_own).map(|(number, _)| number).collect()
+}
+
+fn mesh(pack: &Pack, part: &Part, kept: &[usize]) -> Mesh {
+    let mut mesh = part.mesh.clone();
+    mesh.shapes = kept.iter().filter_map(|number| part.mesh.shapes.get(*number).cloned()).collect();
+    for (shape, number) in mesh.shapes.iter_mut().zip(kept) {
+        if let Some(name) = pack.shapes.get(*number) {
+            shape.name.clone_from(name);
+        }
+    }
+    if Winding::of(&mesh).is_inside_out() {
+        mesh.triangles.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
+    }
+    if let Some(bone) = part.bone {
+        // A palette has no more bones than their positions have bits.
+        let bone = u16::try_from(bone).unwrap_or(u16::MAX);
+        let vertices = mesh.positions.len();
+        mesh.skinning = Some(Skinning {
+            bones: vec![[bone, 0, 0, 0]; vertices],
+            weights: vec![[1.0, 0.0, 0.0, 0.0]; vertices],
+            blend_index: Vec::new(),
+        });
+    }
+    mesh
+}
+
+/// Joints and weights where control values take them, after the couplings.
+fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
+    let mut effective = vec![0.0; values.len()];
+    pack.binding.couple(values, &mut effective);
+    let (mut locals, mut weights) = (pack.rig.locals(), vec![0.0; pack.shapes.len()]);
+    pack.binding.apply(&effective, &mut locals, &mut weights).ok()?;
+    Some((locals.as_slice().to_vec(), weights))
+}
+
+fn weights_of_defaults(pack: &Pack) -> Vec<f32> {
+    posed(pack, &pack.controls.defaults()).map(|(_, weights)| weights).unwrap_or_default()
+}
+
+fn clips(pack: &Pack, nodes: &[Node], shapes: &[(usize, Vec<usize>)], notes: &mut Vec<Note>) -> Vec<Clip> {
+    let driven: BTreeSet<usize> = (pack.controls.controls().iter())
+        .filter_map(|control| match &control.drives {
+            Drive::Joint { joint, .. } => Some(pack.rig.joint(joint)?.index()),
+            _ => None,
+        })
+        .collect();
+    let mut clips = Vec::new();
+    for pose in &pack.poses.poses {
+        match clip(pack, pose, nodes, &driven, shapes) {
+            Some(clip) => clips.push(clip),
+            None => {
+                let place = format!("pose {:?}", pose.name);
+                notes.push(Note { place, text: "does not fit the controls, and is left out".to_owned() });
+            }
+        }
+    }
+    clips
+}
+
+/// One key for everything that controls move, be it at rest or not: programs that mix clips need them all.
+fn clip(
+    pack: &Pack,
+    pose: &Pose,
+    nodes: &[Node],
+    driven: &BTreeSet<usize>,
+    shapes: &[(usize, Vec<usize>)],
+) -> Option<Clip> {
+    let mut values = pack.controls.defaults();
+    for (control, value) in &pose.values {
+        *values.get_mut(*control)? = *value;
+    }
+    let (locals, weights) = posed(pack, &values)?;
+    let mut channels = Vec::new();
+    let mut key = |node: usize, target: ChannelTarget, values: Vec<f32>| {
+        channels.push(Channel {
+            node,
+            target,
+            interpolation: Interpolation::Linear,
+            times: vec![0.0],
+            values,
+        });
+    };
+    for &joint in driven {
+        let (bind, local) = (pack.rig.parent_from_joint().get(joint)?, locals.get(joint)?);
+        let Transform::Trs(rest) = nodes.get(joint)?.local else { continue };
+        let moved = trs(widen(*bind) * widen(*local));
+        // The joint at rest is at rest to the bit.
+        let rotation = if moved.rotation == -rest.rotation { rest.rotation } else { moved.rotation };
+        key(joint, ChannelTarget::Translation, moved.translation.to_array().to_vec());
+        key(joint, ChannelTarget::Rotation, rotation.to_array().to_vec());
+    }
+    for (node, kept) in shapes.iter().filter(|(_, kept)| !kept.is_empty()) {
+        let of_node = kept.iter().map(|shape| weights.get(*shape).copied().unwrap_or(0.0));
+        key(*node, ChannelTarget::Weights, of_node.collect());
+    }
+    Some(Clip { name: pose.name.clone(), channels })
+}
+
+fn material<'a>(
+    pack: &Pack,
+    textures: &'a Textures,
+    number: usize,
+    images: &mut Images<'a>,
+    notes: &mut Vec<Note>,
+) -> Material {
+    let part = &pack.parts[number];
+    let from = pack.material(number);
+    let pictures = textures.of_part(number, part.kind);
+    let mut take = |picture: Option<&'a RgbaImage>, what: &str, change: Option<Change>| {
+        let name = format!("{} {what}", part.name);
+        images.take(picture?, &name, change, notes)
+    };
+    let color = take(pictures.color, "color", None);
+    let roughness = Change::Roughness { matte: from.roughness_matte, glossy: from.roughness_glossy };
+    let rough = take(pictures.gloss, "roughness", Some(roughness));
+    let [r, g, b] = if color.is_some() { [1.0; 3] } else { from.color };
+    let is_clear = part.kind == PartKind::Cornea;
+    Material {
+        name: part.name.clone(),
+        base_color: [r, g, b, if is_clear { from.opacity } else { 1.0 }],
+        base_color_texture: color,
+        metallic: 0.0,
+        roughness: if rough.is_some() { 1.0 } else { (from.roughness_matte + from.roughness_glossy) / 2.0 },
+        metallic_roughness_texture: rough,
+        normal_texture: take(pictures.normal, "normals", None),
+        normal_scale: if pictures.normal.is_some() { from.normal_strength } else { 1.0 },
+        occlusion_texture: take(pictures.occlusion, "occlusion", None),
+        alpha_mode: if is_clear { AlphaMode::Blend } else { AlphaMode::Opaque },
+        ..Material::default()
+    }
+}
+
+/// How a picture's meaning differs from glTF's.
+#[derive(Clone, Copy, PartialEq)]
+enum Change {
+    /// Gloss becomes roughness, in green.
+    Roughness { matte: f32, glossy: f32 },
+}
+
+/// Encoded pictures, each one once.
+#[derive(Default)]
+struct Images<'a> {
+    sources: Vec<(&'a RgbaImage, Option<Change>)>,
+    encoded: Vec<SceneImage>,
+}
+
+impl<'a> Images<'a> {
+    fn take(
+        &mut self,
+        picture: &'a RgbaImage,
+        name: &str,
+        change: Option<Change>,
+        notes: &mut Vec<Note>,
+    ) -> Option<usize> {
+        let same =
+            |source: &(&RgbaImage, Option<Change>)| std::ptr::eq(source.0, picture) && source.1 == change;
+        if let Some(known) = self.sources.iter().position(same) {
+            return Some(known);
+        }
+        let mut bytes = Cursor::new(Vec::new());
+        let written = match change {
+            None => picture.write_to(&mut bytes, ImageFormat::Png),
+            Some(Change::Roughness { matte, glossy }) => {
+                let mut changed = picture.clone();
+                for Rgba([r, g, b, a]) in changed.pixels_mut() {
+                    let gloss = f32::from(*r) / 255.0;
+                    let rough = (matte + (glossy - matte) * gloss).clamp(0.0, 1.0);
+                    [*r, *g, *b, *a] = [255, (255.0 * rough).round() as u8, 0, 255];
+                }
+                changed.write_to(&mut bytes, ImageFormat::Png)
+            }
+        };
+        if let Err(error) = written {
+            let text = format!("expected a picture that PNG can hold, found: {error}");
+            notes.push(Note { place: name.to_owned(), text });
+            return None;
+        }
+        self.sources.push((picture, change));
+        let mime = "image/png".to_owned();
+        self.encoded.push(SceneImage { name: name.to_owned(), mime, bytes: bytes.into_inner() });
+        Some(self.encoded.len() - 1)
+    }
+}

@@ -1,0 +1,222 @@
+//! Avatars that are written as GLB, read again and imported: the same rig, shapes, poses, vertices and pictures.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "a test: it may panic and read files"
+)]
+
+use avatar_exchange::{AlphaMode, RawScene, Transform, glb, gltf};
+use avatar_mesh::{Winding, raw};
+use avatar_pack::{FaceState, Import, MemorySource, Pack, Textures, export};
+use std::io::Write;
+use std::path::Path;
+
+/// Differences are parts of the avatar's size: single precision tells 1e-7 of it.
+const TOLERANCE: f32 = 1e-6;
+
+/// The files of a folder beside the workspace's crates; where it is missing, that is said past the harness.
+fn source(folder: &str) -> Option<MemorySource> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+    let Ok(entries) = std::fs::read_dir(&path) else {
+        let _ = writeln!(std::io::stderr(), "SKIPPED: {} is not there", path.display());
+        return None;
+    };
+    let mut source = MemorySource::default();
+    for entry in entries {
+        let entry = entry.expect("an entry");
+        let name = entry.file_name().into_string().expect("a name");
+        source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
+    }
+    Some(source)
+}
+
+fn marsienne() -> MemorySource {
+    source("assets/marsienne").expect("the default avatar")
+}
+
+fn again(scene: &RawScene) -> Import {
+    let bytes = glb::write_raw(scene).expect("a valid scene");
+    let scene = gltf::read("export.glb", &bytes, &mut |_| Err("no other files".to_owned()));
+    Import::from_scene(scene.expect("what was written")).expect("an avatar")
+}
+
+struct Worst {
+    /// Of the matrices of joints at rest.
+    rig: f32,
+    /// Of vertices in all poses, in the rig's units.
+    vertices: f32,
+    /// Of normals.
+    normals: f32,
+    compared: usize,
+}
+
+/// Everything of an avatar that a GLB holds is there again.
+fn comes_back(source: &MemorySource) -> Worst {
+    let (pack, textures) = (Pack::load(source).expect("a pack"), Textures::load(source));
+    let scene = export(&pack, &textures);
+    let import = again(&scene);
+    let bounds = pack.bounds().expect("vertices");
+    let size = (bounds.max - bounds.min).max_element().max(1.0);
+    let mut worst = Worst { rig: 0.0, vertices: 0.0, normals: 0.0, compared: 0 };
+
+    for (name, bind) in pack.rig.names().iter().zip(pack.rig.world_from_bind()) {
+        let joint = import.pack.rig.joint(name).expect("a joint of this name");
+        let found = import.pack.rig.world_from_bind()[joint.index()];
+        let of_axes =
+            (found.matrix3 - bind.matrix3).to_cols_array().into_iter().fold(0.0, |m: f32, x| m.max(x.abs()));
+        let of_place = (found.translation - bind.translation).abs().max_element() / size;
+        worst.rig = worst.rig.max(of_axes).max(of_place);
+    }
+    assert!(worst.rig <= TOLERANCE, "{}", worst.rig);
+    assert_eq!(import.pack.shapes, pack.shapes);
+    let names: Vec<_> = pack.poses.iter().map(|pose| pose.name.clone()).collect();
+    assert_eq!(import.motion.clips(), names);
+    assert_eq!(import.pack.palette.len(), pack.palette.len());
+
+    for (number, (part, found)) in pack.parts.iter().zip(&import.pack.parts).enumerate() {
+        assert_eq!(found.name, part.name);
+        assert_eq!(found.mesh.positions, part.mesh.positions, "{}", part.name);
+        assert_eq!(found.mesh.uvs, part.mesh.uvs, "{}", part.name);
+        let offsets =
+            |mesh: &avatar_mesh::Mesh| mesh.shapes.iter().map(|s| s.positions.clone()).collect::<Vec<_>>();
+        assert_eq!(offsets(&found.mesh), offsets(&part.mesh), "{}", part.name);
+        let turned = Winding::of(&part.mesh).is_inside_out();
+        let triangle = |[a, b, c]: [u32; 3]| if turned { [a, c, b] } else { [a, b, c] };
+        assert!(part.mesh.triangles.iter().copied().map(triangle).eq(found.mesh.triangles.iter().copied()));
+        let (own, other) = (textures.of_part(number, part.kind), import.textures.of_part(number, found.kind));
+        assert_eq!(own.color.is_some(), other.color.is_some(), "{}", part.name);
+        assert!(own.color == other.color && own.normal == other.normal && own.occlusion == other.occlusion);
+    }
+
+    let mut own = FaceState::new(&pack);
+    let mut other = FaceState::new(&import.pack);
+    for pose in pack.poses.iter() {
+        let mut values = pack.controls.defaults();
+        pose.values.iter().for_each(|(control, value)| values[*control] = *value);
+        own.pose(&pack, &values).expect("a pose of the pack");
+        let at = import.motion.at(&pose.name, 0.0).expect("a clip");
+        let defaults = import.pack.controls.defaults();
+        other.pose_with(&import.pack, &defaults, |_| {}, &at.locals).expect("a clip's pose");
+        other.set_weights(&at.weights);
+        for part in 0..pack.parts.len() {
+            let (a, b) =
+                (own.deform(&pack, part).expect("a part"), other.deform(&import.pack, part).expect("a part"));
+            assert_eq!(a.positions.len(), b.positions.len());
+            for (a, b) in a.positions.iter().zip(&b.positions) {
+                worst.vertices = worst.vertices.max((*a - *b).abs().max_element());
+            }
+            for (a, b) in a.normals.iter().zip(&b.normals) {
+                worst.normals = worst.normals.max((*a - *b).abs().max_element());
+            }
+            worst.compared += a.positions.len();
+        }
+    }
+    println!("rig {:e}, vertices {:e} of {size}, normals {:e}", worst.rig, worst.vertices, worst.normals);
+    assert!(worst.compared > 0);
+    assert!(worst.vertices <= TOLERANCE * size, "{} of {size}", worst.vertices);
+    assert!(worst.normals <= TOLERANCE, "{}", worst.normals);
+    worst
+}
+
+#[test]
+fn the_default_avatar_comes_back() {
+    let worst = comes_back(&marsienne());
+    assert!(worst.compared > 100_000, "{}", worst.compared);
+}
+
+#[test]
+fn the_golden_pack_comes_back() {
+    comes_back(&source("tests/golden/pack").expect("the golden pack"));
+}
+
+/// Its right eye is a mirror copy with the left one's triangles, as the original's.
+#[test]
+fn a_face_with_mirrored_parts_comes_back() {
+    let Some(source) = source("../shared/data/avatar-course-format-makehuman") else { return };
+    comes_back(&source);
+}
+
+#[test]
+fn parts_inside_out_are_turned_around() {
+    let mut source = marsienne();
+    let indices = source.files.get_mut("RtEyeBall_smtt_IB.raw").expect("an index buffer");
+    for triangle in indices.as_chunks_mut::<12>().0 {
+        let [_, b, c] = triangle.as_chunks_mut::<4>().0 else { panic!("three corners") };
+        std::mem::swap(b, c);
+    }
+    let indices = indices.clone();
+    let pack = Pack::load(&source).expect("a pack");
+    let vertices = &source.files["RtEyeBall_smtt_VB.raw"];
+    assert!(Winding::of(&raw::read_rigid(vertices, &indices).expect("a part")).is_inside_out());
+    let scene = export(&pack, &Textures::default());
+    for part in &scene.parts {
+        assert!(!Winding::of(&part.mesh).is_inside_out(), "{}", part.name);
+    }
+    comes_back(&source);
+}
+
+/// What was imported from a file with shapes at several nodes is exported with each part's own shapes.
+#[test]
+fn an_import_comes_back() {
+    let source = marsienne();
+    let (pack, textures) = (Pack::load(&source).expect("a pack"), Textures::load(&source));
+    let mut scene = export(&pack, &textures);
+    // A second part with shapes, whose places come after those of the skin.
+    let jaw = scene.parts.iter().position(|part| part.name == "lower-jaw").expect("a part");
+    let vertices = scene.parts[jaw].mesh.positions.len();
+    let drop = avatar_mesh::Shape::new("Drop", vec![glam::Vec3::NEG_Y; vertices]);
+    scene.parts[jaw].mesh.shapes.push(drop);
+    scene.nodes[scene.parts[jaw].node].weights = vec![0.0];
+    scene.clips.clear();
+    let first = again(&scene);
+    assert_eq!(first.pack.shapes, ["SSmile", "Frown", "Drop"]);
+    let second = again(&export(&first.pack, &first.textures));
+    assert_eq!(second.pack.shapes, first.pack.shapes);
+    let drop = first.pack.controls.index("Drop").expect("a control");
+    let state = |import: &Import| {
+        let mut values = import.pack.controls.defaults();
+        values[drop] = 1.0;
+        let mut state = FaceState::new(&import.pack);
+        state.pose(&import.pack, &values).expect("a pose");
+        state.deform(&import.pack, jaw).expect("a part").positions
+    };
+    assert_eq!(second.pack.controls.index("Drop"), Some(drop));
+    let (a, b) = (state(&first), state(&second));
+    assert_eq!(a.len(), b.len());
+    let worst = a.iter().zip(&b).fold(0.0f32, |worst, (a, b)| worst.max((*a - *b).abs().max_element()));
+    let rest = &first.pack.parts[jaw].mesh.positions;
+    let moved = a.iter().zip(rest).all(|(a, rest)| (*a - *rest).length() > 0.5);
+    assert!(moved && worst <= 25.0 * TOLERANCE, "{worst}");
+}
+
+#[test]
+fn looks_and_rest_are_those_of_the_pack() {
+    let source = marsienne();
+    let (pack, textures) = (Pack::load(&source).expect("a pack"), Textures::load(&source));
+    let scene = export(&pack, &textures);
+    let material =
+        |name: &str| scene.materials.iter().find(|material| material.name == name).expect("a material");
+    let skin = material("skin");
+    assert!(skin.base_color_texture.is_some() && skin.metallic == 0.0, "{skin:?}");
+    assert_eq!(skin.base_color, [1.0; 4]);
+    let cornea = material("left-cornea");
+    let look = pack.material(pack.parts.iter().position(|part| part.name == "left-cornea").expect("a part"));
+    let [r, g, b] = look.color;
+    assert_eq!((cornea.alpha_mode, cornea.base_color), (AlphaMode::Blend, [r, g, b, look.opacity]));
+    // Both eyes have one picture.
+    let eye = material("left-eyeball").base_color_texture;
+    assert!(eye.is_some() && eye == material("right-eyeball").base_color_texture);
+    assert!(scene.nodes.iter().all(|node| matches!(node.local, Transform::Trs(_))));
+    // Gloss 0 is as rough as the material says.
+    let rough = skin.metallic_roughness_texture.expect("a texture");
+    let decoded = image::load_from_memory(&scene.images[rough].bytes).expect("a PNG").into_rgba8();
+    let gloss = textures.of_part(0, avatar_mesh::PartKind::Skin).gloss.expect("a gloss texture");
+    let look = pack.material(0);
+    for (x, y) in [(0, 0), (decoded.width() / 2, decoded.height() / 3)] {
+        let share = f32::from(gloss.get_pixel(x, y).0[0]) / 255.0;
+        let expected = 255.0 * (look.roughness_matte * (1.0 - share) + look.roughness_glossy * share);
+        assert!((f32::from(decoded.get_pixel(x, y).0[1]) - expected).abs() <= 0.51, "{x} {y}");
+        assert_eq!(decoded.get_pixel(x, y).0[2], 0, "no metal");
+    }
+}
