@@ -71,7 +71,7 @@ fn comes_back(source: &MemorySource) -> Worst {
     assert!(worst.rig <= TOLERANCE, "{}", worst.rig);
     assert_eq!(import.pack.shapes, pack.shapes);
     let names: Vec<_> = pack.poses.iter().map(|pose| pose.name.clone()).collect();
-    assert_eq!(import.motion.clips(), names);
+    assert_eq!(import.pack.motion.as_ref().expect("clips").clips(), names);
     assert_eq!(import.pack.palette.len(), pack.palette.len());
 
     for (number, (part, found)) in pack.parts.iter().zip(&import.pack.parts).enumerate() {
@@ -95,7 +95,7 @@ fn comes_back(source: &MemorySource) -> Worst {
         let mut values = pack.controls.defaults();
         pose.values.iter().for_each(|(control, value)| values[*control] = *value);
         own.pose(&pack, &values).expect("a pose of the pack");
-        let at = import.motion.at(&pose.name, 0.0).expect("a clip");
+        let at = import.pack.motion.as_ref().expect("clips").at(&pose.name, 0.0).expect("a clip");
         let defaults = import.pack.controls.defaults();
         other.pose_with(&import.pack, &defaults, |_| {}, &at.locals).expect("a clip's pose");
         other.set_weights(&at.weights);
