@@ -5,9 +5,9 @@ use crate::state::avatar_layout;
 use crate::{AvatarModel, AvatarState};
 use avatar_mesh::Deformed;
 
-/// Vertices per workgroup. 128 of them reach the largest binding that WebGPU promises with the number of workgroups
-/// that it promises.
-pub(crate) const DEFORM_WORKGROUP_SIZE: u32 = 128;
+/// Vertices per workgroup: a block of blend shapes. The number of workgroups that WebGPU promises reaches the largest binding of
+/// vertices that it promises but for one block; larger parts are refused.
+pub(crate) const DEFORM_WORKGROUP_SIZE: u32 = 64;
 
 /// WGSL `DeformedVertex`.
 #[repr(C)]

@@ -6,10 +6,11 @@ use crate::frame::{GpuFrame, GpuLamp};
 use crate::hair::{GpuHair, GpuHairPose, GpuHairRegion};
 use crate::hair_detail::GpuHairView;
 use crate::material::{GpuIris, GpuMaterial};
-use crate::part::{GpuPart, GpuShapeOffset, GpuVertex, GpuVertexBones};
+use crate::part::{GpuPart, GpuVertex, GpuVertexBones};
 use crate::renderer::GpuShadowView;
 use crate::shaders::Constants;
 use crate::shaders::tests::{all, parsed};
+use crate::shape_blocks::GpuShapeOffset;
 use crate::state::{GpuActiveShape, GpuActiveShapesHead, GpuBone};
 use crate::swing::{GpuMote, GpuSwing};
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
@@ -221,6 +222,7 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("posed_from_bind", size_of::<GpuBone>()),
         ("vertices", size_of::<GpuVertex>()),
         ("vertex_bones", size_of::<GpuVertexBones>()),
+        ("shape_blocks", size_of::<u32>()),
         ("shape_offsets", size_of::<GpuShapeOffset>()),
         ("deformed", size_of::<GpuDeformedVertex>()),
         ("points", size_of::<[f32; 4]>()),

@@ -103,6 +103,7 @@ mod seen;
 mod shaders;
 mod shading;
 mod shadows;
+mod shape_blocks;
 mod state;
 mod swing;
 mod targets;

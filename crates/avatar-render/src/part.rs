@@ -2,7 +2,9 @@
 
 use crate::PartBones;
 use crate::curvature::curvatures;
+use crate::deformer::DEFORM_WORKGROUP_SIZE;
 use crate::model::PartProblem;
+use crate::shape_blocks::ShapeBlocks;
 use avatar_mesh::{DeformBounds, Mesh, Offsets, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -34,14 +36,6 @@ pub(crate) struct GpuVertex {
 pub(crate) struct GpuVertexBones {
     pub(crate) indices: [u32; 4],
     pub(crate) weights: [f32; 4],
-}
-
-/// WGSL `ShapeOffset`; the arrays are three scalars each there.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub(crate) struct GpuShapeOffset {
-    pub(crate) position: [f32; 3],
-    pub(crate) normal: [f32; 3],
 }
 
 /// What drawing and deforming a part need.
@@ -86,6 +80,7 @@ impl Geometry {
                 entry(1, storage),
                 entry(2, storage),
                 entry(3, storage),
+                entry(4, storage),
             ],
         })
     }
@@ -98,7 +93,9 @@ impl Geometry {
         bones: PartBones,
         palette_len: usize,
     ) -> Result<Self, PartProblem> {
-        check(mesh, bones, palette_len, &device.limits())?;
+        let limits = device.limits();
+        check(mesh, bones, palette_len, &limits)?;
+        let shapes = ShapeBlocks::new(mesh, binding(&limits))?;
         let skinning = mesh.skinning.as_ref().filter(|_| bones == PartBones::PerVertex);
         let rigid_bone = match bones {
             PartBones::Rigid(bone) => bone,
@@ -108,7 +105,7 @@ impl Geometry {
         let depth = bounds.map_or(0.0, |bounds| bounds.size().z);
         let head = GpuPart {
             vertex_count: mesh.positions.len() as u32,
-            shape_count: mesh.shapes.len() as u32,
+            shape_count: shapes.shape_count,
             rigid_bone: rigid_bone as u32,
             has_vertex_bones: skinning.is_some().into(),
         };
@@ -120,7 +117,8 @@ impl Geometry {
             both.map(|(b, w)| GpuVertexBones { indices: b.map(u32::from), weights: *w }).collect()
         });
         let vertex_bones = storage(device, &vertex_bones, label, "vertex bones");
-        let shapes = storage(device, &shape_offsets(mesh), label, "shape offsets");
+        let shape_blocks = storage(device, &shapes.table, label, "shape blocks");
+        let shape_offsets = storage(device, &shapes.offsets, label, "shape offsets");
         let center_bone = match skinning.and_then(|skinning| skinning.bones.first()) {
             Some(bones) => bones[0].into(),
             None => rigid_bone,
@@ -136,7 +134,8 @@ impl Geometry {
                     wgpu::BindGroupEntry { binding: 0, resource: part.as_entire_binding() },
                     wgpu::BindGroupEntry { binding: 1, resource: vertices.as_entire_binding() },
                     wgpu::BindGroupEntry { binding: 2, resource: vertex_bones.as_entire_binding() },
-                    wgpu::BindGroupEntry { binding: 3, resource: shapes.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 3, resource: shape_blocks.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 4, resource: shape_offsets.as_entire_binding() },
                 ],
             }),
             vertices,
@@ -175,18 +174,6 @@ fn length_per_uv(mesh: &Mesh) -> f32 {
         painted += f64::from((b.1 - a.1).perp_dot(c.1 - a.1).abs());
     }
     if painted > 0.0 { (area / painted).sqrt() as f32 } else { 0.0 }
-}
-
-fn shape_offsets(mesh: &Mesh) -> Vec<GpuShapeOffset> {
-    let still = [0.0; 3];
-    let mut all =
-        vec![GpuShapeOffset { position: still, normal: still }; mesh.shapes.len() * mesh.positions.len()];
-    for (shape, offsets) in mesh.shapes.iter().zip(all.chunks_mut(mesh.positions.len().max(1))) {
-        shape.positions.iter().for_each(|(vertex, offset)| offsets[vertex].position = offset.to_array());
-        let normals = shape.normals.iter().flat_map(Offsets::iter);
-        normals.for_each(|(vertex, offset)| offsets[vertex].normal = offset.to_array());
-    }
-    all
 }
 
 /// The triangles, turned around where most contradict their normals (mirrored parts with the original's indices).
@@ -279,16 +266,24 @@ fn check(
             return Err(PartProblem::Index { triangle, found, vertices: expected });
         }
     }
-    let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    let fits = |what, count: usize, element: usize, limit: u64| {
-        let bytes = (count as u64).saturating_mul(element as u64);
-        match bytes <= limit {
-            true => Ok(()),
-            false => Err(PartProblem::TooLarge { what, count, bytes, limit }),
-        }
-    };
-    fits("vertices", expected, size_of::<GpuVertex>(), binding)?;
-    let offsets = expected.saturating_mul(mesh.shapes.len());
-    fits("shape offsets (vertices times shapes)", offsets, size_of::<GpuShapeOffset>(), binding)?;
+    // Each block of vertices takes a workgroup of a single row.
+    let dispatched =
+        u64::from(limits.max_compute_workgroups_per_dimension) * u64::from(DEFORM_WORKGROUP_SIZE);
+    let deformed = dispatched.saturating_mul(size_of::<GpuVertex>() as u64);
+    fits("vertices", expected, size_of::<GpuVertex>(), binding(limits).min(deformed))?;
     fits("triangles", mesh.triangles.len(), size_of::<[u32; 3]>(), limits.max_buffer_size)
+}
+
+/// Bytes that a shader can read from one buffer.
+fn binding(limits: &wgpu::Limits) -> u64 {
+    limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
+}
+
+/// Whether `count` elements of so many bytes keep within the limit.
+pub(crate) fn fits(what: &'static str, count: usize, element: usize, limit: u64) -> Result<(), PartProblem> {
+    let bytes = (count as u64).saturating_mul(element as u64);
+    match bytes <= limit {
+        true => Ok(()),
+        false => Err(PartProblem::TooLarge { what, count, bytes, limit }),
+    }
 }

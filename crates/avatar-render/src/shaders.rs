@@ -8,6 +8,7 @@ use crate::material::{
     COLOR_TEXTURE, GLOSS_TEXTURE, NORMAL_TEXTURE, OCCLUSION_TEXTURE, SKIN_ALBEDO, THICKNESS_TEXTURE,
 };
 use crate::pores::PORE_CELLS;
+use crate::shape_blocks::{RESTING_BLOCK, SHAPE_BLOCK};
 use crate::vec4_texture::VEC4S_PER_ROW;
 use crate::{RendererConfig, Scattering, Shading, Terms};
 use avatar_groom::{CURL_SHARE, FIRST_SEGMENT, NO_GUIDE, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
@@ -345,6 +346,8 @@ impl Constants {
         [
             float("MIN_NORMAL_LENGTH", MIN_NORMAL_LENGTH),
             number("DEFORM_WORKGROUP_SIZE", DEFORM_WORKGROUP_SIZE),
+            number("SHAPE_BLOCK", SHAPE_BLOCK),
+            number("RESTING_BLOCK", RESTING_BLOCK),
             number("LAMP_COUNT", LAMP_COUNT as u32),
             number("KEY_LAMP", KEY_LAMP as u32),
             number("RIM_LAMP", RIM_LAMP as u32),

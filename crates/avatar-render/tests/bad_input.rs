@@ -3,7 +3,7 @@
 
 mod common;
 
-use avatar_mesh::{Mesh, PartKind};
+use avatar_mesh::{Mesh, PartKind, Shape};
 use avatar_render::headless::{Canvas, GpuOptions, NoAdapter, open_blocking};
 use avatar_render::{
     AvatarModel, AvatarState, DrawError, Image, ModelError, PartBones, PartDesc, PartProblem, PartTextures,
@@ -65,11 +65,26 @@ fn more_shapes_than_a_binding_holds_are_an_error_with_both_numbers() {
     }
     let mut mesh = random_mesh(&mut Random(2), 60_000, 1, None);
     mesh.shapes = vec![mesh.shapes[0].clone(); 100];
-    let found = problem(&mesh, PartBones::Rigid(0), PartTextures::default()).expect("a GPU");
-    let (count, bytes, limit) = (6_000_000, 144_000_000, 128 << 20);
-    let what = "shape offsets (vertices times shapes)";
-    assert_eq!(found, PartProblem::TooLarge { what, count, bytes, limit });
-    assert!(found.to_string().contains("134217728") && found.to_string().contains("144000000"));
+    let rigid = |mesh: &Mesh| problem(mesh, PartBones::Rigid(0), PartTextures::default()).expect("a GPU");
+    let limit = 128 << 20;
+    // All of 938 blocks of 64 vertices, for each shape.
+    let (count, bytes) = (6_003_200, 144_076_800);
+    let what = "shape offsets (in blocks that shapes move)";
+    assert_eq!(rigid(&mesh), PartProblem::TooLarge { what, count, bytes, limit });
+    assert!(rigid(&mesh).to_string().contains("134217728") && rigid(&mesh).to_string().contains("144076800"));
+
+    // One vertex in ten is still one in every block.
+    let tenth = (0..60_000).step_by(10).map(|vertex| (vertex, Vec3::X));
+    mesh.shapes = vec![Shape::from_pairs("tenth", 60_000, tenth).expect("vertices of the mesh"); 100];
+    assert_eq!(rigid(&mesh), PartProblem::TooLarge { what, count, bytes, limit });
+
+    // So many shapes that the table of blocks is too large by itself; the last one moves a vertex, so all count.
+    let mut shapes = vec![Shape::from_pairs("rest", 60_000, []).expect("no vertex"); 40_000];
+    shapes.push(Shape::from_pairs("one", 60_000, [(0, Vec3::X)]).expect("a vertex of the mesh"));
+    mesh.shapes = shapes;
+    let (count, bytes) = (938 * 40_001, 938 * 40_001 * 4);
+    let what = "shape blocks (blocks of vertices times shapes)";
+    assert_eq!(rigid(&mesh), PartProblem::TooLarge { what, count: count as usize, bytes, limit });
 }
 
 #[test]

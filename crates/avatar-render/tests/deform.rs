@@ -3,7 +3,7 @@
 
 mod common;
 
-use avatar_mesh::{Mesh, PartKind, Shape, deform};
+use avatar_mesh::{Mesh, Offsets, PartKind, Shape, deform};
 use avatar_render::{
     AvatarModel, AvatarState, Deformer, DeformerError, PartBones, PartDesc, PartTextures, StateError,
 };
@@ -80,6 +80,122 @@ fn random_meshes_deform_on_the_gpu_as_on_the_cpu() {
         worst = (worst.0.max(position), worst.1.max(normal));
     }
     println!("on {}: positions within {}, normals within {}", gpu.info.name, worst.0, worst.1);
+}
+
+/// Offsets for some vertices of some blocks, or all, or none, by `kind`.
+fn mixed_shape(random: &mut Random, vertices: usize, kind: usize) -> Shape {
+    let share = [1.0, 0.2, 0.004, 0.0][kind % 4];
+    let pairs = |random: &mut Random| {
+        let moved: Vec<u32> =
+            (0..vertices as u32).filter(|_| f64::from(random.signed().abs()) < share).collect();
+        moved.into_iter().map(|vertex| (vertex, random.vec3(1.0))).collect::<Vec<_>>()
+    };
+    let shape = Shape::from_pairs(format!("mixed {kind}"), vertices, pairs(random)).expect("valid pairs");
+    // Of three shapes one leaves normals alone, one turns those that it moves, and one turns others.
+    let normals = match kind % 3 {
+        0 => return shape,
+        1 => shape.positions.iter().map(|(vertex, d)| (vertex as u32, d * 0.2)).collect(),
+        _ => pairs(random).into_iter().map(|(vertex, d)| (vertex, d * 0.3)).collect::<Vec<_>>(),
+    };
+    Shape { normals: Some(Offsets::from_pairs(vertices, normals).expect("valid pairs")), ..shape }
+}
+
+/// The same mesh, pose and weights on both processors; the largest differences of positions and normals.
+fn difference_of(mesh: &Mesh, weights: &[f32]) -> Option<(f32, f32)> {
+    let gpu = gpu()?;
+    let model =
+        AvatarModel::new(&gpu.device, &gpu.queue, &[desc(mesh, PartBones::Rigid(0))], 1).expect("valid");
+    let mut state = AvatarState::new(&gpu.device, &model);
+    let pose = [Affine3A::from_rotation_y(0.5)];
+    state.set(&gpu.queue, &pose, weights).expect("lengths fit");
+    let deformer = Deformer::new(&gpu.device);
+    let on_gpu = deformer.run(&gpu.device, &gpu.queue, &model, &state, 0).expect("deformed");
+    let mut on_cpu = mesh.deformed();
+    deform(mesh, &pose, weights, &mut on_cpu).expect("deformed");
+    Some((
+        largest(&on_gpu.positions, &on_cpu.positions),
+        // As above: the direction of what is left of a normal that shapes all but cancelled means nothing.
+        on_gpu
+            .normals
+            .iter()
+            .zip(&on_cpu.normals)
+            .zip(blended_lengths(mesh, weights))
+            .filter(|(_, length)| *length > 0.05)
+            .map(|((a, b), _)| (*a - *b).abs().max_element())
+            .fold(0.0, f32::max),
+    ))
+}
+
+fn blended_lengths(mesh: &Mesh, weights: &[f32]) -> Vec<f32> {
+    let mut sums = mesh.normals.clone();
+    for (shape, weight) in mesh.shapes.iter().zip(weights) {
+        shape.normals.iter().for_each(|normals| normals.add_scaled(*weight, &mut sums));
+    }
+    sums.into_iter().map(Vec3::length).collect()
+}
+
+#[test]
+fn dense_sparse_and_empty_shapes_deform_blocks_of_any_length() {
+    let mut random = Random(19);
+    for vertices in [1, 63, 64, 65, 128, 1000] {
+        // From no shape to all twelve mixtures, and once only shapes that rest.
+        for shapes in [0, 1, 2, 3, 4, 12] {
+            let mut mesh = random_mesh(&mut random, vertices, 0, None);
+            mesh.shapes = (0..shapes).map(|kind| mixed_shape(&mut random, vertices, kind)).collect();
+            let weights: Vec<f32> = (0..shapes).map(|k| [0.7, random.signed(), 0.0][k % 3]).collect();
+            let ones = vec![1.0; shapes];
+            for weights in [&weights, &ones] {
+                let Some((position, normal)) = difference_of(&mesh, weights) else { return };
+                assert!(
+                    position <= TOLERANCE && normal <= TOLERANCE,
+                    "{vertices} vertices, {shapes} shapes: positions {position}, normals {normal}"
+                );
+            }
+        }
+        let mut mesh = random_mesh(&mut random, vertices, 0, None);
+        mesh.shapes = vec![mixed_shape(&mut random, vertices, 3); 5];
+        assert!(mesh.shapes.iter().all(|shape| shape.positions.moved_vertices() == 0));
+        let Some((position, normal)) = difference_of(&mesh, &[1.0; 5]) else { return };
+        assert!(position <= TOLERANCE && normal <= TOLERANCE, "{vertices} vertices at rest");
+    }
+}
+
+#[test]
+fn three_hundred_shapes_of_sixty_thousand_vertices_fit_where_each_moves_one_in_a_hundred() {
+    let (vertices, shapes, moved) = (60_000u32, 300u32, 600u32);
+    let mut random = Random(23);
+    let mut mesh = random_mesh(&mut random, vertices as usize, 0, None);
+    for k in 0..shapes {
+        // Overlapping neighbourhoods, from the first vertex to the last.
+        let first = k * (vertices - moved) / (shapes - 1);
+        let pairs = (first..first + moved).map(|vertex| (vertex, random.vec3(1.0))).collect::<Vec<_>>();
+        let normals = pairs.iter().map(|(vertex, d)| (*vertex, *d * 0.1)).collect::<Vec<_>>();
+        let shape = Shape::from_pairs(format!("shape {k}"), vertices as usize, pairs).expect("valid pairs");
+        let normals = Offsets::from_pairs(vertices as usize, normals).expect("valid pairs");
+        mesh.shapes.push(Shape { normals: Some(normals), ..shape });
+    }
+    let weights: Vec<f32> = (0..shapes).map(|_| random.signed()).collect();
+    let Some((position, normal)) = difference_of(&mesh, &weights) else { return };
+    assert!(position <= TOLERANCE && normal <= TOLERANCE, "positions {position}, normals {normal}");
+}
+
+#[test]
+fn a_shape_without_normals_leaves_normals_alone() {
+    let Some(gpu) = gpu() else { return };
+    let mut mesh = random_mesh(&mut Random(29), 130, 0, None);
+    mesh.shapes = vec![Shape::new("push", vec![Vec3::X; 130])];
+    let model =
+        AvatarModel::new(&gpu.device, &gpu.queue, &[desc(&mesh, PartBones::Rigid(0))], 1).expect("valid");
+    let mut state = AvatarState::new(&gpu.device, &model);
+    let deformer = Deformer::new(&gpu.device);
+    let mut normals_at = |weight| {
+        state.set(&gpu.queue, &[Affine3A::IDENTITY], &[weight]).expect("lengths fit");
+        let deformed = deformer.run(&gpu.device, &gpu.queue, &model, &state, 0).expect("deformed");
+        (deformed.positions[129], deformed.normals)
+    };
+    let (at_rest, pushed) = (normals_at(0.0), normals_at(3.0));
+    assert_eq!(at_rest.1, pushed.1, "to the bit");
+    assert!((pushed.0 - at_rest.0 - 3.0 * Vec3::X).length() < TOLERANCE);
 }
 
 #[test]

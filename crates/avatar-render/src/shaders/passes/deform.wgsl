@@ -8,10 +8,12 @@ struct DeformedVertex {
 @group(0) @binding(0) var<storage, read_write> deformed: array<DeformedVertex>;
 
 @compute @workgroup_size(DEFORM_WORKGROUP_SIZE)
-fn deform_main(@builtin(global_invocation_id) id: vec3u) {
-    if id.x >= part.vertex_count {
+fn deform_main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) within: u32) {
+    let vertex = group.x * DEFORM_WORKGROUP_SIZE + within;
+    if vertex >= part.vertex_count {
         return;
     }
-    let posed = deform_vertex(id.x);
-    deformed[id.x] = DeformedVertex(posed.position_world, posed.normal_world);
+    // A workgroup deforms one block.
+    let posed = deform_vertex(group.x, within);
+    deformed[vertex] = DeformedVertex(posed.position_world, posed.normal_world);
 }

@@ -9,15 +9,20 @@ struct Deformed {
     normal_world: vec3f,
 }
 
-fn blended_from_bind(vertex: u32, bind: Deformed) -> Deformed {
+fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     var blended = bind;
+    let block_count = (part.vertex_count + SHAPE_BLOCK - 1u) / SHAPE_BLOCK;
     for (var i = 0u; i < active_shapes.count; i++) {
         let shape = active_shapes.shapes[i];
         // Indices rise: whatever follows belongs to parts with more shapes.
         if shape.index >= part.shape_count {
             break;
         }
-        let offset = shape_offsets[shape.index * part.vertex_count + vertex];
+        let stored = shape_blocks[shape.index * block_count + block];
+        if stored == RESTING_BLOCK {
+            continue;
+        }
+        let offset = shape_offsets[stored * SHAPE_BLOCK + within];
         blended.position_world += shape.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
         blended.normal_world += shape.weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
     }
@@ -39,9 +44,11 @@ fn vertex_posed_from_bind(vertex: u32) -> Bone {
         + bones.weights.w * posed_from_bind[bones.indices.w];
 }
 
-fn deform_vertex(vertex: u32) -> Deformed {
+// `block` must be the same for all of a workgroup: so is what the loop over shapes decides.
+fn deform_vertex(block: u32, within: u32) -> Deformed {
+    let vertex = block * SHAPE_BLOCK + within;
     let bind = Deformed(vertices[vertex].position, vertices[vertex].normal);
-    let blended = blended_from_bind(vertex, bind);
+    let blended = blended_from_bind(block, within, bind);
     let posed = vertex_posed_from_bind(vertex);
     let normal = vec4f(blended.normal_world, 0.0) * posed;
     let normal_length = length(normal);

@@ -2,6 +2,7 @@
 
 struct Part {
     vertex_count: u32,
+    // Rows of the table: shapes beyond move nothing of this part.
     shape_count: u32,
     // The bone of a part that is rigid; not read where vertices have bones of their own.
     rigid_bone: u32,
@@ -20,7 +21,7 @@ struct VertexBones {
     weights: vec4f,
 }
 
-// Scalars instead of vectors: 24 bytes without padding. Shape by shape, so that shapes at rest are never touched.
+// Scalars instead of vectors: 24 bytes without padding.
 struct ShapeOffset {
     position_x: f32,
     position_y: f32,
@@ -33,4 +34,7 @@ struct ShapeOffset {
 @group(2) @binding(0) var<uniform> part: Part;
 @group(2) @binding(1) var<storage, read> vertices: array<Vertex>;
 @group(2) @binding(2) var<storage, read> vertex_bones: array<VertexBones>;
-@group(2) @binding(3) var<storage, read> shape_offsets: array<ShapeOffset>;
+// Shape by shape, so that shapes at rest are never touched; in each one place per block of SHAPE_BLOCK vertices: which block of
+// `shape_offsets`, or RESTING_BLOCK where the shape moves nothing.
+@group(2) @binding(3) var<storage, read> shape_blocks: array<u32>;
+@group(2) @binding(4) var<storage, read> shape_offsets: array<ShapeOffset>;
