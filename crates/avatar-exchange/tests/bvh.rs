@@ -36,11 +36,7 @@ fn good(text: &str) -> Scene {
 }
 
 fn ends(scene: &Scene, time_secs: f32) -> Vec<DVec3> {
-    scene
-        .worlds(&scene.at(0, time_secs).expect("a clip"))
-        .iter()
-        .map(|world| world.translation.into())
-        .collect()
+    scene.worlds(&scene.at(0, time_secs).expect("a clip")).iter().map(|world| world.translation).collect()
 }
 
 #[test]
@@ -173,7 +169,7 @@ fn the_face_units_load() {
         }
     }
     let worlds = scene.worlds(&scene.rest());
-    assert!(DVec3::from(worlds[worlds.len() - 1].translation).abs_diff_eq(last, 1e-5));
+    assert!(worlds[worlds.len() - 1].translation.abs_diff_eq(last, 1e-5));
     // Something moves in every frame but the first, which is the rest.
     let moved = |frame: usize| {
         let pose = scene.at(0, frame as f32 * 0.041_667).expect("a clip");

@@ -1,6 +1,7 @@
 //! Meshes and animations of id Tech 4.
 #![cfg(feature = "md5")]
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
+#![allow(clippy::disallowed_methods, reason = "a test may use the clock")]
 
 mod common;
 
@@ -125,7 +126,7 @@ fn vertices_come_from_weights() {
     // y is up in the world.
     let worlds = scene.worlds(&scene.rest());
     assert_eq!(scene.nodes[2].name, "hand");
-    assert!(DVec3::from(worlds[2].translation).abs_diff_eq(DVec3::new(4.0, 10.0, 0.0), 1e-6));
+    assert!(worlds[2].translation.abs_diff_eq(DVec3::new(4.0, 10.0, 0.0), 1e-6));
 }
 
 #[test]

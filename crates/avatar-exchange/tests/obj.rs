@@ -99,7 +99,7 @@ fn a_concave_polygon_is_noted() {
 #[test]
 fn materials_come_from_libraries() {
     let text = "mtllib ./my stuff.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red paint\nf 1 2 3\n";
-    let library = "newmtl other\nmap_Kd unused.png\n\nnewmtl red paint\nKd 0.8 0.1 0.2\nNs 6\nd 0.5\nKe 0.25\n\
+    let library = "newmtl other\nmap_Kd unused.png\n\nnewmtl red paint\nKd 0.8 0.1 0.2\nNs 6\nd 0.5\nTr 1\nKe 0.25\n\
         map_Kd -s 1 1 1 -clamp on textures\\red paint.png\nbump -bm 0.5 dents.png\n";
     let mut asked = Vec::new();
     let scene = read("a.obj", text.as_bytes(), &mut |path| {
@@ -173,6 +173,8 @@ fn faces_of_many_corners_and_many_parts_take_bounded_time() {
     let corners: String = (0..100_000).map(|k| format!(" {}", 1 + k % 3)).collect();
     let obj = good(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{corners}\n"));
     assert_eq!(obj.triangles.len(), 99_998);
+    let joined = good(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2{}3\n", "\\\n".repeat(1_000_000)));
+    assert_eq!(joined.triangles, [[0, 1, 2]]);
     let groups: String = (0..70_000).map(|k| format!("g {k}\nf 1 2 3\n")).collect();
     let error = parse(&format!("\n\ng {}\n", "x".repeat(2000))).expect_err("too long");
     assert_eq!((error.place.as_str(), error.found.as_str()), ("line 3", "2000"));

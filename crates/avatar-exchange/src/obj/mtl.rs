@@ -30,6 +30,8 @@ struct Draft {
     material: Material,
     /// A height map, or a normal map under its statement, which is the usual use of it.
     bump: Option<usize>,
+    /// Whether `d` was there, which counts more than `Tr`: writers disagree about what that one means.
+    has_opacity: bool,
 }
 
 /// Gives the parts of a file the materials that it names, in their order. What cannot be found gets a note.
@@ -54,7 +56,7 @@ pub(super) fn attach(
     }
     for name in names {
         let material = match library.found.get(name).and_then(|&index| library.materials.get(index)) {
-            Some(Draft { material, bump }) => {
+            Some(Draft { material, bump, .. }) => {
                 if let (None, Some(_)) = (material.normal_texture, bump) {
                     obj.notes
                         .push(note(&format!("material {name:?}"), "its bump map is taken for a normal map"));
@@ -121,7 +123,7 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
         if keyword == "newmtl" {
             library.found.entry(rest.to_owned()).or_insert(library.materials.len());
             let material = Material { name: rest.to_owned(), metallic: 0.0, ..Material::default() };
-            library.materials.push(Draft { material, bump: None });
+            library.materials.push(Draft { material, ..Draft::default() });
             current = library.materials.last_mut();
             continue;
         }
@@ -138,8 +140,9 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
                 // `d -halo` depends on the angle of sight.
                 let word = rest.split_whitespace().find(|word| *word != "-halo");
                 opacity(material, float(line, "an opacity", word)?);
+                draft.has_opacity = true;
             }
-            "Tr" => opacity(material, 1.0 - one("a transparency")?),
+            "Tr" if !draft.has_opacity => opacity(material, 1.0 - one("a transparency")?),
             // Of the same width: B. Karis, "Specular BRDF Reference" (2013), α² = 2 / (n + 2) with α the roughness squared.
             "Ns" => material.roughness = (2.0 / (one("an exponent")?.max(0.0) + 2.0)).sqrt().sqrt(),
             "Pr" => material.roughness = one("a roughness")?.clamp(0.0, 1.0),
