@@ -146,7 +146,15 @@ fn the_readmes_programs_run_in_projects_of_their_own() {
     let names: Vec<_> = crates.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
         names,
-        ["rig-core", "avatar-mesh", "avatar-look", "pose-anim", "avatar-pack", "avatar-render"]
+        [
+            "rig-core",
+            "avatar-mesh",
+            "avatar-look",
+            "pose-anim",
+            "avatar-pack",
+            "avatar-exchange",
+            "avatar-render"
+        ]
     );
 
     for (name, project) in &crates {

@@ -19,6 +19,18 @@ fn file_prefix(file: &str) -> String {
     if file.is_empty() { String::new() } else { format!("{file}: ") }
 }
 
+/// Characters of a name that messages show.
+const SHOWN: usize = 60;
+
+/// A name in a message: quoted, and cut where it is longer than a line, since a file decides how long it is and how
+/// often it is told.
+pub(crate) fn quoted(name: &str) -> String {
+    match name.char_indices().nth(SHOWN) {
+        None => format!("'{name}'"),
+        Some((end, _)) => format!("'{}…'", &name[..end]),
+    }
+}
+
 impl ImportError {
     /// An error at a place of a file that is not known here; see [`ImportError::in_file`].
     pub fn new(place: impl Into<String>, expected: impl Into<String>, found: impl Into<String>) -> Self {

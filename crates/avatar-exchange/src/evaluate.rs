@@ -1,6 +1,6 @@
 use crate::interpolate::sample;
 use crate::scene::{narrow, widen};
-use crate::{Channel, ChannelTarget, ImportError, Scene, Transform};
+use crate::{Channel, ChannelTarget, ImportError, Node, Scene, Transform};
 use glam::{Affine3A, DAffine3, Quat, Vec3};
 
 /// Where all nodes are, relative to their parents, and how much all shapes count.
@@ -42,10 +42,14 @@ impl Scene {
             .clips
             .get(clip)
             .ok_or_else(|| ImportError::new("the pose", format!("a clip below {clips}"), clip.to_string()))?;
-        let fits = pose.locals.len() == self.nodes.len() && pose.weights.len() == self.nodes.len();
+        let same = |(node, weights): (&Node, &Vec<f32>)| node.weights.len() == weights.len();
+        let fits = pose.locals.len() == self.nodes.len()
+            && pose.weights.len() == self.nodes.len()
+            && self.nodes.iter().zip(&pose.weights).all(same);
         if !fits {
-            let expected = format!("locals and weights of {} nodes", self.nodes.len());
-            let found = format!("{} and {}", pose.locals.len(), pose.weights.len());
+            let expected = format!("locals and weights of the scene's {} nodes", self.nodes.len());
+            let found =
+                format!("{} and {}, or other numbers of weights", pose.locals.len(), pose.weights.len());
             return Err(ImportError::new("the pose", expected, found));
         }
         for channel in &clip.channels {

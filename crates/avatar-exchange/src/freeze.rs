@@ -1,3 +1,4 @@
+use crate::error::quoted;
 use crate::{Channel, ChannelTarget, ImportError, Interpolation, Node, Note, RawScene, Transform};
 use glam::Affine3A;
 use std::ops::Deref;
@@ -57,7 +58,7 @@ impl Scene {
             let (Some(skin), Some(skinning)) = (part.skin, &mut part.mesh.skinning) else { continue };
             for bone in skinning.bones.iter_mut().flatten() {
                 *bone = u16::try_from(palette.skins[skin] + usize::from(*bone)).map_err(|_| {
-                    let place = format!("part {number} '{}'", part.name);
+                    let place = format!("part {number} {}", quoted(&part.name));
                     let found = format!("{} joints in all skins", palette.entries.len());
                     ImportError::new(place, "at most 65536 joints in all skins", found)
                 })?;
@@ -127,7 +128,7 @@ fn order(nodes: &[Node]) -> Result<Vec<usize>, ImportError> {
 }
 
 fn node_place(nodes: &[Node], number: usize) -> String {
-    format!("node {number} '{}'", nodes[number].name)
+    format!("node {number} {}", quoted(&nodes[number].name))
 }
 
 fn out_of_range(place: String, what: &str, length: usize, found: usize) -> ImportError {
@@ -150,7 +151,7 @@ fn check_nodes(nodes: &[Node]) -> Result<(), ImportError> {
 
 fn check_skins(raw: &RawScene) -> Result<(), ImportError> {
     for (number, skin) in raw.skins.iter().enumerate() {
-        let place = || format!("skin {number} '{}'", skin.name);
+        let place = || format!("skin {number} {}", quoted(&skin.name));
         if skin.joints.is_empty() {
             return Err(ImportError::new(place(), "at least one joint", "none"));
         }
@@ -172,7 +173,7 @@ fn check_skins(raw: &RawScene) -> Result<(), ImportError> {
 fn check_parts(raw: &mut RawScene) -> Result<(), ImportError> {
     for (number, part) in raw.parts.iter_mut().enumerate() {
         let name = &part.name;
-        let place = || format!("part {number} '{name}'");
+        let place = || format!("part {number} {}", quoted(name));
         in_range(place, "a node", raw.nodes.len(), part.node)?;
         if let Some(material) = part.material {
             in_range(place, "a material", raw.materials.len(), material)?;
@@ -209,7 +210,7 @@ fn check_clips(raw: &RawScene) -> Result<(), ImportError> {
     for (number, clip) in raw.clips.iter().enumerate() {
         for (index, channel) in clip.channels.iter().enumerate() {
             let place = || {
-                let name = if clip.name.is_empty() { number.to_string() } else { format!("'{}'", clip.name) };
+                let name = if clip.name.is_empty() { number.to_string() } else { quoted(&clip.name) };
                 format!("animation {name}, channel {index}")
             };
             in_range(place, "a node", raw.nodes.len(), channel.node)?;
@@ -251,9 +252,12 @@ fn check_channel(channel: &Channel, node: &Node) -> Result<(), (String, String)>
 
 fn check_materials(raw: &RawScene) -> Result<(), ImportError> {
     for (number, material) in raw.materials.iter().enumerate() {
+        let place = || format!("material {number} {}", quoted(&material.name));
         for texture in material.textures() {
-            let place = || format!("material {number} '{}'", material.name);
             in_range(place, "an image", raw.images.len(), texture)?;
+        }
+        if let Some(factor) = material.factors().find(|factor| !factor.is_finite()) {
+            return Err(ImportError::new(place(), "finite factors", factor.to_string()));
         }
     }
     Ok(())

@@ -32,17 +32,23 @@
 
 #[cfg(any(feature = "obj", feature = "md5"))]
 mod angle_normals;
+#[allow(dead_code, reason = "which readers are built in decides what of it is used")]
+mod assemble;
 #[cfg(feature = "bvh")]
 pub mod bvh;
 mod error;
 mod evaluate;
 mod freeze;
+#[cfg(feature = "gltf")]
+pub mod gltf;
 mod interpolate;
 mod material;
 #[cfg(feature = "md5")]
 pub mod md5;
+mod normals;
 #[cfg(feature = "obj")]
 pub mod obj;
+mod read;
 mod scene;
 #[cfg(feature = "target")]
 pub mod target;
@@ -53,6 +59,8 @@ pub use error::ImportError;
 pub use evaluate::ScenePose;
 pub use freeze::{Palette, PaletteEntry, Scene};
 pub use material::{AlphaMode, Material, SceneImage};
+pub use normals::deform_unevenly;
+pub use read::{Format, Resolve, read};
 pub use scene::{
     Channel, ChannelTarget, Clip, Interpolation, Node, Note, RawScene, ScenePart, Skin, Transform, Trs,
 };

@@ -58,6 +58,13 @@ impl Default for Material {
 }
 
 impl Material {
+    /// All its numbers that are not positions.
+    pub(crate) fn factors(&self) -> impl Iterator<Item = f32> {
+        let single =
+            [self.metallic, self.roughness, self.normal_scale, self.occlusion_strength, self.alpha_cutoff];
+        self.base_color.into_iter().chain(self.emissive).chain(single)
+    }
+
     /// All textures that it names.
     pub fn textures(&self) -> impl Iterator<Item = usize> {
         [

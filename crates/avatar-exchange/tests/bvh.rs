@@ -2,7 +2,7 @@
 #![cfg(feature = "bvh")]
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
-mod common;
+mod texts;
 
 use avatar_exchange::bvh::read;
 use avatar_exchange::{Scene, Transform};
@@ -138,14 +138,14 @@ fn deep_nesting_is_no_recursion() {
 
 #[test]
 fn damaged_files_are_told() {
-    let told = common::survives_damage(ARM.as_bytes(), |bytes| read("a.bvh", bytes));
+    let told = texts::survives_damage(ARM.as_bytes(), |bytes| read("a.bvh", bytes));
     assert!(told > 200, "{told}");
 }
 
 #[test]
 fn the_face_units_load() {
-    let Some(path) = common::shared("makehuman-cc0/poseunits/face-poseunits.bvh") else { return };
-    let bytes = common::bytes(&path);
+    let Some(path) = texts::shared("makehuman-cc0/poseunits/face-poseunits.bvh") else { return };
+    let bytes = texts::bytes(&path);
     let scene = read("face-poseunits.bvh", &bytes).expect("face-poseunits.bvh");
     let text = String::from_utf8_lossy(&bytes);
     let count = |word: &str| text.split_whitespace().filter(|other| *other == word).count();
@@ -182,8 +182,8 @@ fn the_face_units_load() {
 
 #[test]
 fn test_models_load() {
-    for path in common::test_models(&["bvh"]) {
-        let scene = common::loads_or_tells(&path, read).expect("a good file");
+    for path in texts::test_models(&["bvh"]) {
+        let scene = texts::loads_or_tells(&path, read).expect("a good file");
         assert!(scene.nodes.len() > 20 && scene.clips[0].duration_secs() > 1.0);
     }
 }

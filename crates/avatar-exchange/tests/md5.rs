@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may use the clock")]
 
-mod common;
+mod texts;
 
 use avatar_exchange::md5::{TextFile, read};
 use avatar_exchange::{ImportError, Scene};
@@ -229,9 +229,9 @@ fn short_files_stand_for_no_long_ones() {
 fn damaged_files_are_told() {
     let anim = [("a.md5anim", ANIM)];
     let told =
-        common::survives_damage(MESH.as_bytes(), |bytes| read_texts(&String::from_utf8_lossy(bytes), &anim));
+        texts::survives_damage(MESH.as_bytes(), |bytes| read_texts(&String::from_utf8_lossy(bytes), &anim));
     assert!(told > 300, "{told}");
-    let told = common::survives_damage(ANIM.as_bytes(), |bytes| {
+    let told = texts::survives_damage(ANIM.as_bytes(), |bytes| {
         read(
             TextFile { file: "arm.md5mesh", bytes: MESH.as_bytes() },
             &[TextFile { file: "a.md5anim", bytes }],
@@ -242,8 +242,8 @@ fn damaged_files_are_told() {
 
 #[test]
 fn test_models_load_or_tell() {
-    for path in common::test_models(&["md5mesh"]) {
-        let scene = common::loads_or_tells(&path, |file, bytes| read(TextFile { file, bytes }, &[]));
+    for path in texts::test_models(&["md5mesh"]) {
+        let scene = texts::loads_or_tells(&path, |file, bytes| read(TextFile { file, bytes }, &[]));
         match path.file_stem().expect("a file").to_str() {
             Some("SimpleCube") => {
                 let mesh = &scene.expect("a good file").parts[0].mesh;

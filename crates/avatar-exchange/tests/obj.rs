@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may use files")]
 
-mod common;
+mod texts;
 
 use avatar_exchange::obj::{ObjFile, ObjFrame, read, read_obj, read_sequence};
 use avatar_exchange::{AlphaMode, ImportError};
@@ -12,7 +12,7 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
 fn parse(text: &str) -> Result<ObjFile, ImportError> {
-    read_obj("a.obj", text.as_bytes(), &mut |_| None)
+    read_obj("a.obj", text.as_bytes(), &mut |_| Err(String::new()))
 }
 
 fn good(text: &str) -> ObjFile {
@@ -105,9 +105,9 @@ fn materials_come_from_libraries() {
     let scene = read("a.obj", text.as_bytes(), &mut |path| {
         asked.push(path.to_owned());
         match path {
-            "my stuff.mtl" => Some(library.as_bytes().to_vec()),
-            "textures/red paint.png" => Some(b"\x89PNG....".to_vec()),
-            _ => None,
+            "my stuff.mtl" => Ok(library.as_bytes().to_vec()),
+            "textures/red paint.png" => Ok(b"\x89PNG....".to_vec()),
+            _ => Err("none".to_owned()),
         }
     })
     .expect("a good file");
@@ -121,10 +121,10 @@ fn materials_come_from_libraries() {
     assert_eq!((material.base_color_texture, material.normal_texture), (Some(0), Some(1)));
     assert_eq!((scene.images[0].mime.as_str(), scene.images[1].bytes.len()), ("image/png", 0));
     assert!(scene.notes.iter().any(|note| note.place == "dents.png"));
-    let error = read("a.obj", text.as_bytes(), &mut |_| Some(b"newmtl a\nKd red".to_vec())).map(|_| ());
+    let error = read("a.obj", text.as_bytes(), &mut |_| Ok(b"newmtl a\nKd red".to_vec())).map(|_| ());
     assert_eq!(error, Ok(()));
     let error =
-        read("a.obj", text.as_bytes(), &mut |_| Some(b"newmtl a\nKd 1 x 1".to_vec())).expect_err("no number");
+        read("a.obj", text.as_bytes(), &mut |_| Ok(b"newmtl a\nKd 1 x 1".to_vec())).expect_err("no number");
     assert_eq!((error.file.as_str(), error.place.as_str()), ("my stuff.mtl", "line 2"));
 }
 
@@ -135,7 +135,7 @@ fn lines_may_be_continued_and_encoded_in_sixteen_bits() {
         "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(u16::to_be_bytes).collect();
     let narrow = good(text);
     assert_eq!(narrow.positions, [Vec3::ZERO, Vec3::X, Vec3::Y]);
-    assert_eq!(read_obj("a.obj", &wide, &mut |_| None), Ok(narrow));
+    assert_eq!(read_obj("a.obj", &wide, &mut |_| Err(String::new())), Ok(narrow));
 }
 
 #[test]
@@ -191,7 +191,8 @@ fn a_sequence_plays_its_files() {
         bytes: files[k].as_bytes(),
         time_secs,
     };
-    let scene = read_sequence(&[of(0, 1.0), of(2, 4.0), of(1, 2.0)], &mut |_| None).expect("a sequence");
+    let scene = read_sequence(&[of(0, 1.0), of(2, 4.0), of(1, 2.0)], &mut |_| Err(String::new()))
+        .expect("a sequence");
     let names: Vec<_> = scene.parts[0].mesh.shapes.iter().map(|shape| shape.name.as_str()).collect();
     assert_eq!(names, ["f0", "f1", "f2"]);
     let z_at = |time_secs| {
@@ -216,8 +217,9 @@ fn a_sequence_plays_its_files() {
 fn frames_that_do_not_fit_are_told() {
     let a = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let of = |file, text: &'static str, time_secs| ObjFrame { file, bytes: text.as_bytes(), time_secs };
-    let fails =
-        |frames: &[ObjFrame<'_>]| read_sequence(frames, &mut |_| None).expect_err("no sequence").to_string();
+    let fails = |frames: &[ObjFrame<'_>]| {
+        read_sequence(frames, &mut |_| Err(String::new())).expect_err("no sequence").to_string()
+    };
     let more =
         fails(&[of("a.obj", a, 0.0), of("b.obj", "v 0 0 0\nv 0 1 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", 1.0)]);
     assert!(
@@ -231,8 +233,8 @@ fn frames_that_do_not_fit_are_told() {
     assert!(fails(&[]).contains("1 to 4096 files"));
     // Faces that begin elsewhere are the same faces.
     let turned = "v 0 0 7\nv 1 0 0\nv 0 1 0\nf 2 3 1\n";
-    let scene =
-        read_sequence(&[of("a.obj", a, 0.0), of("b.obj", turned, 1.0)], &mut |_| None).expect("a sequence");
+    let scene = read_sequence(&[of("a.obj", a, 0.0), of("b.obj", turned, 1.0)], &mut |_| Err(String::new()))
+        .expect("a sequence");
     assert_eq!(scene.notes.len(), 1);
     assert_eq!(scene.parts[0].mesh.shapes[1].positions.get(0), Some(Vec3::Z * 7.0));
 }
@@ -249,10 +251,10 @@ fn real_faces_load() {
         "mediapipe-face/canonical_face_model.obj",
         "mediapipe-face/face_model_with_iris.obj",
     ] {
-        let Some(path) = common::shared(name) else { continue };
-        let bytes = common::bytes(&path);
+        let Some(path) = texts::shared(name) else { continue };
+        let bytes = texts::bytes(&path);
         let text = String::from_utf8_lossy(&bytes);
-        let obj = read_obj(name, &bytes, &mut |_| None).expect(name);
+        let obj = read_obj(name, &bytes, &mut |_| Err(String::new())).expect(name);
         assert_eq!(obj.positions.len(), count(&text, "v"), "{name}");
         let faces = text.lines().filter(|line| line.starts_with("f "));
         let triangles: usize = faces.map(|line| line.split_whitespace().count() - 3).sum();
@@ -273,12 +275,12 @@ fn real_faces_load() {
 #[test]
 fn test_models_load_or_tell() {
     let mut loaded = 0;
-    let models = common::test_models(&["obj"]);
+    let models = texts::test_models(&["obj"]);
     for path in &models {
         let folder = path.parent().expect("a folder");
-        let mut resolve = |name: &str| std::fs::read(folder.join(name)).ok();
+        let mut resolve = |name: &str| std::fs::read(folder.join(name)).map_err(|error| error.to_string());
         loaded +=
-            usize::from(common::loads_or_tells(path, |name, bytes| read(name, bytes, &mut resolve)).is_ok());
+            usize::from(texts::loads_or_tells(path, |name, bytes| read(name, bytes, &mut resolve)).is_ok());
     }
     // A few of them are broken or have no faces.
     assert!(2 * loaded >= models.len(), "{loaded} of {}", models.len());
@@ -301,11 +303,14 @@ fn damaged_files_are_told() {
             corner(k + 9)
         );
     }
-    let told = common::survives_damage(text.as_bytes(), |bytes| read("a.obj", bytes, &mut |_| None));
+    let told =
+        texts::survives_damage(text.as_bytes(), |bytes| read("a.obj", bytes, &mut |_| Err(String::new())));
     assert!(told > 200, "{told}");
     let library = b"newmtl m0\nKd 0.5 0.5 0.5\nmap_Kd -s 1 1 -o 0 0 a.png\nNs 50\nd 0.5\nnewmtl m1\nKe 1\nmap_Bump -bm 1 b.png\n";
-    let told = common::survives_damage(library, |bytes| {
-        read("a.obj", text.as_bytes(), &mut |path| (path == "a.mtl").then(|| bytes.to_vec()))
+    let told = texts::survives_damage(library, |bytes| {
+        read("a.obj", text.as_bytes(), &mut |path| {
+            (path == "a.mtl").then(|| bytes.to_vec()).ok_or_else(String::new)
+        })
     });
     assert!(told > 20, "{told}");
 }

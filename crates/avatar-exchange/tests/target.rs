@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 #![allow(clippy::disallowed_methods, reason = "a test may use files")]
 
-mod common;
+mod texts;
 
 use avatar_exchange::obj::{ObjFile, read_obj};
 use avatar_exchange::target;
@@ -15,7 +15,7 @@ use std::collections::HashMap;
 const BASE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 7 7 7\ng left\nf 1 2 3\ng right\nf 2 4 3\n";
 
 fn base() -> ObjFile {
-    read_obj("base.obj", BASE.as_bytes(), &mut |_| None).expect("a good file")
+    read_obj("base.obj", BASE.as_bytes(), &mut |_| Err(String::new())).expect("a good file")
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn errors_name_their_line() {
 #[test]
 fn damaged_files_are_told() {
     let text: String = (0..5).map(|k| format!("# vertex {k}\n{k} 0.0012500{k} -0.25 1e-3{k}\n")).collect();
-    let told = common::survives_damage(text.as_bytes(), |bytes| {
+    let told = texts::survives_damage(text.as_bytes(), |bytes| {
         let mut obj = base();
         target::add("a.target", bytes, &mut obj)?;
         obj.into_scene()
@@ -83,18 +83,18 @@ fn damaged_files_are_told() {
 
 #[test]
 fn real_targets_move_what_their_lines_say() {
-    let Some(path) = common::shared("makehuman-cc0/base.obj") else { return };
-    let mut obj = read_obj("base.obj", &common::bytes(&path), &mut |_| None).expect("base.obj");
+    let Some(path) = texts::shared("makehuman-cc0/base.obj") else { return };
+    let mut obj = read_obj("base.obj", &texts::bytes(&path), &mut |_| Err(String::new())).expect("base.obj");
     let mut expected: HashMap<String, HashMap<usize, [f32; 3]>> = HashMap::new();
     for folder in ["talkinghead-arkit-targets", "makehuman-cc0/expression-units-caucasian"] {
-        let Some(folder) = common::shared(folder) else { continue };
+        let Some(folder) = texts::shared(folder) else { continue };
         let mut files: Vec<_> =
             std::fs::read_dir(folder).expect("a folder").flatten().map(|entry| entry.path()).collect();
         files.retain(|path| path.extension().is_some_and(|extension| extension == "target"));
         files.sort();
         assert!(!files.is_empty());
         for path in files {
-            let bytes = common::bytes(&path);
+            let bytes = texts::bytes(&path);
             let name = path.file_name().expect("a file").to_string_lossy();
             target::add(&name, &bytes, &mut obj).expect(&name);
             let text = String::from_utf8_lossy(&bytes).into_owned();

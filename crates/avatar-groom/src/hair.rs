@@ -44,8 +44,9 @@ impl Hair {
     /// ```
     pub const EXAMPLE: &str = include_str!("hair.toml");
 
-    /// Hair has at most so many times the usual number of strands.
-    pub const MAX_DENSITY: f32 = 10.0;
+    /// Hair has at most so many times the usual number of strands: on the built-in head what a binding of WebGPU's default
+    /// limits holds.
+    pub const MAX_DENSITY: f32 = 7.0;
 
     /// Strands over a square of the skin's height where density is 1: some 80,000 on the built-in head.
     const USUAL_STRANDS: f32 = 100_000.0;

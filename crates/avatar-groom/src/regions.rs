@@ -57,6 +57,11 @@ impl Regions {
         (region, if is_bare { 0.0 } else { self.densities[region as usize] })
     }
 
+    /// The density of the densest region, by what the map says.
+    pub(crate) fn densest(&self) -> f32 {
+        self.densities.iter().copied().fold(0.0, f32::max)
+    }
+
     /// Whether nothing grows anywhere.
     pub(crate) fn is_bald(&self) -> bool {
         self.densities.iter().all(|density| *density <= 0.0)

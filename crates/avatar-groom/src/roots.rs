@@ -35,6 +35,9 @@ pub struct Root {
 /// No head has more roots than this: enough for whole heads, and an end to what broken files ask for.
 pub const MAX_ROOTS: usize = 1 << 22;
 
+/// Shares of all regions that are planted.
+const MOST_SHARES: f64 = (MAX_ROOTS - 3) as f64;
+
 /// Attempts to find a place in a piece that the density accepts; after that its middle is taken, where there is some.
 const ATTEMPTS: u64 = 8;
 
@@ -43,7 +46,8 @@ const MAX_PIECES: u64 = 1 << 25;
 
 /// Scatters roots: as many as area × density asks for, `strands` of them over a square of the skin's height where the density
 /// of the map is 1 and that of the style, too. Positions are those of the bind pose; `eyes` are the boxes of the eyeballs,
-/// without which there are neither brows nor lashes. There are at most [`MAX_ROOTS`].
+/// without which there are neither brows nor lashes. Where that would be more than [`MAX_ROOTS`], all densities are scaled
+/// down alike, so that what is left is a fair sample.
 ///
 /// Triangles are cut into pieces about as large as values of the map. For each region the shares of all pieces are laid end
 /// to end, and a strand is planted at a random place within every step of length 1 (stratified sampling over prefix sums), so
@@ -74,14 +78,40 @@ pub fn scatter(
 
     let mut planter =
         Planter { density, regions, rows: [0, 1, 2].map(|region| Row::new(seed, region)), roots: Vec::new() };
+    let total = total_shares(&patches, coarser, per_area, &planter);
+    if !total.is_finite() {
+        return Vec::new();
+    }
+    // A little less than the most: each region may have one strand more than its shares say.
+    let scale = (MOST_SHARES / total.max(1e-9)).min(1.0);
     for (patch, pieces) in &patches {
         let pieces = pieces.coarser(coarser);
-        let share = patch.area * per_area / pieces.count() as f64;
+        let share = patch.area * per_area * scale / pieces.count() as f64;
         pieces.visit(&mut |piece| planter.plant(patch, piece, share));
     }
     let mut roots = planter.roots;
     roots.sort_unstable_by_key(|(order, root)| (*order, root.triangle));
     roots.into_iter().map(|(_, root)| root).collect()
+}
+
+/// Shares of all pieces together, or less where that is known to be no more than there may be.
+fn total_shares(patches: &[(Patch, Pieces)], coarser: u32, per_area: f64, planter: &Planter<'_>) -> f64 {
+    // No map is denser than 1: most heads are done with this.
+    let most = patches.iter().map(|(patch, _)| patch.area).sum::<f64>() * per_area;
+    let most = most * f64::from(planter.regions.densest());
+    if most <= MOST_SHARES {
+        return most;
+    }
+    let mut total = 0.0;
+    for (patch, pieces) in patches {
+        let pieces = pieces.coarser(coarser);
+        let share = patch.area * per_area / pieces.count() as f64;
+        pieces.visit(&mut |piece| {
+            let wanted = share * f64::from(planter.density_at(patch, piece.middle()).1);
+            total += if wanted > 0.0 { wanted } else { 0.0 };
+        });
+    }
+    total
 }
 
 /// A triangle that hair may grow on.

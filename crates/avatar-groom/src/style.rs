@@ -197,6 +197,11 @@ impl Style {
         Self::PRESETS.into_iter().find(|(other, _)| *other == name).map(|(_, style)| style)
     }
 
+    /// Whether there is hair that swings after the head has moved.
+    pub fn swings(&self) -> bool {
+        self.scalp.density > 0.0 && self.scalp.strip > 0.0 && self.scalp.swing > 0.0
+    }
+
     /// The style of a region.
     pub fn region(&self, region: Region) -> &RegionStyle {
         match region {
@@ -212,5 +217,25 @@ impl RegionStyle {
     pub fn curl_turn(&self) -> Vec2 {
         let angle = std::f32::consts::TAU * self.curl_turns / (SEGMENTS - 1) as f32;
         Vec2::new(libm::cosf(angle), libm::sinf(angle))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bald_and_stiff_heads_do_not_swing() {
+        let swinging = Style::PRESETS.into_iter().filter(|(_, style)| style.swings()).map(|(name, _)| name);
+        assert_eq!(swinging.collect::<Vec<_>>(), ["bob", "long", "curly", "mohawk"]);
+        let with = |change: fn(&mut RegionStyle)| {
+            let mut style = Style::LONG;
+            change(&mut style.scalp);
+            style.swings()
+        };
+        assert!(with(|_| {}));
+        assert!(!with(|scalp| scalp.swing = 0.0));
+        assert!(!with(|scalp| scalp.density = 0.0));
+        assert!(!with(|scalp| scalp.strip = 0.0));
     }
 }

@@ -2,7 +2,10 @@
 //! (vertices) or bytes per second beside the time of one run.
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
-use avatar_mesh::{Mesh, Shape, Skinning, deform, raw, weld, weld_positions};
+use avatar_mesh::{
+    DeformBounds, Mesh, Shape, ShapeNormals, Skinning, SmoothNormals, deform, deform_with, raw, weld,
+    weld_positions,
+};
 use divan::Bencher;
 use divan::counter::{BytesCount, ItemsCount};
 use glam::{Affine3A, Quat, Vec2, Vec3};
@@ -52,6 +55,49 @@ fn deform_with_shapes(bencher: Bencher<'_, '_>, shapes: usize) {
         deform(&mesh, divan::black_box(&bones), divan::black_box(&weights), &mut out).unwrap();
         divan::black_box(&out);
     });
+}
+
+/// Of a face with many shapes, each moves a few vertices: one in twenty here, or all. Every second shape is active.
+#[divan::bench(args = [("sparse", 20), ("dense", 1)])]
+fn deform_with_fifty_shapes(bencher: Bencher<'_, '_>, (_, one_in): (&str, usize)) {
+    let mut mesh = skin();
+    mesh.shapes = (0..50)
+        .map(|k| {
+            let moved = |v: usize| (v / 64).is_multiple_of(one_in) || one_in == 1;
+            let offset = |v: usize| if moved(v + 64 * k) { Vec3::new(0.01, 0.02, 0.03) } else { Vec3::ZERO };
+            let offsets: Vec<Vec3> = (0..VERTICES).map(offset).collect();
+            Shape::new(k.to_string(), offsets.clone()).with_normals(offsets)
+        })
+        .collect();
+    let bones = [Affine3A::IDENTITY; 9];
+    let weights: Vec<f32> = (0..50).map(|k| (k % 2) as f32 * 0.1).collect();
+    let mut out = mesh.deformed();
+    bencher.counter(ItemsCount::new(VERTICES)).bench_local(|| {
+        deform(&mesh, divan::black_box(&bones), divan::black_box(&weights), &mut out).unwrap();
+        divan::black_box(&out);
+    });
+}
+
+#[divan::bench]
+fn deform_with_recomputed_normals(bencher: Bencher<'_, '_>) {
+    let mesh = skin();
+    let mut smooth = SmoothNormals::new(&mesh);
+    let bones = [Affine3A::IDENTITY; 9];
+    let mut out = mesh.deformed();
+    bencher.counter(ItemsCount::new(VERTICES)).bench_local(|| {
+        let normals = ShapeNormals::Recomputed(&mut smooth);
+        deform_with(&mesh, divan::black_box(&bones), divan::black_box(&[0.5, 0.5]), normals, &mut out)
+            .unwrap();
+        divan::black_box(&out);
+    });
+}
+
+#[divan::bench]
+fn box_around_a_pose(bencher: Bencher<'_, '_>) {
+    let mesh = skin();
+    let bounds = DeformBounds::new(&mesh);
+    let bones = [Affine3A::IDENTITY; 9];
+    bencher.bench_local(|| bounds.around(divan::black_box(&bones), divan::black_box(&[0.5, 0.5])));
 }
 
 fn buffers() -> (Vec<u8>, Vec<u8>) {

@@ -1,4 +1,4 @@
-//! Meshes of rigged faces: parts, blend shapes, raw buffers, deformation on the CPU, OBJ.
+//! Meshes of rigged faces: parts, blend shapes and their mathematics, raw buffers, deformation on the CPU, OBJ.
 //!
 //! ```text
 //!  VB, IB bytes ──raw──▶ Mesh { points, shapes, skinning } ──deform──▶ positions, normals ──obj──▶ text
@@ -15,7 +15,7 @@
 //!  n_blend = n + Σ_k b_k · dn_k        n_out = normalize( Σ_{i=0..3} w_i · mat3(X_{bone_i}) · n_blend )
 //! ```
 //!
-//! [`deform()`] is the reference that the GPU's results are held against.
+//! Tangents, where a mesh has them, follow as normals do. [`deform()`] is the reference that the GPU's results are held against.
 //!
 //! ```
 //! use avatar_mesh::{deform, raw};
@@ -31,11 +31,45 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! This crate knows no files and no GPU.
+//! # Blend shapes
+//!
+//! ```text
+//!  drivers ──ShapeDrivers──▶ weights ──normalise, clamp──▶ weights ──deform──▶ mesh
+//!  points of a ShapeSpace ────┘ │
+//!  keys of a Sequence ──────────┘
+//! ```
+//!
+//! - A [`Shape`] stores moved vertices only, where that is smaller ([`Offsets`]). Shapes without offsets for normals leave them alone;
+//!   [`ShapeNormals`] is the choice, [`SmoothNormals`] recomputes them.
+//! - [`weights`]: relative and absolute forms, normalised weights. All functions on weights work with any renderer.
+//! - [`drivers`]: in-between shapes, and combinations that count as the product of others.
+//! - [`sequence`]: geometries as keys in time, with any transition function.
+//! - [`space`]: weights as points along named axes, and their mixtures.
+//! - [`coherence`]: whether geometries of several files have the same vertices in the same order.
+//! - [`DeformBounds`]: boxes around what [`deform()`] makes, from the bones and weights alone.
+//!
+//! ```
+//! use avatar_mesh::{Mesh, Shape, ShapeNormals, blend, weights};
+//! use glam::Vec3;
+//!
+//! let mut mesh = Mesh { positions: vec![Vec3::ZERO; 2], normals: vec![Vec3::Z; 2], ..Mesh::default() };
+//! mesh.shapes.push(Shape::from_absolute("wide", &mesh.positions, &[Vec3::X * 4.0, Vec3::ZERO])?);
+//! mesh.shapes.push(Shape::from_pairs("high", 2, [(0, Vec3::Y * 2.0)])?);
+//! // Both at full weight average.
+//! let mut both = [1.0, 1.0];
+//! weights::normalise(&mut both);
+//! let mut blended = mesh.deformed();
+//! blend(&mesh, &both, ShapeNormals::Given, &mut blended)?;
+//! assert_eq!(blended.positions, [Vec3::new(2.0, 1.0, 0.0), Vec3::ZERO]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! This crate knows no files, no clock and no GPU, and what runs every frame allocates nothing.
 
 mod bounds;
 pub mod coherence;
 mod deform;
+mod deform_bounds;
 pub mod drivers;
 mod in_between;
 mod mesh;
@@ -46,6 +80,7 @@ pub mod raw;
 pub mod sequence;
 mod shape;
 mod smooth;
+pub mod space;
 mod validate;
 pub mod weights;
 mod weld;
@@ -53,6 +88,7 @@ mod winding;
 
 pub use bounds::Bounds;
 pub use deform::{DeformError, Deformed, MIN_NORMAL_LENGTH, ShapeNormals, blend, deform, deform_with};
+pub use deform_bounds::{BoneBounds, DeformBounds};
 pub use mesh::{Mesh, Skinning};
 pub use offsets::{Offsets, OffsetsError};
 pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec};

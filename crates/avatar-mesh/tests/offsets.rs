@@ -8,7 +8,7 @@ use avatar_mesh::{
     deform_with,
 };
 use common::{Random, edit_offset};
-use glam::{Affine3A, Quat, Vec2, Vec3, Vec4};
+use glam::{Affine3A, Quat, Vec2, Vec3, Vec3Swizzles, Vec4};
 use proptest::prelude::*;
 
 /// Offsets of which `moved` in ten are anything but 0.
@@ -145,8 +145,6 @@ fn cube() -> Mesh {
     mesh
 }
 
-use glam::Vec3Swizzles;
-
 fn moved(mesh: &Mesh, name: &str, to: impl Fn(Vec3) -> Vec3) -> Shape {
     Shape::new(name, mesh.positions.iter().map(|p| to(*p) - *p).collect::<Offsets>())
 }
@@ -190,6 +188,28 @@ fn recomputed_normals_follow_the_faces_and_edges_stay_hard() {
     inside_out.triangles.iter_mut().for_each(|t| t.swap(1, 2));
     let mut smooth = SmoothNormals::new(&inside_out);
     assert_eq!(run(&inside_out, &[1.0, 0.0], ShapeNormals::Recomputed(&mut smooth)), turned);
+}
+
+/// However faces are cut into triangles: only weighting by angles makes the corners of a cube point outward evenly.
+#[test]
+fn corners_of_a_smooth_cube_point_outward_evenly() {
+    let sharp = cube();
+    let corners: Vec<Vec3> =
+        (0..8).map(|k| Vec3::new((k & 1) as f32, (k >> 1 & 1) as f32, (k >> 2) as f32) * 2.0 - 1.0).collect();
+    let corner_of = |v: u32| corners.iter().position(|c| *c == sharp.positions[v as usize]).unwrap() as u32;
+    let mut mesh = Mesh {
+        uvs: vec![Vec2::ZERO; 8],
+        normals: corners.iter().map(|c| c.normalize_or_zero()).collect(),
+        triangles: sharp.triangles.iter().map(|t| t.map(corner_of)).collect(),
+        positions: corners.clone(),
+        ..Mesh::default()
+    };
+    let turn = Quat::from_axis_angle(Vec3::new(0.6, 0.8, 0.0), 0.7);
+    mesh.shapes = vec![moved(&mesh, "turn", |p| turn * p)];
+    let out = run(&mesh, &[1.0], ShapeNormals::Recomputed(&mut SmoothNormals::new(&mesh)));
+    for (normal, authored) in out.normals.iter().zip(&mesh.normals) {
+        assert!(normal.distance(turn * *authored) < 1e-6, "{authored}: {normal}");
+    }
 }
 
 #[test]
@@ -240,6 +260,14 @@ fn both_sides_of_a_texture_seam_get_one_normal() {
         changed += usize::from(out.normals[first].distance(mesh.normals[first]) > 0.02);
     }
     assert!(changed > 1, "the dent turns normals at the seam");
+    // Normals of the two sides that differ by a degree, as files have them, change by the same.
+    let tilt = Quat::from_rotation_x(1f32.to_radians());
+    (0..5).for_each(|ring| mesh.normals[ring * 17] = tilt * mesh.normals[ring * 17]);
+    let mut change = vec![Vec3::ZERO; mesh.positions.len()];
+    SmoothNormals::new(&mesh).add_change(&out.positions, &mut change);
+    for ring in 0..5 {
+        assert_eq!(change[ring * 17], change[ring * 17 + 16]);
+    }
 }
 
 #[test]

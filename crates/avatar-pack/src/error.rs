@@ -77,6 +77,8 @@ pub enum Warning {
         /// All triangles.
         triangles: usize,
     },
+    /// Something of an interchange file that is not represented.
+    Import(String),
     /// A texture is missing or does not decode; a plain default takes its place.
     Texture {
         /// The file.
@@ -89,6 +91,7 @@ pub enum Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Import(note) => f.write_str(note),
             Self::Mesh { file, warning } => write!(f, "{file}: {warning}"),
             Self::InsideOut { part, contradicting, triangles } => write!(
                 f,

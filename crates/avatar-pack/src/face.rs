@@ -1,4 +1,5 @@
-use crate::{Pack, PaletteBone};
+use crate::{Pack, PaletteBone, Part};
+use avatar_mesh::{DeformError, Deformed};
 use glam::Affine3A;
 use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
 
@@ -88,6 +89,35 @@ impl FaceState {
             *bone = *joints.get(joint.index()).ok_or(unknown)? * *joint_from_mesh;
         }
         Ok(())
+    }
+
+    /// Replaces weights of shapes, by their places in [`Pack::shapes`]; places that there are not are left out.
+    pub fn set_weights(&mut self, weights: &[(usize, f32)]) {
+        for &(shape, weight) in weights {
+            if let Some(slot) = self.weights.get_mut(shape) {
+                *slot = weight;
+            }
+        }
+    }
+
+    /// A part in this pose, in world space, by the CPU. Allocates.
+    ///
+    /// # Errors
+    /// A part that the pack does not have, or a state of another pack.
+    pub fn deform(&self, pack: &Pack, part: usize) -> Result<Deformed, DeformError> {
+        let missing = DeformError::VertexCount { what: "the parts", expected: pack.parts.len(), found: part };
+        let Part { mesh, bone, .. } = pack.parts.get(part).ok_or(missing)?;
+        let bones = match bone {
+            Some(bone) => self.bones.get(*bone..=*bone).unwrap_or_default(),
+            None => &self.bones,
+        };
+        let shapes = mesh.shapes.len();
+        let found = self.weights.len();
+        let weights =
+            self.weights.get(..shapes).ok_or(DeformError::WeightCount { expected: shapes, found })?;
+        let mut deformed = mesh.deformed();
+        avatar_mesh::deform(mesh, bones, weights, &mut deformed)?;
+        Ok(deformed)
     }
 
     /// Bone matrices `X` in the order of the pack's palette.

@@ -29,12 +29,14 @@
 mod error;
 mod face;
 mod hair;
+mod import;
 mod pack;
 mod source;
 mod textures;
 
 pub use error::{PackError, PackProblem, Warning};
 pub use face::{FaceError, FaceState};
+pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet};
 pub use pack::{Pack, PaletteBone, Part, load_hair, load_materials};
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

@@ -1,4 +1,4 @@
-use crate::{PackError, PackProblem, Source, Warning};
+use crate::{PackError, PackProblem, SceneMotion, Source, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
 use avatar_mesh::{
@@ -33,6 +33,8 @@ pub struct Pack {
     pub materials: Materials,
     /// The hair, from `hair.toml`; `None` where there is none of that name.
     pub hair: Option<Hair>,
+    /// The clips of a file of an interchange format; packs in the raw format have none.
+    pub motion: Option<SceneMotion>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
 }
@@ -88,7 +90,19 @@ impl Pack {
         let materials = load_materials(source)?;
         let hair = load_hair(source)?;
         let shapes = FACE_SHAPES.map(str::to_owned).into();
-        Ok(Self { rig, parts, palette, shapes, controls, binding, poses, materials, hair, warnings })
+        Ok(Self {
+            rig,
+            parts,
+            palette,
+            shapes,
+            controls,
+            binding,
+            poses,
+            materials,
+            hair,
+            motion: None,
+            warnings,
+        })
     }
 
     /// The part of this name.

@@ -77,7 +77,7 @@ fn a_mistake_is_told_with_file_and_place() {
     assert_eq!(*refused(b"# \xFF").problem, PackProblem::NotText { offset: 2 });
     let mut source = golden();
     source.files.insert(FILE.into(), "density = inf".into());
-    let text = "hair.toml: line 1, column 11: density: expected a number from 0 to 10, found inf";
+    let text = "hair.toml: line 1, column 11: density: expected a number from 0 to 7, found inf";
     assert_eq!(Pack::load(&source).expect_err("out of range").to_string(), text);
 }
 
@@ -142,5 +142,23 @@ fn both_halves_of_the_head_have_as_much_hair_and_a_crest_is_a_crest() {
         );
         let widest = scalp.iter().fold(0.0f32, |widest, x| widest.max(x.abs())) / groom.height;
         assert!(name != "mohawk" || widest <= Style::MOHAWK.scalp.strip + 1e-4, "{widest}");
+    }
+}
+
+#[test]
+fn the_largest_density_fits_a_binding_of_default_limits() {
+    let (pack, textures) = built_in();
+    let strands = |style| {
+        let hair = Hair { style, density: Hair::MAX_DENSITY, seed: 1 };
+        pack.groom(&textures, &hair).expect("hair").1.roots.len()
+    };
+    let densest = strands(Style::BOB);
+    // 128 MiB of points, and a normal, of 16 bytes each.
+    let most = (128 << 20) / (16 * (avatar_groom::SEGMENTS + 2));
+    assert!(densest <= most && 11 * densest > 10 * most, "{densest} of {most}");
+    for (name, style) in Style::PRESETS {
+        let densities = |style: Style| [style.scalp, style.brows, style.lashes].map(|region| region.density);
+        let as_dense = densities(style).into_iter().zip(densities(Style::BOB)).all(|(a, b)| a <= b);
+        assert!(as_dense, "{name}");
     }
 }

@@ -6,7 +6,6 @@
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
-use avatar_mesh::PartKind;
 use avatar_pack::{FaceState, Pack, PartImages, Source, SourceError, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
 use avatar_render::{

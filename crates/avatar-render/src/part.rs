@@ -3,7 +3,7 @@
 use crate::PartBones;
 use crate::curvature::curvatures;
 use crate::model::PartProblem;
-use avatar_mesh::{Bounds, Mesh, Offsets, Shape, Skinning, Winding};
+use avatar_mesh::{DeformBounds, Mesh, Offsets, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use wgpu::util::DeviceExt;
@@ -44,41 +44,6 @@ pub(crate) struct GpuShapeOffset {
     pub(crate) normal: [f32; 3],
 }
 
-/// Where the vertices are that a bone moves.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct BoneBox {
-    pub(crate) bone: usize,
-    /// At bind pose, without shapes.
-    rest: Bounds,
-    /// Between which offsets each shape moves them at weight 1.
-    reach: Vec<Bounds>,
-}
-
-impl BoneBox {
-    /// Around nothing yet.
-    fn empty(bone: usize, shape_count: usize) -> Self {
-        let nothing = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
-        Self { bone, rest: nothing, reach: vec![nothing; shape_count] }
-    }
-
-    fn add(&mut self, position: Vec3, offsets: impl Iterator<Item = Vec3>) {
-        let point = |p: Vec3| Bounds { min: p, max: p };
-        self.rest = self.rest.union(point(position));
-        self.reach.iter_mut().zip(offsets).for_each(|(reach, offset)| *reach = reach.union(point(offset)));
-    }
-
-    /// Before the bone moves it, with these shapes at these weights, of any size and sign.
-    pub(crate) fn shaped(&self, weights: impl Iterator<Item = (usize, f32)>) -> Bounds {
-        weights.fold(self.rest, |around, (shape, weight)| match self.reach.get(shape) {
-            Some(reach) => {
-                let (a, b) = (reach.min * weight, reach.max * weight);
-                Bounds { min: around.min + a.min(b), max: around.max + a.max(b) }
-            }
-            None => around,
-        })
-    }
-}
-
 /// What drawing and deforming a part need.
 #[derive(Debug)]
 pub(crate) struct Geometry {
@@ -98,8 +63,8 @@ pub(crate) struct Geometry {
     pub(crate) per_depth: f32,
     /// Length at bind pose that the texture's width covers, on average over the part; 0 without texture coordinates.
     pub(crate) length_per_uv: f32,
-    /// Boxes around all that a bone moves.
-    pub(crate) bone_boxes: Vec<BoneBox>,
+    /// Boxes around all that bones move, with any shapes.
+    pub(crate) bounds: DeformBounds,
     /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by distance.
     pub(crate) center: Vec3,
     pub(crate) center_bone: usize,
@@ -180,7 +145,10 @@ impl Geometry {
             front_z: bounds.map_or(0.0, |bounds| bounds.max.z),
             per_depth: if depth > 0.0 { depth.recip() } else { 0.0 },
             length_per_uv: length_per_uv(mesh),
-            bone_boxes: bone_boxes(mesh, skinning, rigid_bone),
+            bounds: match bones {
+                PartBones::PerVertex => DeformBounds::new(mesh),
+                PartBones::Rigid(bone) => DeformBounds::rigid(mesh, bone),
+            },
             center: bounds.map_or(Vec3::ZERO, |bounds| bounds.center()),
             center_bone,
         })
@@ -207,30 +175,6 @@ fn length_per_uv(mesh: &Mesh) -> f32 {
         painted += f64::from((b.1 - a.1).perp_dot(c.1 - a.1).abs());
     }
     if painted > 0.0 { (area / painted).sqrt() as f32 } else { 0.0 }
-}
-
-/// A deformed vertex is a mean of what its bones make of it: it lies within the boxes of its bones, each moved by its bone.
-fn bone_boxes(mesh: &Mesh, skinning: Option<&Skinning>, rigid_bone: usize) -> Vec<BoneBox> {
-    let mut boxes: Vec<Option<BoneBox>> = Vec::new();
-    for (vertex, &position) in mesh.positions.iter().enumerate() {
-        let mut add = |bone: usize| {
-            if boxes.len() <= bone {
-                boxes.resize(bone + 1, None);
-            }
-            let offset = |shape: &Shape| shape.positions.get(vertex).unwrap_or(Vec3::ZERO);
-            boxes[bone]
-                .get_or_insert_with(|| BoneBox::empty(bone, mesh.shapes.len()))
-                .add(position, mesh.shapes.iter().map(offset));
-        };
-        match skinning.and_then(|s| s.bones.get(vertex).zip(s.weights.get(vertex))) {
-            Some((bones, weights)) => {
-                let moving = bones.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
-                moving.for_each(|(bone, _)| add((*bone).into()));
-            }
-            None => add(rigid_bone),
-        }
-    }
-    boxes.into_iter().flatten().collect()
 }
 
 fn shape_offsets(mesh: &Mesh) -> Vec<GpuShapeOffset> {
@@ -347,46 +291,4 @@ fn check(
     let offsets = expected.saturating_mul(mesh.shapes.len());
     fits("shape offsets (vertices times shapes)", offsets, size_of::<GpuShapeOffset>(), binding)?;
     fits("triangles", mesh.triangles.len(), size_of::<[u32; 3]>(), limits.max_buffer_size)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn shaped_mesh(positions: &[[f32; 3]], shapes: [&[[f32; 3]]; 2]) -> Mesh {
-        let points = |all: &[[f32; 3]]| all.iter().copied().map(Vec3::from_array).collect::<Vec<_>>();
-        let shape = |offsets: &[[f32; 3]]| Shape::new("", points(offsets));
-        Mesh { positions: points(positions), shapes: shapes.map(shape).to_vec(), ..Mesh::default() }
-    }
-
-    #[test]
-    fn shapes_at_rest_take_no_room_and_others_as_much_as_they_weigh() {
-        let positions = [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]];
-        let mesh = shaped_mesh(&positions, [&[[0.0, -4.0, 0.0]; 2], &[[0.0; 3], [9.0, 0.0, 0.0]]]);
-        let boxes = bone_boxes(&mesh, None, 2);
-        assert_eq!(boxes.len(), 1);
-        assert_eq!(boxes[0].bone, 2);
-        let bounds = |weights: &[(usize, f32)]| boxes[0].shaped(weights.iter().copied());
-        assert_eq!(bounds(&[]), Bounds { min: Vec3::ZERO, max: Vec3::new(1.0, 2.0, 3.0) });
-        assert_eq!(bounds(&[(0, 0.5)]), Bounds { min: Vec3::Y * -2.0, max: Vec3::new(1.0, 0.0, 3.0) });
-        assert_eq!(bounds(&[(1, -1.0)]).min, Vec3::X * -9.0);
-    }
-
-    proptest! {
-        #[test]
-        fn no_vertex_leaves_the_box(
-            rows in prop::collection::vec([[-9.0f32..9.0, -9.0..9.0, -9.0..9.0], [-2.0..2.0, -2.0..2.0, -2.0..2.0], [-2.0..2.0, -2.0..2.0, -2.0..2.0]], 1..20),
-            weights in [-2.0f32..2.0, -2.0f32..2.0],
-        ) {
-            let column = |i: usize| rows.iter().map(|row| row[i]).collect::<Vec<_>>();
-            let mesh = shaped_mesh(&column(0), [&column(1), &column(2)]);
-            let around = bone_boxes(&mesh, None, 0)[0].shaped(weights.into_iter().enumerate());
-            for (vertex, position) in mesh.positions.iter().enumerate() {
-                let moved = weights.iter().zip(&mesh.shapes).map(|(w, shape)| *w * shape.positions.get(vertex).unwrap_or_default());
-                let moved = *position + moved.sum::<Vec3>();
-                prop_assert!((moved.clamp(around.min, around.max) - moved).length() < 1e-4, "{moved} {around:?}");
-            }
-        }
-    }
 }

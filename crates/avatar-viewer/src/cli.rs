@@ -10,7 +10,8 @@ use std::str::FromStr;
 /// Shows a rigged face in a window, and does the same without one.
 ///
 /// PACK is a folder in the raw format: Transformations.xml, a vertex and an index buffer for each of the seven parts,
-/// textures, and optionally controls.toml, poses.toml, materials.toml and hair.toml. Without PACK the built-in avatar is used.
+/// textures, and optionally controls.toml, poses.toml, materials.toml and hair.toml; or a file of an interchange format
+/// (.glb, .gltf). Without PACK the built-in avatar is used.
 /// Without a verb a window opens; a folder whose name is that of a verb is given as ./NAME.
 ///
 /// Exit status: 0 on success, 2 on wrong usage, 1 on any other failure.
@@ -58,7 +59,7 @@ pub(crate) enum Verb {
 
 #[derive(Debug, Args)]
 pub(crate) struct PackArg {
-    /// Folder of the avatar [default: the built-in one]
+    /// Folder or file of the avatar [default: the built-in one]
     pub(crate) pack: Option<PathBuf>,
 }
 
@@ -124,9 +125,12 @@ pub(crate) struct DeformArgs {
     /// The mesh, an OBJ
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
-    /// Name of the part
-    #[arg(long, default_value = "skin")]
-    pub(crate) part: String,
+    /// Name of the part [default: skin, or the first part of an avatar without one]
+    #[arg(long, value_name = "PART")]
+    pub(crate) part: Option<String>,
+    /// All parts, in world space, each as an object of its own
+    #[arg(long, conflicts_with = "part")]
+    pub(crate) world: bool,
     /// Compute on the GPU, with the function that draws
     #[arg(long)]
     pub(crate) gpu: bool,

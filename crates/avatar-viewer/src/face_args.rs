@@ -3,6 +3,7 @@ use anyhow::Result;
 use avatar_pack::{FaceState, Pack};
 use clap::{ArgMatches, Args};
 use glam::Affine3A;
+use pose_anim::{Control, Drive};
 use rig_core::{Axis, Elementary, JointId, product};
 use std::str::FromStr;
 
@@ -18,6 +19,12 @@ pub(crate) struct FaceArgs {
     /// Set this joint's local transform to a product of rotations about its own axes, left to right; may be repeated
     #[arg(long, value_name = "JOINT=AXIS:DEG[,AXIS:DEG...]", allow_hyphen_values = true)]
     rotate: Vec<Rotation>,
+    /// Clip of the avatar's file to start from, as `info` lists them; what --set and --rotate concern is theirs
+    #[arg(long, value_name = "NAME", conflicts_with = "pose")]
+    clip: Option<String>,
+    /// Seconds from the clip's beginning
+    #[arg(long, value_name = "SECONDS", requires = "clip", default_value_t = 0.0, value_parser = number, allow_negative_numbers = true)]
+    time: f32,
 }
 
 /// `CONTROL=VALUE`
@@ -77,12 +84,14 @@ pub(crate) struct FaceChoice {
     values: Vec<f32>,
     settings: Vec<(usize, f32)>,
     locals: Vec<(JointId, Affine3A)>,
+    /// Weights of shapes that a clip sets, by their places in the pack.
+    weights: Vec<(usize, f32)>,
 }
 
 impl FaceChoice {
     /// A pose's values on top of the defaults, and nothing else.
     pub(crate) fn of_values(values: Vec<f32>) -> Self {
-        Self { values, settings: Vec::new(), locals: Vec::new() }
+        Self { values, settings: Vec::new(), locals: Vec::new(), weights: Vec::new() }
     }
 
     /// Control values with the single settings in place: where a window's motion starts.
@@ -99,7 +108,9 @@ impl FaceChoice {
                 values[control] = value;
             }
         };
-        Ok(state.pose_with(pack, &self.values, set, &self.locals)?)
+        state.pose_with(pack, &self.values, set, &self.locals)?;
+        state.set_weights(&self.weights);
+        Ok(())
     }
 }
 
@@ -120,6 +131,7 @@ impl FaceArgs {
             choice.settings.push((control, value));
             driven_later.push((joint_of(pack, control), position));
         }
+        self.start_from_clip(pack, &mut choice)?;
         for (rotation, position) in self.rotate.iter().zip(positions("rotate")) {
             let joint = pack.rig.joint(&rotation.joint);
             let joint = joint.ok_or_else(|| {
@@ -130,6 +142,35 @@ impl FaceArgs {
             }
         }
         Ok(choice)
+    }
+
+    /// Takes over what the clip sets, but for what single controls do.
+    fn start_from_clip(&self, pack: &Pack, choice: &mut FaceChoice) -> Result<()> {
+        let Some(clip) = &self.clip else { return Ok(()) };
+        let none = || unknown("clip", clip, std::iter::empty());
+        let motion = pack.motion.as_ref().ok_or_else(none)?;
+        let at = motion.at(clip, self.time).map_err(|error| usage(error.to_string()))?;
+        let set = |control: &Control| {
+            choice.settings.iter().any(|(index, _)| pack.controls.index(&control.name) == Some(*index))
+        };
+        let driven: Vec<&Control> = pack.controls.controls().iter().filter(|control| set(control)).collect();
+        let is_joint_set = |joint: JointId| {
+            driven.iter().any(|control| match &control.drives {
+                Drive::Joint { joint: name, .. } => pack.rig.joint(name) == Some(joint),
+                Drive::Shape { .. } => false,
+            })
+        };
+        let is_shape_set = |shape: usize| {
+            driven.iter().any(|control| match &control.drives {
+                Drive::Shape { shape: name } => pack.shapes.get(shape) == Some(name),
+                Drive::Joint { .. } => false,
+            })
+        };
+        let locals: Vec<_> = at.locals.into_iter().filter(|(joint, _)| !is_joint_set(*joint)).collect();
+        let weights: Vec<_> = at.weights.into_iter().filter(|(shape, _)| !is_shape_set(*shape)).collect();
+        choice.locals.extend(locals);
+        choice.weights = weights;
+        Ok(())
     }
 
     fn setting(&self, pack: &Pack, setting: &Setting) -> Result<(usize, f32)> {
@@ -159,7 +200,7 @@ impl FaceArgs {
 
 fn joint_of(pack: &Pack, control: usize) -> Option<JointId> {
     match &pack.controls.controls()[control].drives {
-        pose_anim::Drive::Joint { joint, .. } => pack.rig.joint(joint),
-        pose_anim::Drive::Shape { .. } => None,
+        Drive::Joint { joint, .. } => pack.rig.joint(joint),
+        Drive::Shape { .. } => None,
     }
 }

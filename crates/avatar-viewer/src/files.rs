@@ -1,5 +1,5 @@
-use anyhow::{Context, Result, bail};
-use avatar_pack::{Pack, Source, SourceError, Textures, Warning};
+use anyhow::{Context, Result, anyhow, bail};
+use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning};
 use include_dir::{Dir, include_dir};
 use std::borrow::Cow;
 use std::io::ErrorKind;
@@ -12,6 +12,8 @@ static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/marsie
 pub(crate) enum Files {
     BuiltIn,
     Folder(PathBuf),
+    /// A file of an interchange format, as an avatar.
+    File(PathBuf, Box<Import>),
 }
 
 impl Files {
@@ -20,16 +22,15 @@ impl Files {
         let Some(path) = pack else { return Ok(Self::BuiltIn) };
         match std::fs::metadata(path) {
             Ok(metadata) if metadata.is_dir() => Ok(Self::Folder(path.to_owned())),
-            Ok(_) => bail!("{}: expected the folder of an avatar, found a file", path.display()),
+            Ok(_) => import(path).map(|import| Self::File(path.to_owned(), Box::new(import))),
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 bail!(
-                    "{}: expected the folder of an avatar (or a verb), found nothing of that name",
+                    "{}: expected the folder or file of an avatar (or a verb), found nothing of that name",
                     path.display()
                 )
             }
-            Err(error) => {
-                Err(error).with_context(|| format!("{}: expected the folder of an avatar", path.display()))
-            }
+            Err(error) => Err(error)
+                .with_context(|| format!("{}: expected the folder or file of an avatar", path.display())),
         }
     }
 
@@ -37,13 +38,15 @@ impl Files {
     pub(crate) fn name(&self) -> String {
         match self {
             Self::BuiltIn => "marsienne".to_owned(),
-            Self::Folder(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            Self::Folder(path) | Self::File(path, _) => {
+                path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+            }
         }
     }
 
     /// Loads everything but the textures, and prints warnings.
     pub(crate) fn load_pack(&self) -> Result<Pack> {
-        let pack = Pack::load(self)?;
+        let pack = self.read_pack()?;
         // A part that is turned around needs nobody's attention; `info` tells.
         let told = pack.warnings.iter().filter(|warning| !matches!(warning, Warning::InsideOut { .. }));
         told.for_each(|warning| eprintln!("warning: {warning}"));
@@ -52,16 +55,64 @@ impl Files {
 
     /// Loads the textures, and prints warnings.
     pub(crate) fn load_textures(&self) -> Textures {
-        let textures = Textures::load(self);
+        let textures = self.read_textures();
         textures.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
         textures
     }
+
+    /// The pack with its warnings, which are not told here.
+    pub(crate) fn read_pack(&self) -> Result<Pack> {
+        match self {
+            Self::File(_, import) => Ok(import.pack.clone()),
+            _ => Ok(Pack::load(self)?),
+        }
+    }
+
+    /// The pictures with their warnings, which are not told here.
+    pub(crate) fn read_textures(&self) -> Textures {
+        match self {
+            Self::File(_, import) => import.textures.clone(),
+            _ => Textures::load(self),
+        }
+    }
+
+    /// What became of a file of an interchange format.
+    pub(crate) fn report(&self) -> Option<&ImportReport> {
+        match self {
+            Self::File(_, import) => Some(&import.report),
+            _ => None,
+        }
+    }
+}
+
+/// Larger files than this are not read.
+const MAX_FILE_BYTES: u64 = 4 << 30;
+
+/// Reads an avatar from a file of an interchange format, and what that refers to from its folder.
+fn import(path: &Path) -> Result<Import> {
+    let file = path.display().to_string();
+    let bytes = read_file(path).map_err(|reason| anyhow!("{file}: {reason}"))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    // The reader has checked that the name stays in the folder.
+    let scene = avatar_exchange::read(&file, &bytes, &mut |name| read_file(&folder.join(name)))?;
+    Import::from_scene(scene).map_err(|error| anyhow!("{file}: {error}"))
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, String> {
+    let size =
+        std::fs::metadata(path).map_err(|error| format!("expected a readable file, found: {error}"))?.len();
+    if size > MAX_FILE_BYTES {
+        return Err(format!("expected a file of at most {MAX_FILE_BYTES} bytes, found {size}"));
+    }
+    std::fs::read(path).map_err(|error| format!("expected a readable file, found: {error}"))
 }
 
 impl Source for Files {
     fn read(&self, name: &str) -> Result<Option<Cow<'_, [u8]>>, SourceError> {
         let folder = match self {
             Self::BuiltIn => return Ok(BUILT_IN.get_file(name).map(|file| Cow::Borrowed(file.contents()))),
+            // A file of an interchange format holds all there is.
+            Self::File(..) => return Ok(None),
             Self::Folder(folder) => folder,
         };
         let path = folder.join(name);
@@ -77,6 +128,7 @@ impl Source for Files {
         match self {
             Self::BuiltIn => format!("(built-in)/{name}"),
             Self::Folder(folder) => folder.join(name).display().to_string(),
+            Self::File(path, _) => path.display().to_string(),
         }
     }
 }

@@ -1,12 +1,13 @@
 //! From a pack to what the renderer takes, the same for pictures and for the window.
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use avatar_groom::Hair;
 use avatar_mesh::{Bounds, PartKind};
 use avatar_pack::{Pack, PartImages, Textures};
 use avatar_render::{
-    AvatarModel, Camera, Image, Light, PartBones, PartDesc, PartTextures, Scene, linear_from_srgb8,
+    AvatarModel, Camera, HairError, Image, Light, PartBones, PartDesc, PartTextures, Scene, linear_from_srgb8,
 };
+use image::RgbaImage;
 
 /// Samples per pixel, unless said otherwise.
 pub(crate) const SAMPLES: u32 = 4;
@@ -116,8 +117,14 @@ pub(crate) fn set_hair(
     let Some(skin) = pack.parts.iter().position(|part| part.kind == PartKind::Skin) else {
         return Ok(());
     };
-    model.set_hair(device, queue, skin, groom.as_ref().map(|(_, groom)| groom))?;
-    Ok(())
+    let density = hair.map_or(0.0, |hair| hair.density);
+    model.set_hair(device, queue, skin, groom.as_ref().map(|(_, groom)| groom)).map_err(|error| match error {
+        HairError::TooMany { found, limit } => anyhow!(
+            "density of hair: expected a number from 0 to {:.2}, found {density}: {error}",
+            density * limit as f32 / found.max(1) as f32
+        ),
+        other => other.into(),
+    })
 }
 
 /// Gives the parts their looks.

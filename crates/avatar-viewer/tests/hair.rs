@@ -72,12 +72,24 @@ fn strands_are_those_of_the_pack() {
 }
 
 #[test]
+fn more_strands_than_a_device_binds_are_told_by_the_key_that_asks_for_them() {
+    if !has_adapter() {
+        return;
+    }
+    let pack = hairy_pack();
+    fs::write(pack.path().join("hair.toml"), "density = 2.5\n[scalp]\ndensity = 100\n").expect("written");
+    let out = pack.path().join("face.png");
+    let run = finish(viewer().arg("render").arg(pack.path()).arg("--out").arg(out));
+    run.fails(1, &["density of hair: expected a number from 0 to ", ", found 2.5: expected at most "]);
+}
+
+#[test]
 fn wrong_values_are_wrong_usage() {
     let out = tempfile::tempdir().expect("a temporary folder");
     for (option, message) in [
         ("--hair=wig", "[possible values: short, bob, long, curly, mohawk, bald, off]"),
-        ("--hair-density=11", "expected a number from 0 to 10"),
-        ("--hair-density=nan", "expected a number from 0 to 10"),
+        ("--hair-density=7.1", "expected a number from 0 to 7"),
+        ("--hair-density=nan", "expected a number from 0 to 7"),
         ("--hair-seed=-1", "--hair-seed"),
     ] {
         let mut command = viewer();

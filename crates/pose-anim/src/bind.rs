@@ -48,13 +48,17 @@ impl ControlTable {
                     }
                 }
                 Drive::Shape { shape } => {
-                    let at = shapes.iter().position(|other| other == shape);
-                    let at = at.ok_or_else(|| BindError::UnknownShape {
-                        control: control.name.clone(),
-                        shape: shape.clone(),
-                        nearest: placed_toml::nearest(shape, shapes.iter().copied()).map(str::to_owned),
-                    })?;
-                    bound_shapes.push((index, at));
+                    let before = bound_shapes.len();
+                    // Parts may have shapes of one name, which move as one.
+                    let named = shapes.iter().enumerate().filter(|(_, other)| **other == shape.as_str());
+                    bound_shapes.extend(named.map(|(at, _)| (index, at)));
+                    if bound_shapes.len() == before {
+                        return Err(BindError::UnknownShape {
+                            control: control.name.clone(),
+                            shape: shape.clone(),
+                            nearest: placed_toml::nearest(shape, shapes.iter().copied()).map(str::to_owned),
+                        });
+                    }
                 }
             }
         }

@@ -162,6 +162,18 @@ pub struct Coupling {
     pub factor: f32,
 }
 
+/// Why controls are no [`ControlTable`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("control {index}: expected {expected}, found {found}")]
+pub struct ControlError {
+    /// Its place in the list, from 0.
+    pub index: usize,
+    /// What would have been right.
+    pub expected: &'static str,
+    /// What is there.
+    pub found: String,
+}
+
 /// All controls of a face. The order is that of every slice of values, and within a joint that of composition:
 /// `L = M₀ · M₁ · …`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -183,6 +195,34 @@ impl ControlTable {
     /// The first thing in the text that is not as it has to be, with its place.
     pub fn from_toml(text: &str) -> Result<Self, TomlError> {
         Ok(control_toml::read(text)?)
+    }
+
+    /// A table of these controls, without couplings.
+    ///
+    /// # Errors
+    /// A name that comes twice, an empty one, a range that is not finite or not around the default, an axis that is not of unit
+    /// length.
+    pub fn new(controls: Vec<Control>) -> Result<Self, ControlError> {
+        let mut names = std::collections::HashSet::new();
+        for (index, control) in controls.iter().enumerate() {
+            let wrong = |expected, found: String| ControlError { index, expected, found };
+            let Control { name, drives, min, max, default, .. } = control;
+            if name.is_empty() || !names.insert(name.as_str()) {
+                return Err(wrong("a name of its own", format!("{name:?}")));
+            }
+            if !(min.is_finite() && max.is_finite() && min <= default && default <= max) {
+                return Err(wrong(
+                    "a finite range around the default",
+                    format!("{default} in {min} to {max}"),
+                ));
+            }
+            if let Drive::Joint { axis, .. } = drives
+                && !axis.is_normalized()
+            {
+                return Err(wrong("an axis of unit length", axis.to_string()));
+            }
+        }
+        Ok(Self::checked(controls, Vec::new()))
     }
 
     /// Only through here: the reader has checked names, ranges and indices.

@@ -128,7 +128,9 @@ mod settle;
 pub use bind::Binding;
 pub use clip::{Clip, Key, Track, Transition, Wrap};
 pub use clip_set::ClipSet;
-pub use control::{Control, ControlTable, Coupling, DEFAULT_CONTROLS_TOML, Drive, JointMotion, Pace};
+pub use control::{
+    Control, ControlError, ControlTable, Coupling, DEFAULT_CONTROLS_TOML, Drive, JointMotion, Pace,
+};
 pub use easing::{Direction, Easing, Family};
 pub use error::{AdvanceError, ApplyError, BindError, ClipError, JumpError, MixError, TomlError};
 pub use jet::Jet;

@@ -83,7 +83,7 @@ impl<'a> Words<'a> {
     pub(super) fn entry(&mut self, word: &str, index: usize) -> Result<(), ImportError> {
         self.expect(word)?;
         let found = self.next();
-        match found.and_then(|word| word.parse().ok()) {
+        match found.and_then(|word| word.parse::<usize>().ok()) {
             Some(number) if index == number => Ok(()),
             _ => Err(self.error(format!("{word} {index}"), found)),
         }

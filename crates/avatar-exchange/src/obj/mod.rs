@@ -8,7 +8,7 @@
 //!
 //! ```
 //! let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng wall\nf 1 2 3 4\n";
-//! let mut obj = avatar_exchange::obj::read_obj("wall.obj", text.as_bytes(), &mut |_| None)?;
+//! let mut obj = avatar_exchange::obj::read_obj("wall.obj", text.as_bytes(), &mut |_| Err(String::new()))?;
 //! assert_eq!((obj.positions.len(), obj.parts[0].mesh.triangles.len()), (4, 2));
 //! // The third vertex of the file moves.
 //! obj.add_shape("lean", &[(2, glam::Vec3::Z)])?;
@@ -25,12 +25,9 @@ mod sequence;
 pub use sequence::{ObjFrame, read_sequence};
 
 use crate::text::decode;
-use crate::{ImportError, Material, Node, Note, RawScene, Scene, SceneImage, ScenePart};
+use crate::{ImportError, Material, Node, Note, RawScene, Resolve, Scene, SceneImage, ScenePart};
 use avatar_mesh::{Mesh, Shape, SmoothNormals};
 use glam::Vec3;
-
-/// Brings a file that another one refers to, by its path there with slashes: a material library or an image.
-pub type Resolve<'a> = dyn FnMut(&str) -> Option<Vec<u8>> + 'a;
 
 /// An OBJ file with the order of its vertices, which is what shapes of it refer to.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,6 +1,7 @@
 //! Material libraries of OBJ files.
 
-use super::{ObjFile, Resolve};
+use super::ObjFile;
+use crate::Resolve;
 use crate::text::{at_line, decode, float};
 use crate::{AlphaMode, ImportError, Material, Note, SceneImage};
 use std::collections::HashMap;
@@ -48,10 +49,12 @@ pub(super) fn attach(
             continue;
         }
         match resolve(&path) {
-            Some(bytes) => {
+            Ok(bytes) => {
                 parse(&mut library, obj, &path, &decode(&bytes)).map_err(|error| error.in_file(&path))?;
             }
-            None => obj.notes.push(note(&path, "the material library could not be found")),
+            Err(reason) => {
+                obj.notes.push(note(&path, &format!("the material library could not be read: {reason}")))
+            }
         }
     }
     for name in names {
@@ -74,11 +77,13 @@ pub(super) fn attach(
     keep_used_images(obj);
     for image in obj.images.iter_mut() {
         match resolve(&image.name) {
-            Some(bytes) => {
+            Ok(bytes) => {
                 image.mime = mime(&bytes).to_owned();
                 image.bytes = bytes;
             }
-            None => obj.notes.push(note(&image.name, "the image could not be found")),
+            Err(reason) => {
+                obj.notes.push(note(&image.name, &format!("the image could not be read: {reason}")))
+            }
         }
     }
     Ok(())

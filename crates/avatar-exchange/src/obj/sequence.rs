@@ -1,6 +1,7 @@
 //! Sequences of OBJ files: one connectivity, a geometry for each time.
 
-use super::{ObjFile, Resolve, read_obj};
+use super::{ObjFile, read_obj};
+use crate::Resolve;
 use crate::text::stem;
 use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Note, Scene};
 use avatar_mesh::Shape;
@@ -53,7 +54,7 @@ pub fn read_sequence(frames: &[ObjFrame<'_>], resolve: &mut Resolve<'_>) -> Resu
             base.add_shape(&name, &[])?;
         } else {
             // Their materials are not used.
-            base.add_shape_of(&name, &read_obj(frame.file, frame.bytes, &mut |_| None)?)?;
+            base.add_shape_of(&name, &read_obj(frame.file, frame.bytes, &mut |_| Err(String::new()))?)?;
         }
     }
     let mut values = vec![0.0; count * count];

@@ -1,133 +1,152 @@
-//! What tests of text formats share.
-#![allow(dead_code, reason = "each test uses some of it")]
-#![allow(
-    clippy::disallowed_methods,
-    clippy::expect_used,
-    clippy::panic,
-    reason = "a test may use files, the clock and the environment, and panic"
-)]
+//! What the tests of readers share.
+#![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
+#![allow(clippy::expect_used, clippy::panic, clippy::disallowed_methods, reason = "helpers of tests")]
 
-use avatar_exchange::{ImportError, Scene};
+use avatar_exchange::{ImportError, Scene, gltf};
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
-/// A file of the data beside the repository; `None`, and a word about it, where it is missing.
-pub(crate) fn shared(path: &str) -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(path);
-    if !path.exists() {
-        println!("SKIPPED: {} is missing", path.display());
-        return None;
+/// Real data beside the workspace; where it is missing, that is said past the harness.
+pub fn shared_data(folder: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(folder);
+    if path.exists() {
+        return Some(path);
     }
-    Some(path)
+    let _ = writeln!(std::io::stderr(), "SKIPPED: {} is not there", path.display());
+    None
 }
 
-/// The files with these extensions below the folder of Debian's package assimp-testmodels.
-pub(crate) fn test_models(extensions: &[&str]) -> Vec<PathBuf> {
-    let folder = std::env::var_os("MIMIK_ASSIMP_MODELS").map(PathBuf::from);
-    let folder = folder.unwrap_or_else(|| PathBuf::from("/usr/share/assimp/models"));
-    if !folder.exists() {
-        println!(
-            "SKIPPED: {} is missing (package assimp-testmodels, or MIMIK_ASSIMP_MODELS)",
-            folder.display()
-        );
-        return Vec::new();
-    }
-    let mut found = Vec::new();
-    let mut folders = vec![folder];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).expect("a folder").flatten() {
-            let path = entry.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|e| extensions.iter().any(|x| e.eq_ignore_ascii_case(x))) {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    found
+/// Reads a file and what it refers to beside it.
+pub fn read_file(path: &Path) -> Result<Scene, ImportError> {
+    let bytes = std::fs::read(path).expect("a readable file");
+    let folder = path.parent().expect("a folder");
+    let name = path.file_name().expect("a name").to_string_lossy();
+    let mut resolve = |uri: &str| std::fs::read(folder.join(uri)).map_err(|error| error.to_string());
+    gltf::read(&name, &bytes, &mut resolve)
 }
 
-pub(crate) fn bytes(path: &Path) -> Vec<u8> {
-    std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+/// Reads bytes that refer to nothing else.
+pub fn read(bytes: &[u8]) -> Result<Scene, ImportError> {
+    gltf::read("test", bytes, &mut |_| Err("no other files".to_owned()))
 }
 
-/// Reads a file of [`test_models`] within 20 seconds: a scene, or an error with file and place.
-pub(crate) fn loads_or_tells(
-    path: &Path,
-    read: impl FnOnce(&str, &[u8]) -> Result<Scene, ImportError>,
-) -> Result<Scene, ImportError> {
-    let name = path.file_name().expect("a file").to_string_lossy().into_owned();
-    let start = Instant::now();
-    let result = read(&name, &bytes(path));
-    assert!(start.elapsed() < Duration::from_secs(20), "{name} took {:?}", start.elapsed());
-    match &result {
-        Ok(scene) => println!("{name}: {} parts, {} nodes", scene.parts.len(), scene.nodes.len()),
-        Err(error) => {
-            println!("{error}");
-            placed(error);
-        }
-    }
-    result
-}
-
-/// An error says where, what and what instead, and is no longer than one wants to read.
-pub(crate) fn placed(error: &ImportError) {
-    let all_there =
-        [&error.file, &error.place, &error.expected, &error.found].iter().all(|text| !text.is_empty());
-    assert!(all_there && error.to_string().len() < 500, "{error}");
-}
-
-/// xorshift64*.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn below(&mut self, limit: usize) -> usize {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % limit.max(1)
-    }
-}
-
-/// Reads a good file cut after every 64th byte, with flipped bits, and with numbers that lie. Returns how many of the
-/// damaged files were told to be so.
-pub(crate) fn survives_damage(good: &[u8], read: impl Fn(&[u8]) -> Result<Scene, ImportError>) -> usize {
-    let start = Instant::now();
-    read(good).expect("the undamaged file");
-    let mut told = 0;
-    let mut check = |bytes: &[u8]| {
-        if let Err(error) = read(bytes) {
-            placed(&error);
-            told += 1;
-        }
+/// A GLB of JSON and binary data.
+pub fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
+    let padded = |bytes: &[u8], with: u8| {
+        let mut bytes = bytes.to_vec();
+        bytes.resize(bytes.len().next_multiple_of(4), with);
+        bytes
     };
-    for end in (0..good.len()).step_by(64) {
-        check(&good[..end]);
+    let (json, bin) = (padded(json.as_bytes(), b' '), padded(bin, 0));
+    let mut glb = b"glTF".to_vec();
+    let word = |glb: &mut Vec<u8>, word: usize| {
+        glb.extend(u32::try_from(word).expect("a small file").to_le_bytes());
+    };
+    word(&mut glb, 2);
+    word(&mut glb, 12 + 8 + json.len() + 8 + bin.len());
+    for (kind, chunk) in [(0x4e4f_534a, &json), (0x004e_4942, &bin)] {
+        word(&mut glb, chunk.len());
+        word(&mut glb, kind);
+        glb.extend_from_slice(chunk);
     }
-    let mut random = Random(20_261_122);
-    for _ in 0..400 {
-        let mut bytes = good.to_vec();
-        for _ in 0..=random.below(4) {
-            let at = random.below(bytes.len());
-            bytes[at] ^= 1 << random.below(8);
-        }
-        check(&bytes);
+    glb
+}
+
+/// Little-endian bytes of floats.
+pub fn floats(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+/// A glTF file in the making: accessors with data of their own, and the rest as JSON text.
+#[derive(Default)]
+pub struct Builder {
+    bin: Vec<u8>,
+    views: Vec<String>,
+    accessors: Vec<String>,
+}
+
+pub const I8: u32 = 5120;
+pub const U8: u32 = 5121;
+pub const I16: u32 = 5122;
+pub const U16: u32 = 5123;
+pub const U32: u32 = 5125;
+pub const F32: u32 = 5126;
+
+impl Builder {
+    /// A bufferView of these bytes; `more` is JSON such as `, "byteStride": 8`.
+    pub fn view(&mut self, bytes: &[u8], more: &str) -> usize {
+        let (offset, length) = (self.bin.len(), bytes.len());
+        self.bin.extend_from_slice(bytes);
+        self.views.push(format!(r#"{{"buffer": 0, "byteOffset": {offset}, "byteLength": {length}{more}}}"#));
+        self.views.len() - 1
     }
-    let text = String::from_utf8_lossy(good).into_owned();
-    let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let numbers: Vec<usize> = text
-        .split_whitespace()
-        .filter(|word| is_number(word))
-        .map(|word| word.as_ptr() as usize - text.as_ptr() as usize)
-        .collect();
-    for lie in ["4294967295", "99999999999999999999", "-7", "1e39", "nan", "-inf", "0x10", "0"] {
-        for _ in 0..24 {
-            let at = numbers[random.below(numbers.len())];
-            let end = text[at..].find(char::is_whitespace).map_or(text.len(), |length| at + length);
-            check(format!("{}{lie}{}", &text[..at], &text[end..]).as_bytes());
-        }
+
+    /// An accessor as JSON text.
+    pub fn raw_accessor(&mut self, json: String) -> usize {
+        self.accessors.push(json);
+        self.accessors.len() - 1
     }
-    assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
-    told
+
+    /// An accessor of a view of its own.
+    pub fn accessor(&mut self, bytes: &[u8], component: u32, type_: &str, count: usize) -> usize {
+        self.accessor_with(bytes, component, type_, count, "")
+    }
+
+    /// The same with more members.
+    pub fn accessor_with(
+        &mut self,
+        bytes: &[u8],
+        component: u32,
+        type_: &str,
+        count: usize,
+        more: &str,
+    ) -> usize {
+        let view = self.view(bytes, "");
+        self.raw_accessor(format!(
+            r#"{{"bufferView": {view}, "componentType": {component}, "type": "{type_}", "count": {count}{more}}}"#
+        ))
+    }
+
+    /// An accessor of floats.
+    pub fn floats(&mut self, values: &[f32], type_: &str) -> usize {
+        let width = match type_ {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            "VEC4" => 4,
+            _ => 16,
+        };
+        self.accessor(&floats(values), F32, type_, values.len() / width)
+    }
+
+    /// A triangle's corners at the origin, x and y.
+    pub fn triangle(&mut self) -> usize {
+        self.floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0], "VEC3")
+    }
+
+    /// The file; `rest` are further members of its JSON.
+    pub fn glb(&self, rest: &str) -> Vec<u8> {
+        let json = format!(
+            r#"{{"asset": {{"version": "2.0"}}, "buffers": [{{"byteLength": {}}}], "bufferViews": [{}], "accessors": [{}], {rest}}}"#,
+            self.bin.len(),
+            self.views.join(", "),
+            self.accessors.join(", ")
+        );
+        glb(&json, &self.bin)
+    }
+
+    /// The scene; `rest` are further members of the JSON.
+    pub fn scene(&self, rest: &str) -> Scene {
+        read(&self.glb(rest)).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// The error that the file gives.
+    pub fn error(&self, rest: &str) -> ImportError {
+        read(&self.glb(rest)).expect_err("an error")
+    }
+}
+
+/// Members of a file with one mesh of one primitive at one node.
+pub fn one_primitive(primitive: &str) -> String {
+    format!(r#""nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [{primitive}]}}]"#)
 }

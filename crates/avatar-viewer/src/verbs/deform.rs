@@ -4,36 +4,43 @@ use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
 use crate::usage;
 use anyhow::Result;
-use avatar_mesh::{Deformed, obj};
-use avatar_pack::{FaceState, Pack, Part, Textures};
+use avatar_mesh::Deformed;
+use avatar_mesh::obj::{self, ObjPart};
+use avatar_pack::{FaceState, Pack, Textures};
 use clap::ArgMatches;
 
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     let out = OutputFile::check(&args.out)?;
     let pack = super::open(&args.pack)?.load_pack()?;
-    let index = usage::part(&pack, &args.part)?;
-    let part = &pack.parts[index];
+    let parts = if args.world { (0..pack.parts.len()).collect() } else { vec![part(&pack, args)?] };
     let face = args.face.resolve(&pack, matches)?;
 
-    let deformed = if args.gpu {
+    let deformed: Vec<Deformed> = if args.gpu {
         let mut offscreen = Offscreen::open(&pack, &Textures::default(), 1, LookArgs::default())?;
         eprintln!("adapter: {}", offscreen.adapter());
-        offscreen.deform(&pack, &face, index)?
+        parts.iter().map(|part| offscreen.deform(&pack, &face, *part)).collect::<Result<_>>()?
     } else {
         let mut state = FaceState::new(&pack);
         face.apply(&pack, &mut state)?;
-        on_cpu(&pack, part, &state)?
+        parts.iter().map(|part| Ok(state.deform(&pack, *part)?)).collect::<Result<_>>()?
     };
-    let text = obj::write(&part.name, &deformed, &part.mesh.triangles);
-    out.write(text.as_bytes())
+    let objects: Vec<ObjPart<'_>> = (parts.iter().map(|part| &pack.parts[*part]).zip(&deformed))
+        .map(|(part, deformed)| ObjPart {
+            name: &part.name,
+            positions: &deformed.positions,
+            normals: &deformed.normals,
+            // A single part is for comparing numbers.
+            uvs: if args.world { &part.mesh.uvs } else { &[] },
+            triangles: &part.mesh.triangles,
+        })
+        .collect();
+    out.write(obj::write_parts(&objects).as_bytes())
 }
 
-fn on_cpu(pack: &Pack, part: &Part, state: &FaceState) -> Result<Deformed> {
-    let mut deformed = part.mesh.deformed();
-    let (bones, weights) = match part.bone {
-        Some(bone) => (&state.bones()[bone..=bone], &[][..]),
-        None => (state.bones(), &state.weights()[..pack.shapes.len()]),
-    };
-    avatar_mesh::deform(&part.mesh, bones, weights, &mut deformed)?;
-    Ok(deformed)
+/// The part that was asked for; without a word the skin, or the first part of an avatar that has none.
+fn part(pack: &Pack, args: &DeformArgs) -> Result<usize> {
+    match &args.part {
+        Some(name) => usage::part(pack, name),
+        None => Ok(pack.parts.iter().position(|part| part.name == "skin").unwrap_or(0)),
+    }
 }

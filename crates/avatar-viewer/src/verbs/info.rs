@@ -1,8 +1,9 @@
 use crate::cli::InfoArgs;
 use crate::output;
 use anyhow::Result;
-use avatar_pack::{Pack, Textures};
+use avatar_pack::{ImportReport, Pack, Textures};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 #[derive(Serialize)]
@@ -11,6 +12,9 @@ struct Report<'a> {
     joints: Vec<String>,
     controls: Vec<ControlReport>,
     poses: Vec<PoseReport>,
+    clips: Vec<ClipReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    import: Option<ImportedReport>,
     warnings: Vec<String>,
 }
 
@@ -38,12 +42,37 @@ struct PoseReport {
     key: Option<String>,
 }
 
+#[derive(Serialize)]
+struct ClipReport {
+    name: String,
+    seconds: f32,
+}
+
+/// What was recognised in a file of an interchange format.
+#[derive(Serialize)]
+struct ImportedReport {
+    joints: BTreeMap<String, String>,
+    shape_sets: BTreeMap<String, usize>,
+    shapes_by_own_name: Vec<String>,
+    joints_by_own_name: Vec<String>,
+}
+
+fn import(report: &ImportReport) -> ImportedReport {
+    let named = report.joints.iter().map(|(role, joint)| (role.to_string(), joint.clone()));
+    ImportedReport {
+        joints: named.collect(),
+        shape_sets: report.shape_sets.iter().map(|(set, count)| (set.to_string(), *count)).collect(),
+        shapes_by_own_name: report.other_shapes.clone(),
+        joints_by_own_name: report.other_joints.clone(),
+    }
+}
+
 pub(super) fn run(args: &InfoArgs) -> Result<()> {
     let files = super::open(&args.pack)?;
     // Not `load_pack`: warnings are part of the report here, and not told twice.
-    let pack = Pack::load(&files)?;
-    let textures = Textures::load(&files);
-    let report = report(&pack, &textures);
+    let pack = files.read_pack()?;
+    let textures = files.read_textures();
+    let report = Report { import: files.report().map(import), ..report(&pack, &textures) };
     if args.json {
         return output::print(&format!("{}\n", serde_json::to_string_pretty(&report)?));
     }
@@ -69,12 +98,18 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
         default: control.default,
     });
     let poses = pack.poses.iter().map(|pose| PoseReport { name: pose.name.clone(), key: pose.key.clone() });
+    let clips = pack.motion.iter().flat_map(|motion| {
+        let clip = |name: String| ClipReport { seconds: motion.duration_secs(&name).unwrap_or(0.0), name };
+        motion.clips().into_iter().map(clip)
+    });
     let warnings = pack.warnings.iter().chain(&textures.warnings);
     Report {
         parts: parts.collect(),
         joints: pack.rig.names().to_vec(),
         controls: controls.collect(),
         poses: poses.collect(),
+        clips: clips.collect(),
+        import: None,
         warnings: warnings.map(ToString::to_string).collect(),
     }
 }
@@ -99,6 +134,27 @@ fn text(report: &Report<'_>) -> String {
     let _ = writeln!(out, "\npose            key");
     for pose in &report.poses {
         let _ = writeln!(out, "{:<15} {}", pose.name, pose.key.as_deref().unwrap_or("-"));
+    }
+    if !report.clips.is_empty() {
+        let _ = writeln!(out, "\nclip            seconds");
+    }
+    for clip in &report.clips {
+        let _ = writeln!(out, "{:<15} {:.3}", clip.name, clip.seconds);
+    }
+    if let Some(import) = &report.import {
+        out.push('\n');
+        for (role, joint) in &import.joints {
+            let _ = writeln!(out, "joint {joint:?} is the {role}");
+        }
+        for (set, count) in &import.shape_sets {
+            let _ = writeln!(out, "{count} shapes of {set}");
+        }
+        for (what, names) in [("shapes", &import.shapes_by_own_name), ("joints", &import.joints_by_own_name)]
+        {
+            if !names.is_empty() {
+                let _ = writeln!(out, "{what} under their own names: {}", names.join(", "));
+            }
+        }
     }
     for warning in &report.warnings {
         let _ = writeln!(out, "\nwarning: {warning}");

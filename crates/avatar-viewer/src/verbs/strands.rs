@@ -19,7 +19,9 @@ pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
     let groom = hair.and_then(|hair| pack.groom(&textures, &hair));
     let roots = groom.map_or_else(Vec::new, |(_, groom)| groom.roots);
     if strands.is_empty() {
-        eprintln!("warning: expected hair to grow, found none: --hair is off, or the pack has no HairMap");
+        eprintln!(
+            "warning: expected hair to grow, found none: --hair is off, density is 0, or the pack has no HairMap"
+        );
     }
     let strands: Vec<_> = (roots.iter().zip(&strands))
         .take(args.limit.unwrap_or(usize::MAX))

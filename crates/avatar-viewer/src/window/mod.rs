@@ -288,7 +288,7 @@ impl App {
         };
         let last = self.swing.filter(|_| until.is_some()).map(|(last, _)| last);
         stage.advance_hair(last.map_or(f32::NAN, |last| now.duration_since(last).as_secs_f32()));
-        self.swing = until.filter(|_| stage.has_hair()).map(|until| (now, until));
+        self.swing = until.filter(|_| stage.has_swinging_hair()).map(|until| (now, until));
         stage.draw(&self.pack, &self.state, self.view)?;
         if is_at_rest {
             self.last_frame = None;

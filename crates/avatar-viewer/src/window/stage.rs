@@ -22,6 +22,8 @@ pub(super) struct Stage {
     targets: Option<Targets>,
     model: AvatarModel,
     avatar: AvatarState,
+    /// Of the hair, if there is any.
+    style: Option<avatar_groom::Style>,
     look: LookArgs,
 }
 
@@ -56,7 +58,9 @@ impl Stage {
         let model = scene::upload(pack, textures, device, &gpu.queue, hair)?;
         let mut avatar = AvatarState::new(device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
-        let mut stage = Self { window, gpu, surface, config, renderer, targets: None, model, avatar, look };
+        let style = hair.map(|hair| hair.style);
+        let mut stage =
+            Self { window, gpu, surface, config, renderer, targets: None, model, avatar, style, look };
         stage.resize(size)?;
         Ok(stage)
     }
@@ -96,6 +100,7 @@ impl Stage {
     /// More strands than the device binds; the hair stays as it is then.
     pub(super) fn set_hair(&mut self, pack: &Pack, textures: &Textures, hair: Option<Hair>) -> Result<()> {
         scene::set_hair(pack, textures, &mut self.model, &self.gpu.device, &self.gpu.queue, hair)?;
+        self.style = hair.map(|hair| hair.style);
         self.avatar = AvatarState::new(&self.gpu.device, &self.model);
         self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
         Ok(())
@@ -107,8 +112,8 @@ impl Stage {
     }
 
     /// Whether there is hair that swings on after the head has stopped.
-    pub(super) fn has_hair(&self) -> bool {
-        self.model.strand_count() > 0
+    pub(super) fn has_swinging_hair(&self) -> bool {
+        self.model.strand_count() > 0 && self.style.is_some_and(|style| style.swings())
     }
 
     /// Draws one frame. A surface that is not ready loses this frame, not the window.

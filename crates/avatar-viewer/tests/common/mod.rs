@@ -70,13 +70,17 @@ pub fn golden_pack() -> PathBuf {
 
 /// The real face, where it is at hand; else the reason is printed.
 pub fn real_face() -> Option<PathBuf> {
-    let face =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/avatar-course-format-makehuman");
-    if !face.is_dir() {
-        tell(&format!("{} is not there", face.display()));
+    shared_data("avatar-course-format-makehuman")
+}
+
+/// A file or folder of the data beside the repository, where it is at hand; else the reason is printed.
+pub fn shared_data(name: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
+    if !path.exists() {
+        tell(&format!("{} is not there", path.display()));
         return None;
     }
-    Some(face)
+    Some(path)
 }
 
 /// Says that a test does not run, and why; past the harness, which keeps the output of tests that pass to itself.

@@ -1,0 +1,70 @@
+//! glTF 2.0 and its binary form GLB.
+//!
+//! ```text
+//!  bytes ──container──▶ JSON, BIN ──document──▶ views ──accessor──▶ numbers ──▶ nodes, parts, skins, clips, materials
+//! ```
+//!
+//! Structures of the JSON come from the crate `gltf`; everything behind them is read here with checked arithmetic,
+//! since its own iterators trust counts and positions of a file. Whatever a file says, reading ends with a scene or
+//! an error, in time and memory that are linear in the bytes given.
+
+mod accessor;
+mod animation;
+mod budget;
+mod component;
+mod container;
+mod document;
+mod json;
+mod material;
+mod node;
+mod primitive;
+mod skin;
+mod triangles;
+mod uri;
+
+use crate::{ImportError, RawScene, Resolve, Scene};
+use document::Document;
+
+pub use container::{Container, split};
+
+/// Reads `.gltf` (JSON) or `.glb`. `file` is its name for messages.
+///
+/// Every node of the file is in the scene, whether the file's default scene shows it or not. Primitives without
+/// normals get some, with a note. Points and lines are left out, with a note.
+///
+/// ```
+/// let json = br#"{"asset": {"version": "2.0"}, "nodes": [{"name": "hip", "translation": [0, 1, 0]}]}"#;
+/// let scene = avatar_exchange::gltf::read("hip.gltf", json, &mut |_| Err("no other files".to_owned()))?;
+/// assert_eq!(scene.worlds(&scene.rest())[0].translation.y, 1.0);
+/// # Ok::<(), avatar_exchange::ImportError>(())
+/// ```
+///
+/// # Errors
+/// Whatever is not glTF 2.0, required extensions that are not known here, files that `resolve` does not bring.
+pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
+    let raw = read_raw(file, bytes, resolve)?;
+    Scene::from_raw(raw).map_err(|error| error.in_file(file))
+}
+
+/// As [`read()`], before the scene is checked as a whole: for readers of formats that build on glTF.
+///
+/// # Errors
+/// As [`read()`].
+pub fn read_raw(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportError> {
+    read_all(bytes, resolve).map_err(|error| error.in_file(file))
+}
+
+fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportError> {
+    let container = split(bytes)?;
+    let mut document = Document::open(&container, bytes.len(), resolve)?;
+    let mut scene = RawScene::default();
+    document.read_nodes(&mut scene)?;
+    document.read_skins(&mut scene)?;
+    document.read_images(&mut scene)?;
+    document.read_materials(&mut scene)?;
+    document.read_parts(&mut scene)?;
+    document.read_clips(&mut scene)?;
+    document.note_the_rest();
+    scene.notes = document.into_notes();
+    Ok(scene)
+}

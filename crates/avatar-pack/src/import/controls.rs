@@ -1,0 +1,125 @@
+use super::names::{Role, ShapeSet, face_control};
+use super::parts::ShapeNames;
+use super::rig::Joints;
+use super::{ImportFailure, ImportReport};
+use avatar_exchange::Scene;
+use glam::Vec3;
+use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, Pose, PoseSet};
+use std::collections::HashSet;
+
+/// The controls of the nine-joint face that a role has: name, axis in world space at rest, range in degrees. The
+/// character looks along +Z and its left is +X.
+fn face_controls(role: Role) -> &'static [(&'static str, Vec3, f32, f32)] {
+    match role {
+        Role::Head => &[
+            ("head.turn", Vec3::Y, -70.0, 70.0),
+            ("head.bow", Vec3::X, -40.0, 40.0),
+            ("head.bend", Vec3::NEG_Z, -40.0, 40.0),
+        ],
+        Role::Jaw => &[("jaw.open", Vec3::X, 0.0, 20.0), ("jaw.jut", Vec3::Y, -8.0, 8.0)],
+        Role::LeftEye => &[("eye.left.ud", Vec3::NEG_X, -25.0, 25.0), ("eye.left.lr", Vec3::Y, -30.0, 30.0)],
+        Role::RightEye => {
+            &[("eye.right.ud", Vec3::NEG_X, -25.0, 25.0), ("eye.right.lr", Vec3::Y, -30.0, 30.0)]
+        }
+        Role::LeftUpperLid => &[("lid.left.upper", Vec3::X, -10.0, 45.0)],
+        Role::RightUpperLid => &[("lid.right.upper", Vec3::X, -10.0, 45.0)],
+        Role::LeftLowerLid => &[("lid.left.lower", Vec3::NEG_X, -5.0, 25.0)],
+        Role::RightLowerLid => &[("lid.right.lower", Vec3::NEG_X, -5.0, 25.0)],
+    }
+}
+
+pub(super) fn controls(
+    scene: &Scene,
+    joints: &Joints,
+    shapes: &ShapeNames,
+    report: &mut ImportReport,
+) -> Result<ControlTable, ImportFailure> {
+    let mut table = Table::default();
+    for (role, node) in &joints.roles {
+        let node_from_world = joints.turned_back(*node);
+        for (name, axis, min, max) in face_controls(*role) {
+            let axis = (node_from_world * *axis).normalize_or(*axis);
+            let joint = joints.names[*node].clone();
+            table.add(name, Drive::Joint { joint, axis, kind: JointMotion::Rotation }, *min, *max, 0.0);
+        }
+    }
+    shape_controls(shapes, report, &mut table);
+    for &node in scene.order() {
+        let has_role = joints.roles.iter().any(|(_, other)| *other == node);
+        if has_role || !joints.moves[node] {
+            continue;
+        }
+        let joint = &joints.names[node];
+        for (axis_name, axis) in [("x", Vec3::X), ("y", Vec3::Y), ("z", Vec3::Z)] {
+            let drives = Drive::Joint { joint: joint.clone(), axis, kind: JointMotion::Rotation };
+            table.add(&format!("{joint}.{axis_name}"), drives, -180.0, 180.0, 0.0);
+        }
+        report.other_joints.push(joint.clone());
+    }
+    Ok(ControlTable::new(table.controls)?)
+}
+
+/// One control for all shapes of a name.
+fn shape_controls(shapes: &ShapeNames, report: &mut ImportReport, table: &mut Table) {
+    let mut counts = ShapeSet::ALL.map(|set| (set, 0));
+    let mut seen = HashSet::new();
+    for (shape, weight) in shapes.names.iter().zip(&shapes.weights) {
+        if !seen.insert(shape) {
+            continue;
+        }
+        match ShapeSet::of(shape) {
+            Some(set) => {
+                counts.iter_mut().filter(|(other, _)| *other == set).for_each(|(_, count)| *count += 1)
+            }
+            None => report.other_shapes.push(shape.clone()),
+        }
+        let weight = if weight.is_finite() { *weight } else { 0.0 };
+        let name = face_control(shape).filter(|name| !table.names.contains(*name)).unwrap_or(shape);
+        table.add(name, Drive::Shape { shape: shape.clone() }, weight.min(0.0), weight.max(1.0), weight);
+    }
+    report.shape_sets.extend(counts.into_iter().filter(|(_, count)| *count > 0));
+}
+
+#[derive(Default)]
+struct Table {
+    controls: Vec<Control>,
+    names: HashSet<String>,
+}
+
+impl Table {
+    fn add(&mut self, name: &str, drives: Drive, min: f32, max: f32, default: f32) {
+        let mut unique = name.to_owned();
+        let mut count = 1;
+        while !self.names.insert(unique.clone()) {
+            count += 1;
+            unique = format!("{name}.{count}");
+        }
+        let pace = Pace::named(&unique, &drives);
+        self.controls.push(Control { name: unique, drives, min, max, default, pace });
+    }
+}
+
+/// Those default poses that the avatar can take, and one for each shape.
+pub(super) fn poses(controls: &ControlTable) -> PoseSet {
+    let face = ControlTable::default_face();
+    let whole = PoseSet::default_face(&face);
+    let can_take = |pose: &Pose| {
+        let moved = |(index, value): &&(usize, f32)| face.controls()[*index].default != *value;
+        let mut moving = pose.values.iter().filter(moved).peekable();
+        moving.peek().is_some()
+            && moving.all(|(index, _)| controls.index(&face.controls()[*index].name).is_some())
+    };
+    let mut set = PoseSet::default_face(controls);
+    set.poses.retain(|pose| pose.name == "neutral" || whole.get(&pose.name).is_some_and(can_take));
+    if set.get("neutral").is_none() {
+        set.poses.insert(0, Pose::new("neutral", Vec::new()));
+    }
+    for (index, control) in controls.controls().iter().enumerate() {
+        let is_shape = matches!(control.drives, Drive::Shape { .. });
+        if is_shape && set.get(&control.name).is_none() {
+            let pose = Pose::new(&control.name, vec![(index, control.max)]);
+            set.poses.push(pose);
+        }
+    }
+    set
+}

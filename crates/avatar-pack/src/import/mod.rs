@@ -1,0 +1,146 @@
+//! Avatars from interchange formats: a scene becomes rig, parts, shapes and controls, and a report says what of it did not.
+
+mod controls;
+mod motion;
+mod names;
+mod parts;
+mod rig;
+
+pub use motion::{MotionAt, MotionError, SceneMotion};
+pub use names::{Role, ShapeSet};
+
+use crate::{FaceError, FaceState, Pack, Textures, Warning};
+use avatar_exchange::Scene;
+use avatar_look::Materials;
+use avatar_mesh::{Bounds, DeformError};
+use pose_anim::{BindError, ControlError};
+use rig_core::RigError;
+use std::fmt;
+
+/// An avatar from a file of an interchange format.
+#[derive(Clone, Debug)]
+pub struct Import {
+    /// Rig, parts, shapes, controls and clips.
+    pub pack: Pack,
+    /// The pictures of its parts.
+    pub textures: Textures,
+    /// What was recognised, and what could not be represented.
+    pub report: ImportReport,
+}
+
+/// What became of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ImportReport {
+    /// Joints that are known by what they do: the control's part of the face and the name of the joint.
+    pub joints: Vec<(Role, String)>,
+    /// Sets of shapes that are known, with the number of those that the avatar has of each.
+    pub shape_sets: Vec<(ShapeSet, usize)>,
+    /// Shapes that became controls of their own names, unknown ones.
+    pub other_shapes: Vec<String>,
+    /// Joints whose turns became controls of their own names.
+    pub other_joints: Vec<String>,
+    /// What could not be represented, or was mended.
+    pub notes: Vec<String>,
+}
+
+/// Why a scene is no avatar.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ImportFailure {
+    /// Nothing to draw.
+    #[error("expected at least one mesh, found none")]
+    NoParts,
+    /// Nodes that are no rig.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+    /// Controls that contradict each other.
+    #[error(transparent)]
+    Control(#[from] ControlError),
+    /// Controls that do not fit the rig.
+    #[error(transparent)]
+    Bind(#[from] BindError),
+    /// The rest pose could not be taken.
+    #[error(transparent)]
+    Face(#[from] FaceError),
+    /// A part could not be deformed.
+    #[error("part {part:?}: {problem}")]
+    Deform {
+        /// Name of the part.
+        part: String,
+        /// What is wrong with it.
+        problem: DeformError,
+    },
+}
+
+impl Import {
+    /// Makes an avatar of a scene: nodes become joints, meshes parts, morph targets shapes. Joints and shapes that are known
+    /// by their names get the controls of the nine-joint face; all others get controls of their own names.
+    ///
+    /// # Errors
+    /// Nothing to draw, or numbers that are no rig.
+    pub fn from_scene(scene: Scene) -> Result<Self, ImportFailure> {
+        if scene.parts.is_empty() {
+            return Err(ImportFailure::NoParts);
+        }
+        let mut report = ImportReport {
+            notes: scene.notes.iter().map(ToString::to_string).collect(),
+            ..Default::default()
+        };
+        let joints = rig::Joints::of(&scene, &mut report)?;
+        let shapes = parts::ShapeNames::of(&scene);
+        let controls = controls::controls(&scene, &joints, &shapes, &mut report)?;
+        let names: Vec<&str> = shapes.names.iter().map(String::as_str).collect();
+        let binding = controls.bind(&joints.rig, &names)?;
+        let (parts, textures) = parts::parts(&scene, &shapes, &mut report);
+        let poses = controls::poses(&controls);
+        let mut pack = Pack {
+            palette: joints.palette,
+            rig: joints.rig,
+            parts,
+            shapes: shapes.names,
+            controls,
+            binding,
+            poses,
+            materials: Materials::default(),
+            hair: None,
+            motion: Some(SceneMotion::new(scene, joints.of_node, joints.node_from_parent, shapes.first)),
+            warnings: Vec::new(),
+        };
+        measure(&mut pack)?;
+        pack.warnings = report.notes.iter().cloned().map(Warning::Import).collect();
+        Ok(Self { pack, textures, report })
+    }
+}
+
+/// Boxes around the parts at rest.
+fn measure(pack: &mut Pack) -> Result<(), ImportFailure> {
+    let mut state = FaceState::new(pack);
+    state.pose(pack, &pack.controls.defaults())?;
+    let boxes: Result<Vec<_>, _> = (0..pack.parts.len())
+        .map(|index| {
+            let part = &pack.parts[index];
+            let failed = |problem| ImportFailure::Deform { part: part.name.clone(), problem };
+            state.deform(pack, index).map(|posed| Bounds::of(&posed.positions)).map_err(failed)
+        })
+        .collect();
+    pack.parts.iter_mut().zip(boxes?).for_each(|(part, bounds)| part.bounds = bounds);
+    Ok(())
+}
+
+impl fmt::Display for ImportReport {
+    /// One line for each finding.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (role, joint) in &self.joints {
+            writeln!(f, "joint {joint:?} is the {role}")?;
+        }
+        for (set, count) in &self.shape_sets {
+            writeln!(f, "{count} of {} shapes of {set}", set.names().len())?;
+        }
+        let list = |f: &mut fmt::Formatter<'_>, what: &str, names: &[String]| match names {
+            [] => Ok(()),
+            names => writeln!(f, "{what}: {}", names.join(", ")),
+        };
+        list(f, "shapes by their own names", &self.other_shapes)?;
+        list(f, "joints by their own names", &self.other_joints)?;
+        self.notes.iter().try_for_each(|note| writeln!(f, "not represented: {note}"))
+    }
+}

@@ -1,0 +1,93 @@
+use avatar_exchange::Scene;
+use glam::{Affine3A, DAffine3};
+use rig_core::JointId;
+
+/// The clips of an imported avatar, and what they do to it.
+#[derive(Clone, Debug)]
+pub struct SceneMotion {
+    scene: Scene,
+    joints: Vec<JointId>,
+    node_from_parent: Vec<DAffine3>,
+    first_shape: Vec<usize>,
+}
+
+/// A clip that there is not.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected the name of a clip, found {found:?}; there are: {}", if .clips.is_empty() { "none".to_owned() } else { .clips.join(", ") })]
+pub struct MotionError {
+    /// What was asked for.
+    pub found: String,
+    /// The clips.
+    pub clips: Vec<String>,
+}
+
+/// What a clip sets at one time: the `L` of joints, and weights by their places in [`crate::Pack::shapes`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotionAt {
+    /// Local transforms of joints that move.
+    pub locals: Vec<(JointId, Affine3A)>,
+    /// Weights of shapes.
+    pub weights: Vec<(usize, f32)>,
+}
+
+impl SceneMotion {
+    pub(super) fn new(
+        scene: Scene,
+        joints: Vec<JointId>,
+        node_from_parent: Vec<DAffine3>,
+        first_shape: Vec<usize>,
+    ) -> Self {
+        Self { scene, joints, node_from_parent, first_shape }
+    }
+
+    /// The scene that the avatar was made of.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Names of the clips; those without get a number.
+    pub fn clips(&self) -> Vec<String> {
+        super::rig::unique_names(self.scene.clips.iter().map(|clip| clip.name.as_str()), "clip")
+    }
+
+    /// How long a clip is, in seconds.
+    ///
+    /// # Errors
+    /// A clip that there is not.
+    pub fn duration_secs(&self, clip: &str) -> Result<f32, MotionError> {
+        Ok(self.scene.clips[self.find(clip)?].duration_secs())
+    }
+
+    /// What a clip sets at a time in seconds; before its first key and after its last one these hold.
+    ///
+    /// # Errors
+    /// A clip that there is not.
+    pub fn at(&self, clip: &str, time_secs: f32) -> Result<MotionAt, MotionError> {
+        let index = self.find(clip)?;
+        let Ok(pose) = self.scene.at(index, time_secs) else { return Err(self.missing(clip)) };
+        let mut at = MotionAt::default();
+        for (node, local) in pose.locals.iter().enumerate() {
+            if *local != self.scene.nodes[node].local {
+                let moved = self.node_from_parent[node] * local.affine();
+                let columns = moved.to_cols_array().map(|x| x as f32);
+                at.locals.push((self.joints[node], Affine3A::from_cols_array(&columns)));
+            }
+        }
+        for (node, weights) in pose.weights.iter().enumerate() {
+            let moved = weights
+                .iter()
+                .enumerate()
+                .filter(|(k, weight)| self.scene.nodes[node].weights.get(*k) != Some(*weight));
+            at.weights.extend(moved.map(|(k, weight)| (self.first_shape[node] + k, *weight)));
+        }
+        Ok(at)
+    }
+
+    fn find(&self, clip: &str) -> Result<usize, MotionError> {
+        self.clips().iter().position(|name| name == clip).ok_or_else(|| self.missing(clip))
+    }
+
+    fn missing(&self, clip: &str) -> MotionError {
+        MotionError { found: clip.to_owned(), clips: self.clips() }
+    }
+}
