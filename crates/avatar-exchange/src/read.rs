@@ -10,16 +10,25 @@ pub type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 pub enum Format {
     /// glTF 2.0 as JSON, or GLB.
     Gltf,
+    /// Wavefront OBJ.
+    Obj,
+    /// Biovision hierarchies: nodes and a clip, nothing to draw.
+    Bvh,
+    /// Meshes of id Tech 4, without animations, which are files that no mesh names.
+    Md5Mesh,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 1] = [Self::Gltf];
+    pub const ALL: [Self; 4] = [Self::Gltf, Self::Obj, Self::Bvh, Self::Md5Mesh];
 
     /// How files of the format end, in lower case and without the dot.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Gltf => &["glb", "gltf"],
+            Self::Obj => &["obj"],
+            Self::Bvh => &["bvh"],
+            Self::Md5Mesh => &["md5mesh"],
         }
     }
 
@@ -45,6 +54,12 @@ pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene
     match format {
         #[cfg(feature = "gltf")]
         Format::Gltf => crate::gltf::read(file, bytes, resolve),
+        #[cfg(feature = "obj")]
+        Format::Obj => crate::obj::read(file, bytes, resolve),
+        #[cfg(feature = "bvh")]
+        Format::Bvh => crate::bvh::read(file, bytes),
+        #[cfg(feature = "md5")]
+        Format::Md5Mesh => crate::md5::read(crate::md5::TextFile { file, bytes }, &[]),
         #[allow(unreachable_patterns, reason = "reached where features are off")]
         other => {
             let _ = (bytes, resolve);

@@ -226,6 +226,12 @@ fn short_files_stand_for_no_long_ones() {
 }
 
 #[test]
+fn the_end_of_the_name_tells_the_format() {
+    let scene = avatar_exchange::read("arm.md5mesh", MESH.as_bytes(), &mut |_| Err(String::new()));
+    assert_eq!(scene, read_texts(MESH, &[]));
+}
+
+#[test]
 fn damaged_files_are_told() {
     let anim = [("a.md5anim", ANIM)];
     let told =

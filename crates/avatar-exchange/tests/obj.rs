@@ -129,6 +129,33 @@ fn materials_come_from_libraries() {
 }
 
 #[test]
+fn paths_stay_in_the_folder() {
+    for (written, asked) in [
+        (r"C:\Users\me\skin.png", Some("skin.png")),
+        ("/home/me/my skin.png", Some("my skin.png")),
+        ("../../textures/skin.png", Some("skin.png")),
+        (r"a\..\..\skin.png", Some("skin.png")),
+        ("./maps//skin.png", Some("maps/skin.png")),
+        (r"\\server\share\skin.png", Some("skin.png")),
+        ("C:skin.png", None),
+        ("..", None),
+        ("/", None),
+        ("-s 1 1 1", None),
+    ] {
+        let text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+        let library = format!("newmtl a\nmap_Kd {written}\n");
+        let mut found = Vec::new();
+        let scene = read("a.obj", text.as_bytes(), &mut |path| {
+            found.push(path.to_owned());
+            if path == "a.mtl" { Ok(library.clone().into_bytes()) } else { Err("no such file".to_owned()) }
+        })
+        .expect("a good file");
+        assert_eq!(found[1..], asked.into_iter().collect::<Vec<_>>(), "{written}");
+        assert_eq!(scene.images.len(), found.len() - 1);
+    }
+}
+
+#[test]
 fn lines_may_be_continued_and_encoded_in_sixteen_bits() {
     let text = "v 0 0 0 # origin\r\nv 1 0 \\\r\n 0\r\nv 0 1 0\r\nf 1 2 3\r\n";
     let wide: Vec<u8> =
@@ -284,6 +311,13 @@ fn test_models_load_or_tell() {
     }
     // A few of them are broken or have no faces.
     assert!(2 * loaded >= models.len(), "{loaded} of {}", models.len());
+}
+
+#[test]
+fn the_end_of_the_name_tells_the_format() {
+    let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let none = &mut |_: &str| Err(String::new());
+    assert_eq!(avatar_exchange::read("a.OBJ", text, none), read("a.OBJ", text, none));
 }
 
 #[test]

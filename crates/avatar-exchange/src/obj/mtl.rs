@@ -97,12 +97,20 @@ fn note(place: &str, text: &str) -> Note {
 fn paths(line: &str) -> Vec<String> {
     let words = || line.split_whitespace();
     let each_is_a_library = words().all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
-    if each_is_a_library { words().map(path).collect() } else { vec![path(line)] }
+    if each_is_a_library { words().filter_map(path).collect() } else { path(line).into_iter().collect() }
 }
 
-fn path(written: &str) -> String {
-    let path = written.trim().replace('\\', "/");
-    path.strip_prefix("./").map(str::to_owned).unwrap_or(path)
+/// The path as [`Resolve`] takes it. Writers like to name the places on their own machines: of a path that is absolute or
+/// leads upwards, the file's name remains, which is where people put such files.
+fn path(written: &str) -> Option<String> {
+    let segments = || written.trim().split(['/', '\\']);
+    let outside = written.trim().starts_with(['/', '\\'])
+        || segments().next().is_some_and(|first| first.contains(':'))
+        || segments().any(|segment| segment == "..");
+    let inside: Vec<&str> = segments().filter(|segment| !segment.is_empty() && *segment != ".").collect();
+    let kept = if outside { &inside[inside.len().saturating_sub(1)..] } else { &inside[..] };
+    let path = kept.join("/");
+    (!path.is_empty() && !path.contains([':', '\0']) && path != "..").then_some(path)
 }
 
 fn mime(bytes: &[u8]) -> &'static str {
@@ -211,10 +219,7 @@ fn texture(
     if moved {
         obj.notes.push(note(&format!("{library}, line {line}"), "where the texture lies is left out"));
     }
-    if rest.is_empty() {
-        return None;
-    }
-    let name = path(rest);
+    let name = path(rest)?;
     Some(*images.entry(name.clone()).or_insert_with(|| {
         obj.images.push(SceneImage { name, ..SceneImage::default() });
         obj.images.len() - 1
