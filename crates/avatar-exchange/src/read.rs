@@ -25,7 +25,7 @@ pub enum Format {
     Fbx,
     /// Meshes of id Tech 4.
     Md5,
-    /// Biovision hierarchies.
+    /// Biovision hierarchies: nodes and a clip, nothing to draw.
     Bvh,
 }
 

@@ -137,6 +137,12 @@ fn deep_nesting_is_no_recursion() {
 }
 
 #[test]
+fn the_end_of_the_name_tells_the_format() {
+    let scene = avatar_exchange::read("a.bvh", ARM.as_bytes(), &[], &mut |_| Err(String::new()));
+    assert_eq!(scene, read("a.bvh", ARM.as_bytes()));
+}
+
+#[test]
 fn damaged_files_are_told() {
     let told = texts::survives_damage(ARM.as_bytes(), |bytes| read("a.bvh", bytes));
     assert!(told > 200, "{told}");

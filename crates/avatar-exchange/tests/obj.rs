@@ -99,7 +99,7 @@ fn a_concave_polygon_is_noted() {
 #[test]
 fn materials_come_from_libraries() {
     let text = "mtllib ./my stuff.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red paint\nf 1 2 3\n";
-    let library = "newmtl other\nmap_Kd unused.png\n\nnewmtl red paint\nKd 0.8 0.1 0.2\nNs 6\nd 0.5\nKe 0.25\n\
+    let library = "newmtl other\nmap_Kd unused.png\n\nnewmtl red paint\nKd 0.8 0.1 0.2\nNs 6\nd 0.5\nTr 1\nKe 0.25\n\
         map_Kd -s 1 1 1 -clamp on textures\\red paint.png\nbump -bm 0.5 dents.png\n";
     let mut asked = Vec::new();
     let scene = read("a.obj", text.as_bytes(), &mut |path| {
@@ -126,6 +126,33 @@ fn materials_come_from_libraries() {
     let error =
         read("a.obj", text.as_bytes(), &mut |_| Ok(b"newmtl a\nKd 1 x 1".to_vec())).expect_err("no number");
     assert_eq!((error.file.as_str(), error.place.as_str()), ("my stuff.mtl", "line 2"));
+}
+
+#[test]
+fn paths_stay_in_the_folder() {
+    for (written, asked) in [
+        (r"C:\Users\me\skin.png", Some("skin.png")),
+        ("/home/me/my skin.png", Some("my skin.png")),
+        ("../../textures/skin.png", Some("skin.png")),
+        (r"a\..\..\skin.png", Some("skin.png")),
+        ("./maps//skin.png", Some("maps/skin.png")),
+        (r"\\server\share\skin.png", Some("skin.png")),
+        ("C:skin.png", None),
+        ("..", None),
+        ("/", None),
+        ("-s 1 1 1", None),
+    ] {
+        let text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+        let library = format!("newmtl a\nmap_Kd {written}\n");
+        let mut found = Vec::new();
+        let scene = read("a.obj", text.as_bytes(), &mut |path| {
+            found.push(path.to_owned());
+            if path == "a.mtl" { Ok(library.clone().into_bytes()) } else { Err("no such file".to_owned()) }
+        })
+        .expect("a good file");
+        assert_eq!(found[1..], asked.into_iter().collect::<Vec<_>>(), "{written}");
+        assert_eq!(scene.images.len(), found.len() - 1);
+    }
 }
 
 #[test]
@@ -173,6 +200,8 @@ fn faces_of_many_corners_and_many_parts_take_bounded_time() {
     let corners: String = (0..100_000).map(|k| format!(" {}", 1 + k % 3)).collect();
     let obj = good(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{corners}\n"));
     assert_eq!(obj.triangles.len(), 99_998);
+    let joined = good(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2{}3\n", "\\\n".repeat(1_000_000)));
+    assert_eq!(joined.triangles, [[0, 1, 2]]);
     let groups: String = (0..70_000).map(|k| format!("g {k}\nf 1 2 3\n")).collect();
     let error = parse(&format!("\n\ng {}\n", "x".repeat(2000))).expect_err("too long");
     assert_eq!((error.place.as_str(), error.found.as_str()), ("line 3", "2000"));
@@ -282,6 +311,13 @@ fn test_models_load_or_tell() {
     }
     // A few of them are broken or have no faces.
     assert!(2 * loaded >= models.len(), "{loaded} of {}", models.len());
+}
+
+#[test]
+fn the_end_of_the_name_tells_the_format() {
+    let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let none = &mut |_: &str| Err(String::new());
+    assert_eq!(avatar_exchange::read("a.OBJ", text, none), read("a.OBJ", text, none));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! MakeHuman targets on OBJ files.
 #![cfg(feature = "target")]
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
-#![allow(clippy::disallowed_methods, reason = "a test may use files")]
+#![allow(clippy::disallowed_methods, reason = "a test may use files and the clock")]
 
 mod texts;
 
@@ -68,6 +68,19 @@ fn errors_name_their_line() {
     target::add("a.target", b"", &mut obj).expect("a target");
     let error = target::add("b/a.target", b"", &mut obj).expect_err("the same name");
     assert_eq!((error.file.as_str(), error.place.as_str()), ("b/a.target", "shape \"a\""));
+}
+
+#[test]
+fn many_vertices_at_one_place_take_bounded_time() {
+    let vertices = "v 1 1 1\n".repeat(200_000);
+    let faces: String = (1..199_000).step_by(3).map(|k| format!("f {k} {} {}\n", k + 1, k + 2)).collect();
+    let start = std::time::Instant::now();
+    let mut obj =
+        read_obj("a.obj", (vertices + &faces).as_bytes(), &mut |_| Err(String::new())).expect("a file");
+    target::add("a.target", b"0 1 0 0\n", &mut obj).expect("a target");
+    let scene = obj.into_scene().expect("a scene");
+    assert_eq!(scene.parts[0].mesh.shapes[0].moved_vertices(), 1);
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
 }
 
 #[test]

@@ -84,6 +84,9 @@ fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
 /// Gives points that are within `tolerance` of each other (along chains, too) one number, counted from 0 in the
 /// order of first appearance: the topology under vertices that were split for uvs or normals.
 pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
+    if tolerance == 0.0 {
+        return weld_equal(positions);
+    }
     // Not much finer than the coordinates: their cell numbers would leave i64 and fall into one cell.
     let extent = positions.iter().map(|p| p.abs().max_element()).fold(0.0f32, f32::max);
     let finest = f64::from(extent.min(f32::MAX)) / (1u64 << 40) as f64;
@@ -116,6 +119,20 @@ pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
             *numbers.entry(root(&mut roots, vertex)).or_insert(next)
         })
         .collect()
+}
+
+/// The same for equal points, in linear time however many of them there are at one place, as files may have it.
+fn weld_equal(positions: &[Vec3]) -> Vec<u32> {
+    let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(positions.len());
+    let mut next = 0;
+    let number = |position: &Vec3| {
+        // Adding 0 makes one zero of two. What is no number equals nothing.
+        let bits = position.to_array().map(|x| (x + 0.0).to_bits());
+        let number = if position.is_finite() { *numbers.entry(bits).or_insert(next) } else { next };
+        next = next.max(number + 1);
+        number
+    };
+    positions.iter().map(number).collect()
 }
 
 fn root(roots: &mut [u32], mut vertex: u32) -> u32 {

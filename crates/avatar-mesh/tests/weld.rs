@@ -118,6 +118,15 @@ fn all_pairs(points: &[Vec3], tolerance: f32) -> Vec<u32> {
 }
 
 #[test]
+fn equal_points_are_welded_in_linear_time() {
+    let start = Instant::now();
+    assert_eq!(weld_positions(&vec![Vec3::ONE; 300_000], 0.0), vec![0; 300_000]);
+    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    let odd = [Vec3::ZERO, Vec3::NAN, -Vec3::ZERO, Vec3::NAN, Vec3::INFINITY, Vec3::ZERO, Vec3::ONE];
+    assert_eq!(weld_positions(&odd, 0.0), [0, 1, 0, 2, 3, 0, 4]);
+}
+
+#[test]
 fn every_attribute_that_shows_keeps_vertices_apart() {
     let base = far_from_welded(&mut Random(1), 1, 2).0;
     assert_eq!(weld(&base).welded_from_original, [0, 0]);

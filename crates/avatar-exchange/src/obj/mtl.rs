@@ -31,6 +31,8 @@ struct Draft {
     material: Material,
     /// A height map, or a normal map under its statement, which is the usual use of it.
     bump: Option<usize>,
+    /// Whether `d` was there, which counts more than `Tr`: writers disagree about what that one means.
+    has_opacity: bool,
 }
 
 /// Gives the parts of a file the materials that it names, in their order. What cannot be found gets a note.
@@ -57,7 +59,7 @@ pub(super) fn attach(
     }
     for name in names {
         let material = match library.found.get(name).and_then(|&index| library.materials.get(index)) {
-            Some(Draft { material, bump }) => {
+            Some(Draft { material, bump, .. }) => {
                 if let (None, Some(_)) = (material.normal_texture, bump) {
                     obj.notes
                         .push(note(&format!("material {name:?}"), "its bump map is taken for a normal map"));
@@ -95,12 +97,20 @@ fn note(place: &str, text: &str) -> Note {
 fn paths(line: &str) -> Vec<String> {
     let words = || line.split_whitespace();
     let each_is_a_library = words().all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
-    if each_is_a_library { words().map(path).collect() } else { vec![path(line)] }
+    if each_is_a_library { words().filter_map(path).collect() } else { path(line).into_iter().collect() }
 }
 
-fn path(written: &str) -> String {
-    let path = written.trim().replace('\\', "/");
-    path.strip_prefix("./").map(str::to_owned).unwrap_or(path)
+/// The path as [`Resolve`] takes it. Writers like to name the places on their own machines: of a path that is absolute or
+/// leads upwards, the file's name remains, which is where people put such files.
+fn path(written: &str) -> Option<String> {
+    let segments = || written.trim().split(['/', '\\']);
+    let outside = written.trim().starts_with(['/', '\\'])
+        || segments().next().is_some_and(|first| first.contains(':'))
+        || segments().any(|segment| segment == "..");
+    let inside: Vec<&str> = segments().filter(|segment| !segment.is_empty() && *segment != ".").collect();
+    let kept = if outside { &inside[inside.len().saturating_sub(1)..] } else { &inside[..] };
+    let path = kept.join("/");
+    (!path.is_empty() && !path.contains([':', '\0']) && path != "..").then_some(path)
 }
 
 fn mime(bytes: &[u8]) -> &'static str {
@@ -126,7 +136,7 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
         if keyword == "newmtl" {
             library.found.entry(rest.to_owned()).or_insert(library.materials.len());
             let material = Material { name: rest.to_owned(), metallic: 0.0, ..Material::default() };
-            library.materials.push(Draft { material, bump: None });
+            library.materials.push(Draft { material, ..Draft::default() });
             current = library.materials.last_mut();
             continue;
         }
@@ -143,8 +153,9 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
                 // `d -halo` depends on the angle of sight.
                 let word = rest.split_whitespace().find(|word| *word != "-halo");
                 opacity(material, float(line, "an opacity", word)?);
+                draft.has_opacity = true;
             }
-            "Tr" => opacity(material, 1.0 - one("a transparency")?),
+            "Tr" if !draft.has_opacity => opacity(material, 1.0 - one("a transparency")?),
             // Of the same width: B. Karis, "Specular BRDF Reference" (2013), α² = 2 / (n + 2) with α the roughness squared.
             "Ns" => material.roughness = (2.0 / (one("an exponent")?.max(0.0) + 2.0)).sqrt().sqrt(),
             "Pr" => material.roughness = one("a roughness")?.clamp(0.0, 1.0),
@@ -208,10 +219,7 @@ fn texture(
     if moved {
         obj.notes.push(note(&format!("{library}, line {line}"), "where the texture lies is left out"));
     }
-    if rest.is_empty() {
-        return None;
-    }
-    let name = path(rest);
+    let name = path(rest)?;
     Some(*images.entry(name.clone()).or_insert_with(|| {
         obj.images.push(SceneImage { name, ..SceneImage::default() });
         obj.images.len() - 1

@@ -90,17 +90,24 @@ pub(super) fn parse(text: &str) -> Result<Lines, ImportError> {
     let mut state = State::default();
     let mut rows = text.lines().enumerate();
     while let Some((row, line)) = rows.next() {
-        let mut line = Cow::Borrowed(line);
         let first = row + 1;
         lines.last_line = first;
-        while let Some(joined) = line.strip_suffix('\\') {
-            let mut joined = joined.to_owned();
-            joined.push(' ');
-            let Some((row, next)) = rows.next() else { break };
-            joined.push_str(next);
-            lines.last_line = row + 1;
-            line = Cow::Owned(joined);
-        }
+        let line = match line.strip_suffix('\\') {
+            None => Cow::Borrowed(line),
+            Some(start) => {
+                let mut joined = start.to_owned();
+                for (row, next) in rows.by_ref() {
+                    lines.last_line = row + 1;
+                    let more = next.strip_suffix('\\');
+                    joined.push(' ');
+                    joined.push_str(more.unwrap_or(next));
+                    if more.is_none() {
+                        break;
+                    }
+                }
+                Cow::Owned(joined)
+            }
+        };
         statement(&mut lines, &mut state, first, line.trim())?;
     }
     Ok(lines)
