@@ -1,0 +1,115 @@
+//! Instances of geometries and controllers become parts.
+
+use super::Reader;
+use super::controller::{Morph, chain};
+use super::node::Nodes;
+use super::xml::At;
+use crate::{ImportError, Node, ScenePart};
+use std::collections::{HashMap, HashSet};
+
+/// Nodes whose weights a `<source>` holds.
+pub(super) type WeightNodes = HashMap<usize, Vec<usize>>;
+
+impl<'a> Reader<'a> {
+    /// Reads all parts. `materials` are numbers by element.
+    pub(super) fn read_parts(
+        &mut self,
+        nodes: &Nodes<'a>,
+        materials: &HashMap<usize, usize>,
+    ) -> Result<WeightNodes, ImportError> {
+        let mut weights = WeightNodes::new();
+        let mut taken = HashSet::new();
+        for (number, element) in &nodes.elements {
+            for instance in element.children() {
+                if !["instance_geometry", "instance_controller"].contains(&instance.name()) {
+                    continue;
+                }
+                let node = self.node_for(*number, instance, &mut taken)?;
+                self.instance(node, instance, nodes, materials, &mut weights)?;
+            }
+        }
+        Ok(weights)
+    }
+
+    /// The node itself, or one more below it: weights belong to nodes, and what else hangs there has other shapes.
+    fn node_for(&mut self, node: usize, at: At<'a>, taken: &mut HashSet<usize>) -> Result<usize, ImportError> {
+        if at.name() == "instance_geometry" && self.scene.nodes[node].weights.is_empty() {
+            taken.insert(node);
+            return Ok(node);
+        }
+        if at.name() == "instance_controller" && taken.insert(node) {
+            return Ok(node);
+        }
+        self.take(at, 1)?;
+        let name = self.scene.nodes[node].name.clone();
+        self.scene.nodes.push(Node { name, parent: Some(node), ..Node::default() });
+        Ok(self.scene.nodes.len() - 1)
+    }
+
+    fn instance(
+        &mut self,
+        node: usize,
+        at: At<'a>,
+        nodes: &Nodes<'a>,
+        materials: &HashMap<usize, usize>,
+        weights: &mut WeightNodes,
+    ) -> Result<(), ImportError> {
+        let chain = chain(at)?;
+        let geometry = self.geometry(chain.geometry)?;
+        let morph = match chain.morph {
+            Some(morph) => self.morph(morph, &geometry)?,
+            None => Morph::default(),
+        };
+        let skin = match chain.skin {
+            Some(skin) => {
+                let skeletons = skeletons(at, nodes);
+                Some(self.skin(skin, &skeletons, node, geometry.points.len(), nodes)?)
+            }
+            None => None,
+        };
+        let bound = bound(at);
+        let before = self.scene.parts.len();
+        for (number, primitive) in geometry.primitives.iter().enumerate() {
+            if primitive.corners.is_empty() {
+                continue;
+            }
+            self.take(at, primitive.corners.vertices.len())?;
+            let (mesh, tangents) = primitive.corners.mesh(&geometry.points);
+            let mut part = ScenePart::rigid(chain.geometry.label(), node, mesh);
+            for (name, offsets) in &morph.shapes {
+                let shape = primitive.corners.shape(name.clone(), offsets, None, &mut self.budget);
+                part.mesh.shapes.push(shape.map_err(|(expected, found)| at.error(expected, found))?);
+            }
+            if let Some((skin, influences)) = &skin {
+                part.skin = Some(*skin);
+                part.mesh.skinning = Some(influences.skinning(&primitive.corners));
+            }
+            part.primitive = number;
+            part.tangents = tangents;
+            part.material = bound.get(primitive.material.as_str()).and_then(|at| materials.get(at)).copied();
+            self.scene.parts.push(part);
+        }
+        if self.scene.parts.len() > before {
+            self.scene.nodes[node].weights = morph.weights;
+            weights.entry(morph.source.unwrap_or(usize::MAX)).or_default().push(node);
+        }
+        Ok(())
+    }
+}
+
+/// Nodes that an instance names as the roots of its joints.
+fn skeletons(at: At<'_>, nodes: &Nodes<'_>) -> Vec<usize> {
+    let mut found = Vec::new();
+    for skeleton in at.all("skeleton").take(16) {
+        let root = skeleton.text().strip_prefix('#').and_then(|id| skeleton.tree_by_id(id));
+        found.extend(root.and_then(|root| nodes.of_element.get(&root.number)).into_iter().flatten().take(16));
+    }
+    found
+}
+
+/// Elements of materials by the names that primitives use.
+fn bound(at: At<'_>) -> HashMap<&str, usize> {
+    let technique = at.path(&["bind_material", "technique_common"]);
+    let instances = technique.into_iter().flat_map(|technique| technique.all("instance_material"));
+    instances.filter_map(|at| Some((at.attribute("symbol")?, at.target("target").ok()?.number))).collect()
+}
