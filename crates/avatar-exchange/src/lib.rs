@@ -36,7 +36,9 @@ mod angle_normals;
 mod assemble;
 #[cfg(feature = "bvh")]
 pub mod bvh;
-#[cfg(feature = "fbx")]
+#[cfg(feature = "collada")]
+pub mod collada;
+#[cfg(any(feature = "collada", feature = "fbx"))]
 mod corners;
 mod error;
 mod evaluate;
@@ -55,7 +57,7 @@ mod normals;
 #[cfg(feature = "obj")]
 pub mod obj;
 mod read;
-#[cfg(feature = "fbx")]
+#[cfg(any(feature = "collada", feature = "fbx"))]
 mod resolve;
 mod scene;
 #[cfg(feature = "target")]

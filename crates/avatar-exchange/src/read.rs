@@ -23,6 +23,8 @@ pub enum Format {
     Obj,
     /// Autodesk FBX.
     Fbx,
+    /// COLLADA.
+    Collada,
     /// Meshes of id Tech 4.
     Md5,
     /// Biovision hierarchies: nodes and a clip, nothing to draw.
@@ -31,7 +33,7 @@ pub enum Format {
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 5] = [Self::Gltf, Self::Obj, Self::Fbx, Self::Md5, Self::Bvh];
+    pub const ALL: [Self; 6] = [Self::Gltf, Self::Obj, Self::Fbx, Self::Collada, Self::Md5, Self::Bvh];
 
     /// How files of the format end, in lower case and without the dot.
     pub fn extensions(self) -> &'static [&'static str] {
@@ -39,6 +41,7 @@ impl Format {
             Self::Gltf => &["glb", "gltf"],
             Self::Obj => &["obj"],
             Self::Fbx => &["fbx"],
+            Self::Collada => &["dae"],
             Self::Md5 => &["md5mesh"],
             Self::Bvh => &["bvh"],
         }
@@ -49,7 +52,7 @@ impl Format {
         match self {
             Self::Obj => &["target", "obj"],
             Self::Md5 => &["md5anim"],
-            Self::Gltf | Self::Fbx | Self::Bvh => &[],
+            Self::Gltf | Self::Fbx | Self::Collada | Self::Bvh => &[],
         }
     }
 
@@ -105,6 +108,8 @@ pub fn read(
         Format::Obj => read_obj(file, bytes, further, resolve),
         #[cfg(feature = "fbx")]
         Format::Fbx => crate::fbx::read(file, bytes, resolve),
+        #[cfg(feature = "collada")]
+        Format::Collada => crate::collada::read(file, bytes, resolve),
         #[cfg(feature = "md5")]
         Format::Md5 => crate::md5::read(TextFile { file, bytes }, further),
         #[cfg(feature = "bvh")]

@@ -317,7 +317,7 @@ fn test_models_load_or_tell() {
 fn the_end_of_the_name_tells_the_format() {
     let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let none = &mut |_: &str| Err(String::new());
-    assert_eq!(avatar_exchange::read("a.OBJ", text, none), read("a.OBJ", text, none));
+    assert_eq!(avatar_exchange::read("a.OBJ", text, &[], none), read("a.OBJ", text, none));
 }
 
 #[test]
