@@ -7,7 +7,7 @@
 //! use avatar_exchange::{obj, target};
 //!
 //! let base = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-//! let mut base = obj::read_obj("base.obj", base.as_bytes(), &mut |_| None)?;
+//! let mut base = obj::read_obj("base.obj", base.as_bytes(), &mut |_| Err(String::new()))?;
 //! target::add("jawOpen.target", b"# opens\n2 0 -.5 0\n", &mut base)?;
 //! let scene = base.into_scene()?;
 //! assert_eq!(scene.parts[0].mesh.shapes[0].name, "jawOpen");
