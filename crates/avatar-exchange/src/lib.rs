@@ -41,6 +41,8 @@ mod gltf_write;
 mod interpolate;
 mod material;
 mod scene;
+#[cfg(feature = "vrm")]
+pub mod vrm;
 
 /// Writing GLB, the binary form of glTF 2.0; [`gltf`] reads it.
 #[cfg(feature = "gltf")]
