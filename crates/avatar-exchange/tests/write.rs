@@ -131,8 +131,8 @@ fn node(name: &str, parent: Option<usize>) -> Node {
 /// What glTF has no word for becomes what deforms alike.
 #[test]
 fn awkward_scenes_deform_as_before() {
-    let mut scene = RawScene::default();
-    scene.nodes = vec![node("a", None), node("b", None), node("c", Some(1))];
+    let nodes = vec![node("a", None), node("b", None), node("c", Some(1))];
+    let mut scene = RawScene { nodes, ..RawScene::default() };
     scene.nodes[0].weights = vec![0.25];
     scene.nodes[1].local = avatar_exchange::Transform::Trs(avatar_exchange::Trs {
         translation: Vec3::Z,

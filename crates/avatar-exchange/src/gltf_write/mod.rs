@@ -160,7 +160,7 @@ fn nodes(plan: &Plan) -> Vec<Value> {
         .iter()
         .zip(children)
         .map(|(node, children)| {
-            let mut json = named(&node.name);
+            let mut json = named(node.name);
             transform(node, &mut json);
             if !children.is_empty() {
                 json.insert("children".to_owned(), json!(children));
