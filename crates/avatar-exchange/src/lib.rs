@@ -64,6 +64,8 @@ mod scene;
 pub mod target;
 #[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
 mod text;
+#[cfg(feature = "vrm")]
+pub mod vrm;
 
 /// Writing GLB, the binary form of glTF 2.0; [`gltf`] reads it.
 #[cfg(feature = "gltf")]

@@ -19,6 +19,8 @@ pub struct TextFile<'a> {
 pub enum Format {
     /// glTF 2.0 as JSON, or GLB.
     Gltf,
+    /// VRM 1.0 and 0.x: its scene; [`crate::vrm`] has the rest.
+    Vrm,
     /// Wavefront OBJ.
     Obj,
     /// Autodesk FBX.
@@ -33,12 +35,13 @@ pub enum Format {
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 6] = [Self::Gltf, Self::Obj, Self::Fbx, Self::Collada, Self::Md5, Self::Bvh];
+    pub const ALL: [Self; 7] = [Self::Gltf, Self::Vrm, Self::Obj, Self::Fbx, Self::Collada, Self::Md5, Self::Bvh];
 
     /// How files of the format end, in lower case and without the dot.
     pub fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Gltf => &["glb", "gltf"],
+            Self::Vrm => &["vrm"],
             Self::Obj => &["obj"],
             Self::Fbx => &["fbx"],
             Self::Collada => &["dae"],
@@ -52,7 +55,7 @@ impl Format {
         match self {
             Self::Obj => &["target", "obj"],
             Self::Md5 => &["md5anim"],
-            Self::Gltf | Self::Fbx | Self::Collada | Self::Bvh => &[],
+            Self::Gltf | Self::Vrm | Self::Fbx | Self::Collada | Self::Bvh => &[],
         }
     }
 
@@ -104,6 +107,8 @@ pub fn read(
     match format {
         #[cfg(feature = "gltf")]
         Format::Gltf => crate::gltf::read(file, bytes, resolve),
+        #[cfg(feature = "vrm")]
+        Format::Vrm => crate::vrm::read(file, bytes, resolve).map(|model| model.scene),
         #[cfg(feature = "obj")]
         Format::Obj => read_obj(file, bytes, further, resolve),
         #[cfg(feature = "fbx")]

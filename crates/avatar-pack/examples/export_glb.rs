@@ -1,16 +1,20 @@
-//! Writes the pack in a folder as GLB: `export_glb FOLDER OUT.glb`.
+//! Writes the pack in a folder as GLB: `export_glb FOLDER OUT.glb [OUT.tsv]`. The third argument is for comparing other
+//! programs' results: pose, part and the mean of its vertices, as this program computes it.
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_types,
     reason = "a program: it has arguments and opens files"
 )]
 
-use avatar_pack::{MemorySource, Pack, Textures};
+use avatar_pack::{FaceState, MemorySource, Pack, Textures};
+use glam::DVec3;
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [folder, to] = &arguments[..] else { return Err("expected FOLDER OUT.glb".into()) };
+    let [folder, to, means @ ..] = &arguments[..] else {
+        return Err("expected FOLDER OUT.glb [OUT.tsv]".into());
+    };
     let mut source = MemorySource::default();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
@@ -18,8 +22,29 @@ fn main() -> Result<(), Box<dyn Error>> {
             source.files.insert(name.to_owned(), std::fs::read(&path)?);
         }
     }
-    let scene = avatar_pack::export(&Pack::load(&source)?, &Textures::load(&source));
+    let pack = Pack::load(&source)?;
+    let scene = avatar_pack::export(&pack, &Textures::load(&source));
     scene.notes.iter().for_each(|note| println!("{note}"));
     std::fs::write(to, avatar_exchange::glb::write_raw(&scene)?)?;
+    if let [means] = means {
+        std::fs::write(means, means_of(&pack)?)?;
+    }
     Ok(())
+}
+
+fn means_of(pack: &Pack) -> Result<String, Box<dyn Error>> {
+    let mut lines = String::new();
+    let mut state = FaceState::new(pack);
+    for pose in &pack.poses.poses {
+        let mut values = pack.controls.defaults();
+        pose.values.iter().for_each(|(control, value)| values[*control] = *value);
+        state.pose(pack, &values)?;
+        for (number, part) in pack.parts.iter().enumerate() {
+            let positions = state.deform(pack, number)?.positions;
+            let sum: DVec3 = positions.iter().map(|position| position.as_dvec3()).sum();
+            let DVec3 { x, y, z } = sum / positions.len() as f64;
+            lines += &format!("{}\t{}\t{x}\t{y}\t{z}\n", pose.name, part.name);
+        }
+    }
+    Ok(lines)
 }

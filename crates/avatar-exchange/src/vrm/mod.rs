@@ -1,0 +1,208 @@
+//! VRM 1.0 and 0.x: avatars in GLB that say which node is which bone, what expressions are made of, and how eyes look.
+//!
+//! ```text
+//!  bytes ──gltf──▶ scene
+//!        └─JSON──▶ v1 / v0 ──▶ Vrm { humanoid, expressions, look_at, meta }
+//!
+//!  values of expressions ──expression_weights──▶ weights of shapes at nodes
+//!  head, target ──LookAt::gaze──▶ angles ──eyes──▶ turns of eye bones
+//!                                        └─expressions──▶ values of expressions
+//! ```
+//!
+//! Names are those of VRM 1.0: older ones are translated. Angles are in degrees, as in the files.
+
+mod expression;
+mod look_at;
+mod place;
+mod v0;
+mod v1;
+
+use crate::gltf::{self, Resolve};
+use crate::{ImportError, Node, Note, RawScene, Scene, Transform, Trs};
+use glam::{Quat, Vec3};
+use place::Place;
+use serde_json::Value;
+
+pub use expression::{ShapeWeights, expression_weights};
+pub use look_at::{EyeTurn, Gaze, LookAt, LookAtKind, RangeMap};
+
+/// A scene, and what it means as an avatar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VrmModel {
+    /// The scene; avatars of version 0.x are turned to look along +Z by a root above all nodes.
+    pub scene: Scene,
+    /// Bones, expressions and eyes.
+    pub vrm: Vrm,
+}
+
+/// What VRM says of a scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Vrm {
+    /// Which generation of the format the file is of.
+    pub version: Version,
+    /// Who made it, and what may be done with it.
+    pub meta: Meta,
+    /// Names of bones and their nodes, in the file's order: `head`, `leftEye`, `leftThumbMetacarpal` …
+    pub humanoid: Vec<(String, usize)>,
+    /// Expressions, in the file's order.
+    pub expressions: Vec<Expression>,
+    /// How the eyes look at things.
+    pub look_at: Option<LookAt>,
+}
+
+/// A generation of VRM.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Version {
+    /// 0.x, whose avatars look along −Z in their files.
+    V0,
+    /// 1.0.
+    #[default]
+    V1,
+}
+
+/// Who made an avatar, and what may be done with it. All may be empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Meta {
+    /// Its name.
+    pub title: String,
+    /// Its version.
+    pub version: String,
+    /// Its authors.
+    pub authors: Vec<String>,
+    /// Name or address of its licence.
+    pub licence: String,
+}
+
+/// Something that a face does: shapes with their weights, and what other expressions do meanwhile.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expression {
+    /// Unique name; of presets the one of VRM 1.0: `happy`, `blinkLeft`, `aa` …
+    pub name: String,
+    /// Whether it is one of those that the standard lists.
+    pub is_preset: bool,
+    /// Whether values above 0.5 count as 1 and others as 0.
+    pub is_binary: bool,
+    /// What becomes of `blink`, `blinkLeft` and `blinkRight`.
+    pub override_blink: Override,
+    /// What becomes of `lookUp`, `lookDown`, `lookLeft` and `lookRight`.
+    pub override_look_at: Override,
+    /// What becomes of `aa`, `ih`, `ou`, `ee` and `oh`.
+    pub override_mouth: Override,
+    /// Shapes that make it.
+    pub binds: Vec<MorphBind>,
+}
+
+/// What an expression does to others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Override {
+    /// Nothing.
+    #[default]
+    None,
+    /// Any value above 0 puts them to 0.
+    Block,
+    /// Its value takes that much of theirs.
+    Blend,
+}
+
+/// A shape that takes part in an expression.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MorphBind {
+    /// The node whose weights are meant.
+    pub node: usize,
+    /// Which of its shapes.
+    pub shape: usize,
+    /// Its weight at the expression's value 1.
+    pub weight: f32,
+}
+
+impl Vrm {
+    /// The node of a bone.
+    pub fn bone(&self, name: &str) -> Option<usize> {
+        self.humanoid.iter().find(|(bone, _)| bone == name).map(|(_, node)| *node)
+    }
+
+    /// The expression of this name.
+    pub fn expression(&self, name: &str) -> Option<&Expression> {
+        self.expressions.iter().find(|expression| expression.name == name)
+    }
+}
+
+/// Bones that the standard asks for.
+const REQUIRED_BONES: [&str; 15] = [
+    "hips",
+    "spine",
+    "head",
+    "leftUpperLeg",
+    "leftLowerLeg",
+    "leftFoot",
+    "rightUpperLeg",
+    "rightLowerLeg",
+    "rightFoot",
+    "leftUpperArm",
+    "leftLowerArm",
+    "leftHand",
+    "rightUpperArm",
+    "rightLowerArm",
+    "rightHand",
+];
+
+/// Reads a VRM. `file` is its name for messages.
+///
+/// Bones that the standard asks for and the file lacks, colours and textures that expressions change, and curves of
+/// looking are told in the scene's notes.
+///
+/// # Errors
+/// As [`gltf::read()`], and whatever of VRM's own data is missing or not as the standard says, with its place in the JSON.
+pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<VrmModel, ImportError> {
+    let mut raw = gltf::read_raw(file, bytes, resolve)?;
+    let vrm = read_vrm(&mut raw, bytes).map_err(|error| error.in_file(file))?;
+    let scene = Scene::from_raw(raw).map_err(|error| error.in_file(file))?;
+    Ok(VrmModel { scene, vrm })
+}
+
+fn read_vrm(raw: &mut RawScene, bytes: &[u8]) -> Result<Vrm, ImportError> {
+    let json: Value = serde_json::from_slice(gltf::split(bytes)?.json)
+        .map_err(|error| ImportError::new("JSON", "glTF 2.0", error.to_string()))?;
+    let root = Place::root(&json);
+    let extension = |name: &str| {
+        Ok::<_, ImportError>(match root.get("extensions")? {
+            Some(extensions) => extensions.get(name)?,
+            None => None,
+        })
+    };
+    // A file may carry both, for older programs.
+    let (vrm, name) = match (extension("VRMC_vrm")?, extension("VRM")?) {
+        (Some(vrm), _) => (v1::read(&vrm, raw)?, "VRMC_vrm"),
+        (None, Some(vrm)) => (v0::read(&root, &vrm, raw)?, "VRM"),
+        (None, None) => {
+            return Err(ImportError::new("extensions", "VRMC_vrm (VRM 1.0) or VRM (0.x)", "neither"));
+        }
+    };
+    let unsaid = format!("{name} is not represented");
+    raw.notes.retain(|note| !(note.place == "extensionsUsed" && note.text == unsaid));
+    for bone in REQUIRED_BONES.iter().filter(|bone| vrm.bone(bone).is_none()) {
+        note(raw, "humanoid", format!("lacks the bone {bone}"));
+    }
+    if vrm.version == Version::V0 {
+        turn(raw);
+    }
+    Ok(vrm)
+}
+
+fn note(raw: &mut RawScene, place: impl Into<String>, text: impl Into<String>) {
+    raw.notes.push(Note { place: place.into(), text: text.into() });
+}
+
+/// Turns everything by half a turn around the vertical. The new root comes last, so that no position changes.
+fn turn(raw: &mut RawScene) {
+    let root = raw.nodes.len();
+    raw.nodes.iter_mut().filter(|node| node.parent.is_none()).for_each(|node| node.parent = Some(root));
+    // Half a turn exactly, which the sine of a rounded π is not.
+    let local = Transform::Trs(Trs { rotation: Quat::from_xyzw(0.0, 1.0, 0.0, 0.0), ..Trs::default() });
+    raw.nodes.push(Node { name: "VRM 0.x".to_owned(), parent: None, local, weights: Vec::new() });
+    note(raw, "VRM", "looks along -Z: it is turned around by a root node");
+}
+
+fn vec3(values: [f32; 3]) -> Vec3 {
+    Vec3::from_array(values)
+}
