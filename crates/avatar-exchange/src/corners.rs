@@ -6,8 +6,8 @@ use glam::{DVec3, Vec2, Vec3, Vec4};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// How much all instances in a file may come to, counted in vertices and in moved vertices of shapes. A small file
-/// can ask for the same mesh at thousands of nodes; this is some 2 GiB.
-const MAX_VERTICES: usize = 1 << 25;
+/// can ask for the same mesh at thousands of nodes; this is some 1 GiB.
+const MAX_VERTICES: usize = 1 << 24;
 
 /// What is left of [`MAX_VERTICES`].
 #[derive(Debug)]
@@ -27,7 +27,9 @@ impl Budget {
                 self.0 = left;
                 Ok(())
             }
-            None => Err((format!("at most {MAX_VERTICES} vertices in all parts and shapes"), "more".to_owned())),
+            None => {
+                Err((format!("at most {MAX_VERTICES} vertices in all parts and shapes"), "more".to_owned()))
+            }
         }
     }
 }
@@ -66,7 +68,15 @@ impl Corners {
         let uv = corner.uv.to_array().map(f32::to_bits);
         let tangent = corner.tangent.to_array().map(f32::to_bits);
         let key = [
-            corner.point, uv[0], uv[1], normal[0], normal[1], normal[2], tangent[0], tangent[1], tangent[2],
+            corner.point,
+            uv[0],
+            uv[1],
+            normal[0],
+            normal[1],
+            normal[2],
+            tangent[0],
+            tangent[1],
+            tangent[2],
             tangent[3],
         ];
         let vertices = &mut self.vertices;
@@ -114,7 +124,8 @@ impl Corners {
         }
         let mut sums: HashMap<u32, DVec3> = HashMap::new();
         for triangle in &self.triangles {
-            let at = triangle.map(|vertex| self.vertices.get(vertex as usize).map_or(0, |corner| corner.point));
+            let at =
+                triangle.map(|vertex| self.vertices.get(vertex as usize).map_or(0, |corner| corner.point));
             let [a, b, c] = at.map(|at| points.get(at as usize).copied().unwrap_or_default().as_dvec3());
             let twice_area = (b - a).cross(c - a);
             at.iter().for_each(|at| *sums.entry(*at).or_default() += twice_area);

@@ -28,6 +28,9 @@
 //! # Ok::<(), avatar_exchange::ImportError>(())
 //! ```
 //!
+//! Each reader is behind a feature of its name. `fbx` compiles a C library, which does not build for
+//! `wasm32-unknown-unknown`.
+//!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
 #[cfg(feature = "collada")]
@@ -52,5 +55,6 @@ pub use material::{AlphaMode, Material, SceneImage};
 #[cfg(any(feature = "collada", feature = "fbx"))]
 pub use resolve::Resolve;
 pub use scene::{
-    Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, Note, RawScene, ScenePart, Skin, Transform, Trs,
+    Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, Note, RawScene, ScenePart, Skin,
+    Transform, Trs,
 };

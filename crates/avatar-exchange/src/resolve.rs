@@ -11,7 +11,9 @@ pub(crate) fn image(address: &str, resolve: &mut Resolve<'_>) -> (SceneImage, Op
     let mime = mime_of(&path).to_owned();
     let (bytes, problem) = match resolve(&path) {
         Ok(bytes) => (bytes, None),
-        Err(why) => (Vec::new(), Some(format!("'{path}' was not found, it is left without a picture: {why}"))),
+        Err(why) => {
+            (Vec::new(), Some(format!("'{path}' was not found, it is left without a picture: {why}")))
+        }
     };
     (SceneImage { name: path, mime, bytes }, problem)
 }

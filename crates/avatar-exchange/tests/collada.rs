@@ -23,7 +23,9 @@ fn load(text: &str) -> Scene {
 }
 
 fn nodes(nodes: &str) -> String {
-    format!("<COLLADA version='1.4.1'><library_visual_scenes><visual_scene id='s'>{nodes}</visual_scene></library_visual_scenes></COLLADA>")
+    format!(
+        "<COLLADA version='1.4.1'><library_visual_scenes><visual_scene id='s'>{nodes}</visual_scene></library_visual_scenes></COLLADA>"
+    )
 }
 
 fn close(a: &[f32], b: &[f32]) {
@@ -40,14 +42,22 @@ fn moved(scene: &Scene, pose: &ScenePose, part: usize) -> Vec<Vec3> {
 }
 
 fn note(scene: &Scene, text: &str) {
-    assert!(scene.notes.iter().any(|note| note.text.contains(text)), "{text:?} is not among {:?}", scene.notes);
+    assert!(
+        scene.notes.iter().any(|note| note.text.contains(text)),
+        "{text:?} is not among {:?}",
+        scene.notes
+    );
 }
 
 #[test]
 fn all_steps_of_transforms() {
     for (steps, from, to) in [
         ("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>", [1.0, 0.0, 0.0], [6.0, 6.0, 7.0]),
-        ("<translate>1 2 3</translate><rotate>0 0 1 90</rotate><scale>2 1 1</scale>", [1.0, 0.0, 0.0], [1.0, 4.0, 3.0]),
+        (
+            "<translate>1 2 3</translate><rotate>0 0 1 90</rotate><scale>2 1 1</scale>",
+            [1.0, 0.0, 0.0],
+            [1.0, 4.0, 3.0],
+        ),
         // From (0,0,5) to the origin: −z is already there.
         ("<lookat>0 0 5 0 0 0 0 1 0</lookat>", [0.0, 0.0, -5.0], [0.0, 0.0, 0.0]),
         // From (5,0,0) to the origin: −z is −x, and x is −z.
@@ -71,7 +81,9 @@ fn units_and_axes_are_converted_by_a_root() {
         ("Y_UP", [0.0, 100.0, 0.0], [0.0, 1.0, 0.0]),
     ] {
         for meter in ["0.01", "0,01"] {
-            let asset = format!("<asset><unit meter='{meter}'/><up_axis>{axis}</up_axis></asset><library_visual_scenes>");
+            let asset = format!(
+                "<asset><unit meter='{meter}'/><up_axis>{axis}</up_axis></asset><library_visual_scenes>"
+            );
             let scene = load(&nodes("<node name='hip'/>").replace("<library_visual_scenes>", &asset));
             assert_eq!((scene.nodes.len(), scene.nodes[1].parent), (2, Some(0)));
             let point = scene.worlds(&scene.rest())[1].transform_point3(DVec3::from_array(from));
@@ -87,8 +99,20 @@ fn nodes_are_instantiated_and_not_endlessly() {
     let scene = load(&nodes(inner));
     let at: Vec<DVec3> = scene.worlds(&scene.rest()).iter().map(|world| world.translation).collect();
     assert_eq!(at, [DVec3::X, DVec3::X + DVec3::Y, DVec3::Y]);
-    let error = read("loop.dae", nodes("<node id='a'><instance_node url='#a'/></node>").as_bytes()).unwrap_err();
+    let error =
+        read("loop.dae", nodes("<node id='a'><instance_node url='#a'/></node>").as_bytes()).unwrap_err();
     assert!(error.expected.contains("at most 65536 nodes"), "{error}");
+    // Each of 40 nodes twice the one before.
+    let doubled: String = (0..40)
+        .map(|k| {
+            format!("<node id='n{k}'><instance_node url='#n{0}'/><instance_node url='#n{0}'/></node>", k + 1)
+        })
+        .collect();
+    let error = read_any(read, "double.dae", nodes(&(doubled + "<node id='n40'/>")).as_bytes()).unwrap_err();
+    assert!(error.expected.contains("at most 65536 nodes"), "{error}");
+    let deep = "<node>".repeat(2000) + &"</node>".repeat(2000);
+    let error = read_any(read, "deep.dae", nodes(&deep).as_bytes()).unwrap_err();
+    assert!(error.found.contains("nested more than 1024 deep"), "{error}");
 }
 
 /// A geometry of the five points (0,0) (2,0) (2,2) (1,0.5) (0,2), of which the fourth dents the outline.
@@ -223,7 +247,10 @@ fn skins_bind_shapes_and_joints() {
     let scene = load(&puppet("NORMALIZED", WEIGHTS));
     let mut pose = scene.rest();
     // The bind shape moves all by 1.
-    close(&moved(&scene, &pose, 0).iter().flat_map(|p| p.to_array()).collect::<Vec<_>>(), &[1.0, 0.0, 0.0, 2.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
+    close(
+        &moved(&scene, &pose, 0).iter().flat_map(|p| p.to_array()).collect::<Vec<_>>(),
+        &[1.0, 0.0, 0.0, 2.0, 1.0, 0.0, 1.0, 1.0, 0.0],
+    );
     let knee = scene.nodes.iter().position(|node| node.name == "knee").unwrap();
     let Transform::Trs(trs) = &mut pose.locals[knee] else { panic!("a matrix") };
     trs.rotation = Quat::from_rotation_z(FRAC_PI_2);
@@ -308,7 +335,10 @@ fn materials_have_colours_and_textures() {
     });
     let scene = scene.unwrap();
     assert_eq!(asked, ["skin.PNG"]);
-    assert_eq!((scene.images[0].bytes.as_slice(), scene.images[0].mime.as_str()), (&[1, 2, 3][..], "image/png"));
+    assert_eq!(
+        (scene.images[0].bytes.as_slice(), scene.images[0].mime.as_str()),
+        (&[1, 2, 3][..], "image/png")
+    );
     assert_eq!(scene.materials[0].base_color_texture, Some(0));
     assert_eq!(scene.parts[0].material, Some(1));
     close(&scene.materials[1].base_color, &[0.5, 0.25, 0.125, 0.75]);
@@ -327,9 +357,21 @@ fn errors_have_places() {
         ("<svg/>", "line 1, <svg>", "<COLLADA>"),
         (&nodes("<node>\n<translate>1 2</translate></node>"), "line 2, <translate>", "3 numbers"),
         (&nodes("<node>\n\n<rotate>1 2 x 4</rotate></node>"), "line 3, <rotate>", "numbers"),
-        (&nodes("<node><instance_geometry url='#none'/></node>"), "line 1, <instance_geometry>", "the '#id' of an element in 'url'"),
-        (&dented("<triangles><input semantic='VERTEX' source='#v' offset='0'/>\n<p>0 1 5</p></triangles>"), "line 9, <p>", "an index below 5"),
-        (&puppet("NORMALIZED", "<vcount>1 1</vcount><v>0 0 1 1</v>"), "line 15, <vertex_weights>", "weights of 3 points"),
+        (
+            &nodes("<node><instance_geometry url='#none'/></node>"),
+            "line 1, <instance_geometry>",
+            "the '#id' of an element in 'url'",
+        ),
+        (
+            &dented("<triangles><input semantic='VERTEX' source='#v' offset='0'/>\n<p>0 1 5</p></triangles>"),
+            "line 9, <p>",
+            "an index below 5",
+        ),
+        (
+            &puppet("NORMALIZED", "<vcount>1 1</vcount><v>0 0 1 1</v>"),
+            "line 15, <vertex_weights>",
+            "weights of 3 points",
+        ),
     ] {
         let error = read_any(read, "bad.dae", text.as_bytes()).unwrap_err();
         assert_eq!((error.place.as_str(), error.expected.as_str()), (place, expected), "{error}");
@@ -348,7 +390,13 @@ fn other_peoples_files_have_the_sizes_that_another_reader_finds() {
         ("ConcavePolygon.dae", 64, 1, [-1.146, 1.6575, 1.6055], [-1.146, 3.1425, 3.0905]),
         ("cube_UTF16LE.dae", 12, 1, [-0.5; 3], [0.5; 3]),
         ("cube_tristrips.dae", 12, 1, [-50.0; 3], [50.0; 3]),
-        ("anims_with_full_rotations_between_keys.DAE", 768, 64, [-0.31561, 0.0, -119.68456], [0.68595, 1.0, 0.5]),
+        (
+            "anims_with_full_rotations_between_keys.DAE",
+            768,
+            64,
+            [-0.31561, 0.0, -119.68456],
+            [0.68595, 1.0, 0.5],
+        ),
         ("regr01.dae", 172, 6, [-0.0051, 0.0, 0.0], [0.0078, 0.0162002, 0.0041998]),
         ("teapot_instancenodes.DAE", 2048, 2, [-4.823608, 0.0, -1.236898], [1.798858, 1.741637, 1.040253]),
     ] {
@@ -356,7 +404,10 @@ fn other_peoples_files_have_the_sizes_that_another_reader_finds() {
         assert_eq!((triangles(&scene), scene.parts.len()), (count, parts), "{name}");
         let found = bounds(&scene);
         for (found, expected) in found.into_iter().flatten().zip([low, high].into_iter().flatten()) {
-            assert!((found - expected).abs() < 6e-6 * (1.0 + expected.abs()), "{name}: {found} is not {expected}");
+            assert!(
+                (found - expected).abs() < 6e-6 * (1.0 + expected.abs()),
+                "{name}: {found} is not {expected}"
+            );
         }
     }
 }

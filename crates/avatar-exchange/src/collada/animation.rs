@@ -1,12 +1,12 @@
 //! Animations move numbers in the steps of a node's transform; clips move nodes. So transforms are computed wherever
 //! something has a key, and 30 times a second where straight lines between these would not do.
 
+use super::Reader;
 use super::node::Nodes;
 use super::part::WeightNodes;
 use super::sampler::Sampler;
 use super::transform::{Kind, Step, product};
 use super::xml::At;
-use super::Reader;
 use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Transform, Trs};
 use glam::{DAffine3, DMat4, DQuat};
 use std::collections::{BTreeMap, HashSet};
@@ -37,8 +37,11 @@ impl<'a> Reader<'a> {
     pub(super) fn read_clips(&mut self, nodes: &Nodes<'a>, weights: &WeightNodes) -> Result<(), ImportError> {
         let root = self.tree.root();
         let mut tracks = Vec::new();
-        let mut stack: Vec<(At<'a>, Vec<usize>)> =
-            root.all("library_animations").flat_map(|library| library.all("animation")).map(|at| (at, vec![at.number])).collect();
+        let mut stack: Vec<(At<'a>, Vec<usize>)> = root
+            .all("library_animations")
+            .flat_map(|library| library.all("animation"))
+            .map(|at| (at, vec![at.number]))
+            .collect();
         stack.reverse();
         while let Some((at, of)) = stack.pop() {
             for channel in at.all("channel") {
@@ -51,7 +54,9 @@ impl<'a> Reader<'a> {
         let told: Vec<At<'a>> =
             root.all("library_animation_clips").flat_map(|library| library.all("animation_clip")).collect();
         for clip in &told {
-            let number = |key| clip.attribute(key).and_then(|text| text.trim().parse::<f64>().ok()).filter(|x| x.is_finite());
+            let number = |key| {
+                clip.attribute(key).and_then(|text| text.trim().parse::<f64>().ok()).filter(|x| x.is_finite())
+            };
             let window = (number("start").unwrap_or(0.0), number("end").unwrap_or(f64::MAX));
             let parts: HashSet<usize> =
                 clip.all("instance_animation").filter_map(|at| Some(at.target("url").ok()?.number)).collect();
@@ -81,7 +86,8 @@ impl<'a> Reader<'a> {
             goals.extend(source.map(|nodes| Goal::Weights { nodes: nodes.clone() }));
         } else if let Some(element) = self.tree.by_id(id) {
             for &node in nodes.of_element.get(&element.number).into_iter().flatten() {
-                let step = nodes.steps.get(&node).and_then(|steps| steps.iter().position(|step| step.sid == path));
+                let step =
+                    nodes.steps.get(&node).and_then(|steps| steps.iter().position(|step| step.sid == path));
                 goals.extend(step.map(|step| Goal::Step { node, step }));
             }
         }
@@ -96,13 +102,21 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn clip(&mut self, name: &str, tracks: Vec<&Track>, window: Window, nodes: &Nodes<'a>) -> Result<(), ImportError> {
+    fn clip(
+        &mut self,
+        name: &str,
+        tracks: Vec<&Track>,
+        window: Window,
+        nodes: &Nodes<'a>,
+    ) -> Result<(), ImportError> {
         let mut of_node: BTreeMap<usize, Vec<(&Track, usize)>> = BTreeMap::new();
         let mut of_weights: BTreeMap<usize, Vec<&Track>> = BTreeMap::new();
         for track in tracks {
             match &track.goal {
                 Goal::Step { node, step } => of_node.entry(*node).or_default().push((track, *step)),
-                Goal::Weights { nodes } => nodes.iter().for_each(|node| of_weights.entry(*node).or_default().push(track)),
+                Goal::Weights { nodes } => {
+                    nodes.iter().for_each(|node| of_weights.entry(*node).or_default().push(track))
+                }
             }
         }
         let mut clip = Clip { name: name.to_owned(), channels: Vec::new() };
@@ -111,7 +125,8 @@ impl<'a> Reader<'a> {
             self.move_node(node, steps, &tracks, window, &mut clip)?;
         }
         for (node, tracks) in of_weights {
-            let rest: Vec<f64> = self.scene.nodes[node].weights.iter().map(|weight| f64::from(*weight)).collect();
+            let rest: Vec<f64> =
+                self.scene.nodes[node].weights.iter().map(|weight| f64::from(*weight)).collect();
             let curved = tracks.iter().any(|track| track.sampler.is_curved());
             let value = |time, after| {
                 let mut weights = rest.clone();
@@ -137,7 +152,9 @@ impl<'a> Reader<'a> {
     ) -> Result<(), ImportError> {
         // Straight lines of angles are none of rotations, and those of one factor among several none of their product.
         let turns = |(_, step): &(&Track, usize)| {
-            steps.get(*step).is_some_and(|step| ![Kind::Matrix, Kind::Translate, Kind::Scale].contains(&step.kind))
+            steps
+                .get(*step)
+                .is_some_and(|step| ![Kind::Matrix, Kind::Translate, Kind::Scale].contains(&step.kind))
         };
         let curved = tracks.iter().any(|track| turns(track) || track.0.sampler.is_curved());
         let cost = tracks.len() + 2 * steps.len();
@@ -147,7 +164,11 @@ impl<'a> Reader<'a> {
                 track.write(time, after, &mut values[*step]);
             }
             let trs = parts(product(steps.iter().zip(values.iter().map(Vec::as_slice))));
-            let [t, r, s] = [trs.translation.extend(0.0).to_array(), trs.rotation.to_array(), trs.scale.extend(0.0).to_array()];
+            let [t, r, s] = [
+                trs.translation.extend(0.0).to_array(),
+                trs.rotation.to_array(),
+                trs.scale.extend(0.0).to_array(),
+            ];
             [t, r, s].concat()
         };
         let samplers: Vec<&Track> = tracks.iter().map(|(track, _)| *track).collect();
@@ -160,7 +181,9 @@ impl<'a> Reader<'a> {
             let text = format!("node {node} '{name}' is moved, so the shear in its transform is left out");
             self.note(self.tree.root(), text);
         }
-        let pick = |range: std::ops::Range<usize>| values.iter().flat_map(|value| &value[range.clone()]).copied().collect();
+        let pick = |range: std::ops::Range<usize>| {
+            values.iter().flat_map(|value| &value[range.clone()]).copied().collect()
+        };
         push(clip, node, ChannelTarget::Translation, &times, pick(0..3));
         push(clip, node, ChannelTarget::Rotation, &times, pick(4..8));
         push(clip, node, ChannelTarget::Scale, &times, pick(8..11));
@@ -242,7 +265,8 @@ fn split_component(path: &str) -> (&str, Option<usize>) {
         return if component.is_some() { (sid, component) } else { (path, None) };
     }
     let Some((sid, rest)) = path.split_once('(') else { return (path, None) };
-    let numbers: Vec<usize> = rest.trim_end_matches(')').split(")(").filter_map(|text| text.parse().ok()).collect();
+    let numbers: Vec<usize> =
+        rest.trim_end_matches(')').split(")(").filter_map(|text| text.parse().ok()).collect();
     match numbers[..] {
         [one] => (sid, Some(one)),
         // Matrices are stored by rows.

@@ -68,7 +68,8 @@ impl<'a> Reader<'a> {
         let Some(joints) = at.child("joints") else { return Err(at.error("<joints>", "none")) };
         let (names, inverse) = (self.source_of(joints, "JOINT")?, self.source_of(joints, "INV_BIND_MATRIX")?);
         let Some(names) = names else { return Err(joints.error("an input JOINT", "none")) };
-        let mut skin = Skin { name: at.parent().map_or("", |parent| parent.label()).to_owned(), ..Skin::default() };
+        let mut skin =
+            Skin { name: at.parent().map_or("", |parent| parent.label()).to_owned(), ..Skin::default() };
         for (number, name) in names.names.iter().enumerate() {
             let Some(joint) = nodes.joint(name, skeletons, &self.scene.nodes, self.tree) else {
                 return Err(joints.error("joints that are nodes", format!("'{name}'")));
@@ -88,10 +89,16 @@ impl<'a> Reader<'a> {
         if influences.unweighted > 0 {
             skin.joints.push(node);
             skin.inverse_binds.push(crate::scene::narrow(DAffine3::from_mat4(bind)));
-            self.note(at, format!("{} points without weights follow the mesh's own node", influences.unweighted));
+            self.note(
+                at,
+                format!("{} points without weights follow the mesh's own node", influences.unweighted),
+            );
         }
         if influences.reduced > 0 {
-            self.note(at, format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced));
+            self.note(
+                at,
+                format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced),
+            );
         }
         self.scene.skins.push(skin);
         Ok((self.scene.skins.len() - 1, influences))
@@ -106,7 +113,8 @@ impl<'a> Reader<'a> {
             return Err(list.error("inputs JOINT and WEIGHT", "others"));
         };
         let weights = self.source(weight.source)?;
-        let counts: Vec<usize> = list.child("vcount").map(|counts| counts.numbers()).transpose()?.unwrap_or_default();
+        let counts: Vec<usize> =
+            list.child("vcount").map(|counts| counts.numbers()).transpose()?.unwrap_or_default();
         let indices: Vec<i64> = list.child("v").map(|list| list.numbers()).transpose()?.unwrap_or_default();
         if counts.len() != points {
             return Err(list.error(format!("weights of {points} points"), counts.len().to_string()));

@@ -1,9 +1,9 @@
 //! Meshes: primitives with several indices for each corner.
 
+use super::Reader;
 use super::polygon::triangulate;
 use super::source::{Input, Source, inputs};
 use super::xml::At;
-use super::Reader;
 use crate::ImportError;
 use crate::corners::{Corner, Corners};
 use glam::{Vec2, Vec3};
@@ -75,7 +75,8 @@ impl<'a> Reader<'a> {
 
     fn layout(&mut self, at: At<'a>, vertices: At<'a>) -> Result<Option<Layout>, ImportError> {
         let own = inputs(at)?;
-        let Some(vertex) = own.iter().find(|input| input.semantic == "VERTEX").map(|input| input.offset) else {
+        let Some(vertex) = own.iter().find(|input| input.semantic == "VERTEX").map(|input| input.offset)
+        else {
             return Ok(None);
         };
         let stride = own.iter().map(|input| input.offset + 1).max().unwrap_or(1);
@@ -88,7 +89,9 @@ impl<'a> Reader<'a> {
             self.note(at, format!("{} further sets of texture coordinates are left out", uvs.len() - 1));
         }
         let uv = uvs.first().map(|input| (input.offset, input.source));
-        let of = |semantic| all.iter().find(|input| input.semantic == semantic).map(|input| (input.offset, input.source));
+        let of = |semantic| {
+            all.iter().find(|input| input.semantic == semantic).map(|input| (input.offset, input.source))
+        };
         let mut open = |found: Option<(usize, At<'a>)>| {
             found.map(|(offset, source)| Ok((offset, self.source(source)?))).transpose()
         };
@@ -126,11 +129,14 @@ impl<'a> Reader<'a> {
                 })?,
                 "polygons" => polygon(&read, points, &mut add)?,
                 _ => {
-                    let counts: Vec<usize> = at.child("vcount").map(|counts| counts.numbers()).transpose()?.unwrap_or_default();
+                    let counts: Vec<usize> =
+                        at.child("vcount").map(|counts| counts.numbers()).transpose()?.unwrap_or_default();
                     let mut rest = &read[..];
                     for count in counts {
                         let Some((these, others)) = rest.split_at_checked(count) else {
-                            return Err(at.error(format!("{count} corners of a polygon"), rest.len().to_string()));
+                            return Err(
+                                at.error(format!("{count} corners of a polygon"), rest.len().to_string())
+                            );
                         };
                         polygon(these, points, &mut add)?;
                         rest = others;
@@ -165,7 +171,8 @@ impl Layout {
             Ok::<_, ImportError>((index, vec3(Some(item))))
         };
         let corner = |indices: &[usize]| {
-            let mut corner = Corner { point: item(&self.points, indices, self.point)?.0 as u32, ..Corner::default() };
+            let mut corner =
+                Corner { point: item(&self.points, indices, self.point)?.0 as u32, ..Corner::default() };
             if let Some((offset, source)) = &self.normal {
                 corner.normal = item(source, indices, *offset)?.1.try_normalize();
             }

@@ -35,8 +35,11 @@ impl<'a> Reader<'a> {
         };
         let models = ["phong", "lambert", "blinn", "constant"];
         let technique = profile.child("technique");
-        let model = technique.and_then(|technique| technique.children().find(|at| models.contains(&at.name())));
-        let Some(model) = model else { return self.note(profile, "a technique without phong, lambert, blinn or constant") };
+        let model =
+            technique.and_then(|technique| technique.children().find(|at| models.contains(&at.name())));
+        let Some(model) = model else {
+            return self.note(profile, "a technique without phong, lambert, blinn or constant");
+        };
         if let Some(emission) = model.child("emission").and_then(color) {
             material.emissive = [emission[0], emission[1], emission[2]];
         }
@@ -70,7 +73,8 @@ impl<'a> Reader<'a> {
         let sampler = parameter(name).and_then(|at| at.child("sampler2D"));
         let surface = sampler.and_then(|sampler| parameter(sampler.child("source")?.text()));
         let of_surface = surface.and_then(|at| at.path(&["surface", "init_from"])).map(|at| at.text());
-        let of_sampler = sampler.and_then(|at| at.child("instance_image")?.target("url").ok()?.attribute("id"));
+        let of_sampler =
+            sampler.and_then(|at| at.child("instance_image")?.target("url").ok()?.attribute("id"));
         let image = self.tree.by_id(of_surface.or(of_sampler).unwrap_or(name));
         let Some(image) = image.filter(|image| image.name() == "image") else {
             self.note(at, format!("the texture '{name}' leads to no image"));
@@ -79,7 +83,8 @@ impl<'a> Reader<'a> {
         if let Some(known) = images.get(&image.number) {
             return Some(*known);
         }
-        let address = image.path(&["init_from", "ref"]).or(image.child("init_from")).map_or("", |at| at.text());
+        let address =
+            image.path(&["init_from", "ref"]).or(image.child("init_from")).map_or("", |at| at.text());
         let (read, problem) = resolve::image(address, resolve);
         self.scene.images.push(read);
         if let Some(problem) = problem {
@@ -100,7 +105,8 @@ fn color(at: At<'_>) -> Option<[f32; 4]> {
 /// By `transparent` and `transparency`, COLLADA 1.4.1, chapter 7. A result of 0 is taken for 1: exporters that mixed up
 /// the two directions are common, invisible surfaces are not.
 fn opacity(model: At<'_>) -> f32 {
-    let transparency = model.path(&["transparency", "float"]).and_then(|at| at.text().parse().ok()).unwrap_or(1.0);
+    let transparency =
+        model.path(&["transparency", "float"]).and_then(|at| at.text().parse().ok()).unwrap_or(1.0);
     let transparent = model.child("transparent");
     let [r, g, b, a] = transparent.and_then(color).unwrap_or([0.0, 0.0, 0.0, 1.0]);
     let luminance = 0.212_671 * r + 0.715_16 * g + 0.072_169 * b;

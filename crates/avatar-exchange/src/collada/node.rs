@@ -46,11 +46,14 @@ impl<'a> Reader<'a> {
             self.scene.nodes.push(Node { name: "conversion".to_owned(), local, ..Node::default() });
             top = Some(0);
         }
-        let mut stack: Vec<(At<'a>, Option<usize>)> = children(shown)?.into_iter().map(|at| (at, top)).rev().collect();
+        let mut stack: Vec<(At<'a>, Option<usize>)> =
+            children(shown)?.into_iter().map(|at| (at, top)).rev().collect();
         while let Some((at, parent)) = stack.pop() {
             let number = self.scene.nodes.len();
             if number >= MAX_NODES {
-                return Err(at.error(format!("at most {MAX_NODES} nodes"), "more; do instances contain themselves?"));
+                return Err(
+                    at.error(format!("at most {MAX_NODES} nodes"), "more; do instances contain themselves?")
+                );
             }
             let steps: Vec<Step> =
                 at.children().map(Step::of).filter_map(Result::transpose).collect::<Result<_, _>>()?;
@@ -67,7 +70,9 @@ impl<'a> Reader<'a> {
         let Some(asset) = root.child("asset") else { return Ok(DMat4::IDENTITY) };
         let unit = asset.child("unit").and_then(|unit| Some((unit, unit.attribute("meter")?)));
         let meters = match unit {
-            Some((unit, text)) => text.trim().replace(',', ".").parse().map_err(|_| unit.error("a number as 'meter'", text))?,
+            Some((unit, text)) => {
+                text.trim().replace(',', ".").parse().map_err(|_| unit.error("a number as 'meter'", text))?
+            }
             None => 1.0,
         };
         if !(meters > 0.0 && f64::is_finite(meters)) {

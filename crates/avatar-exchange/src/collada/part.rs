@@ -32,7 +32,12 @@ impl<'a> Reader<'a> {
     }
 
     /// The node itself, or one more below it: weights belong to nodes, and what else hangs there has other shapes.
-    fn node_for(&mut self, node: usize, at: At<'a>, taken: &mut HashSet<usize>) -> Result<usize, ImportError> {
+    fn node_for(
+        &mut self,
+        node: usize,
+        at: At<'a>,
+        taken: &mut HashSet<usize>,
+    ) -> Result<usize, ImportError> {
         if at.name() == "instance_geometry" && self.scene.nodes[node].weights.is_empty() {
             taken.insert(node);
             return Ok(node);

@@ -48,21 +48,23 @@ impl<'a> Reader<'a> {
         }
         let names = self.source_of(at, "INTERPOLATION")?;
         let mut unknown = None;
-        let mut way = |key: usize| match names.as_ref().and_then(|names| names.names.get(key)).map(String::as_str) {
-            Some("STEP") => Way::Step,
-            Some("BEZIER") => Way::Bezier,
-            Some("HERMITE") => Way::Hermite,
-            Some("LINEAR") | None => Way::Linear,
-            Some(other) => {
-                unknown = Some(other.to_owned());
-                Way::Linear
-            }
-        };
+        let mut way =
+            |key: usize| match names.as_ref().and_then(|names| names.names.get(key)).map(String::as_str) {
+                Some("STEP") => Way::Step,
+                Some("BEZIER") => Way::Bezier,
+                Some("HERMITE") => Way::Hermite,
+                Some("LINEAR") | None => Way::Linear,
+                Some(other) => {
+                    unknown = Some(other.to_owned());
+                    Way::Linear
+                }
+            };
         let mut ways: Vec<Way> = (0..times.len()).map(&mut way).collect();
         if let Some(unknown) = unknown {
             self.note(at, format!("{unknown} became LINEAR"));
         }
-        let mut tangents = |semantic| Ok(self.source_of(at, semantic)?.map_or(Vec::new(), |source| source.flat().0));
+        let mut tangents =
+            |semantic| Ok(self.source_of(at, semantic)?.map_or(Vec::new(), |source| source.flat().0));
         let (in_tangents, out_tangents) = (tangents("IN_TANGENT")?, tangents("OUT_TANGENT")?);
         // One number, or time and number, for each number of each key.
         let fit = |found: &Vec<f64>| found.len() == values.len() || found.len() == 2 * values.len();

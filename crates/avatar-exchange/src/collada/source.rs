@@ -65,7 +65,11 @@ impl<'a> Reader<'a> {
     }
 
     /// The source of the first input with a meaning.
-    pub(super) fn source_of(&mut self, at: At<'a>, semantic: &str) -> Result<Option<Rc<Source>>, ImportError> {
+    pub(super) fn source_of(
+        &mut self,
+        at: At<'a>,
+        semantic: &str,
+    ) -> Result<Option<Rc<Source>>, ImportError> {
         let found = inputs(at)?.into_iter().find(|input| input.semantic == semantic);
         found.map(|input| self.source(input.source)).transpose()
     }

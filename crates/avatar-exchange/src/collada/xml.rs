@@ -47,7 +47,8 @@ impl Tree {
         let (mut counted, mut line) = (0, 1);
         loop {
             let at = usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX).min(text.len());
-            line += text.as_bytes().get(counted..at).unwrap_or(&[]).iter().filter(|byte| **byte == b'\n').count();
+            line +=
+                text.as_bytes().get(counted..at).unwrap_or(&[]).iter().filter(|byte| **byte == b'\n').count();
             counted = counted.max(at);
             let wrong = |found: String| ImportError::new(format!("line {line}"), "well-formed XML", found);
             let event = reader.read_event().map_err(|error| wrong(error.to_string()))?;
@@ -74,7 +75,10 @@ impl Tree {
                 Event::CData(piece) => piece.to_string().into(),
                 Event::GeneralRef(name) => {
                     let reference = format!("&{};", &*name);
-                    escape::unescape(&reference).map_err(|error| wrong(error.to_string()))?.into_owned().into()
+                    escape::unescape(&reference)
+                        .map_err(|error| wrong(error.to_string()))?
+                        .into_owned()
+                        .into()
                 }
                 _ => continue,
             };
@@ -99,7 +103,8 @@ impl Tree {
         let mut element = Element { name: local(name).to_owned(), parent, line, ..Element::default() };
         for attribute in start.attributes() {
             let attribute = attribute.map_err(|error| error.to_string())?;
-            let value = attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| error.to_string())?;
+            let value =
+                attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| error.to_string())?;
             let key: &str = attribute.key.as_ref();
             if key == "id" {
                 // Of two elements with one id, which is an error that exporters make, the first counts.
@@ -184,7 +189,8 @@ impl<'a> At<'a> {
 
     /// For messages.
     pub(super) fn place(self) -> String {
-        let label: String = self.attribute("id").or(self.attribute("name")).unwrap_or("").chars().take(60).collect();
+        let label: String =
+            self.attribute("id").or(self.attribute("name")).unwrap_or("").chars().take(60).collect();
         match label.is_empty() {
             true => format!("line {}, <{}>", self.element().line, self.name()),
             false => format!("line {}, <{}> '{label}'", self.element().line, self.name()),
@@ -207,7 +213,9 @@ impl<'a> At<'a> {
     /// Numbers between blanks, with a point or, as exporters on systems with decimal commas write them, a comma.
     pub(super) fn numbers<T: std::str::FromStr>(self) -> Result<Vec<T>, ImportError> {
         let parse = |word: &str| {
-            word.parse().or_else(|_| word.replacen(',', ".", 1).parse()).map_err(|_| self.error("numbers", format!("'{}'", word.chars().take(30).collect::<String>())))
+            word.parse().or_else(|_| word.replacen(',', ".", 1).parse()).map_err(|_| {
+                self.error("numbers", format!("'{}'", word.chars().take(30).collect::<String>()))
+            })
         };
         self.text().split_ascii_whitespace().map(parse).collect()
     }

@@ -61,7 +61,8 @@ fn node_channels(node: &ufbx::BakedNode, channels: &mut Vec<Channel>) {
         keys.iter().map(|key| (key.time, vec3(key.value).to_array().to_vec())).collect()
     };
     push(ChannelTarget::Translation, of(&node.translation_keys), node.constant_translation);
-    let turns = node.rotation_keys.iter().map(|key| (key.time, quat(key.value).to_array().to_vec())).collect();
+    let turns =
+        node.rotation_keys.iter().map(|key| (key.time, quat(key.value).to_array().to_vec())).collect();
     push(ChannelTarget::Rotation, turns, node.constant_rotation);
     push(ChannelTarget::Scale, of(&node.scale_keys), node.constant_scale);
 }

@@ -13,7 +13,8 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
             false => default,
         };
         let color = |color: &ufbx::MaterialMap, factor: f32, default: f32| match color.has_value {
-            true => [color.value_vec4.x, color.value_vec4.y, color.value_vec4.z].map(|x| finite(x as f32) * factor),
+            true => [color.value_vec4.x, color.value_vec4.y, color.value_vec4.z]
+                .map(|x| finite(x as f32) * factor),
             false => [default; 3],
         };
         let base_color_texture = images.of(&pbr.base_color, scene);

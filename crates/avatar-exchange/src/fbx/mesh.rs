@@ -86,7 +86,10 @@ fn corners(
         };
         // The library's function stops the program where this room is too small.
         if (face.num_indices as usize - 2).saturating_mul(3) > triangles.len() {
-            return Err((format!("at most {} corners in a face", triangles.len() / 3 + 2), face.num_indices.to_string()));
+            return Err((
+                format!("at most {} corners in a face", triangles.len() / 3 + 2),
+                face.num_indices.to_string(),
+            ));
         }
         let count = mesh.triangulate_face(&mut triangles, face) as usize;
         budget.take(count)?;

@@ -47,7 +47,8 @@ impl<'a> Blend<'a> {
             for key in &channel.keyframes {
                 let full_weight = key.target_weight as f32;
                 if !usable(full_weight) || !seen.insert(full_weight.to_bits()) {
-                    let text = format!("a shape of channel '{}' at {} is left out", drivers[number], full_weight);
+                    let text =
+                        format!("a shape of channel '{}' at {} is left out", drivers[number], full_weight);
                     note(notes, place_of(node), text);
                     continue;
                 }
@@ -66,7 +67,10 @@ impl<'a> Blend<'a> {
         let names = unique_names(names.into_iter());
         let follows = |(shape, (channel, full_weight)): (&String, &(usize, f32))| ShapeRule {
             shape: shape.clone(),
-            rule: Rule::Follows { input: Input::Driver(drivers[*channel].clone()), full_weight: *full_weight },
+            rule: Rule::Follows {
+                input: Input::Driver(drivers[*channel].clone()),
+                full_weight: *full_weight,
+            },
         };
         let rules: Vec<ShapeRule> = names.iter().zip(&full_weights).map(follows).collect();
         let program = match ShapeDrivers::new(&drivers, &names, &rules) {
@@ -76,11 +80,15 @@ impl<'a> Blend<'a> {
                 return None;
             }
         };
-        let in_betweens = names.len() != drivers.len() || full_weights.iter().any(|(_, weight)| *weight != 1.0);
+        let in_betweens =
+            names.len() != drivers.len() || full_weights.iter().any(|(_, weight)| *weight != 1.0);
         let node = node.element.typed_id as usize;
         Some(Self {
             node,
-            channels: channels.iter().map(|channel| (channel.element.element_id, channel.weight as f32)).collect(),
+            channels: channels
+                .iter()
+                .map(|channel| (channel.element.element_id, channel.weight as f32))
+                .collect(),
             kinks,
             program,
             drivers: NodeDrivers { node, drivers, shapes: names, rules },
@@ -100,7 +108,11 @@ impl<'a> Blend<'a> {
     }
 
     /// The shapes for a part's vertices.
-    pub(super) fn shapes(&self, corners: &Corners, budget: &mut Budget) -> Result<Vec<Shape>, (String, String)> {
+    pub(super) fn shapes(
+        &self,
+        corners: &Corners,
+        budget: &mut Budget,
+    ) -> Result<Vec<Shape>, (String, String)> {
         let mut shapes = Vec::with_capacity(self.targets.len());
         for (Target(target), name) in self.targets.iter().zip(&self.drivers.shapes) {
             let offsets = offsets(target, &target.position_offsets);
@@ -136,6 +148,7 @@ fn offsets_of_normals(target: &ufbx::BlendShape, corners: &Corners) -> Option<Ve
     if offsets.values().all(|offset| *offset == Vec3::ZERO) {
         return None;
     }
-    let of = |point: &u32| offsets.get(point).copied().filter(|offset| offset.is_finite()).unwrap_or_default();
+    let of =
+        |point: &u32| offsets.get(point).copied().filter(|offset| offset.is_finite()).unwrap_or_default();
     Some(corners.vertices.iter().map(|corner| of(&corner.point)).collect())
 }

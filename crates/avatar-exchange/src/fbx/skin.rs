@@ -49,7 +49,8 @@ impl BoundSkin {
             note(&mut scene.notes, place.as_str(), text);
         }
         if influences.reduced > 0 {
-            let text = format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced);
+            let text =
+                format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced);
             note(&mut scene.notes, place, text);
         }
         scene.skins.push(skin);
@@ -65,7 +66,8 @@ fn influences(mesh: &ufbx::Mesh, deformer: &ufbx::SkinDeformer, own: u16) -> Inf
         if let Some(at) = deformer.vertices.get(point) {
             let begin = at.weight_begin as usize;
             let weights = deformer.weights.get(begin..begin.saturating_add(at.num_weights as usize));
-            let weights = weights.unwrap_or(&[]).iter().filter(|weight| weight.cluster_index < u32::from(own));
+            let weights =
+                weights.unwrap_or(&[]).iter().filter(|weight| weight.cluster_index < u32::from(own));
             bones.extend(weights.map(|weight| (weight.cluster_index as u16, weight.weight)));
         }
         influences.push(&mut bones, own);

@@ -30,7 +30,10 @@ pub(crate) fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
         let path = entry.unwrap().path();
         if path.is_dir() {
             found.extend(files(&path, endings));
-        } else if path.extension().is_some_and(|e| endings.contains(&e.to_string_lossy().to_lowercase().as_str())) {
+        } else if path
+            .extension()
+            .is_some_and(|e| endings.contains(&e.to_string_lossy().to_lowercase().as_str()))
+        {
             found.push(path);
         }
     }
@@ -61,7 +64,10 @@ pub(crate) fn read_any(read: Read, name: &str, bytes: &[u8]) -> Result<Scene, Im
     assert!(took < MAX_TIME, "{name} took {took:?}");
     let result = result.unwrap_or_else(|_| panic!("{name} panicked"));
     if let Err(error) = &result {
-        assert!(!error.place.is_empty() && !error.expected.is_empty() && !error.found.is_empty(), "{error:?}");
+        assert!(
+            !error.place.is_empty() && !error.expected.is_empty() && !error.found.is_empty(),
+            "{error:?}"
+        );
         assert_eq!(error.file, name);
     }
     result
@@ -98,8 +104,13 @@ pub(crate) fn bounds(scene: &Scene) -> [[f32; 3]; 2] {
     let mut bounds = [[f32::MAX; 3], [f32::MIN; 3]];
     for (number, part) in scene.parts.iter().enumerate() {
         let mut out = part.mesh.deformed();
-        avatar_mesh::deform(&part.mesh, scene.bones_of(number, &bones), scene.weights_of(number, &pose), &mut out)
-            .unwrap();
+        avatar_mesh::deform(
+            &part.mesh,
+            scene.bones_of(number, &bones),
+            scene.weights_of(number, &pose),
+            &mut out,
+        )
+        .unwrap();
         for position in out.positions {
             for axis in 0..3 {
                 bounds[0][axis] = bounds[0][axis].min(position[axis]);
