@@ -6,8 +6,8 @@ use glam::{DVec3, Vec2, Vec3, Vec4};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// How much all instances in a file may come to, counted in vertices and in moved vertices of shapes. A small file
-/// can ask for the same mesh at thousands of nodes; this is some 2 GiB.
-const MAX_VERTICES: usize = 1 << 25;
+/// can ask for the same mesh at thousands of nodes; this is some 1 GiB.
+const MAX_VERTICES: usize = 1 << 24;
 
 /// What is left of [`MAX_VERTICES`].
 #[derive(Debug)]

@@ -28,6 +28,9 @@
 //! # Ok::<(), avatar_exchange::ImportError>(())
 //! ```
 //!
+//! Each reader is behind a feature of its name. `fbx` compiles a C library, which does not build for
+//! `wasm32-unknown-unknown`.
+//!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
 #[cfg(any(feature = "obj", feature = "md5"))]

@@ -35,7 +35,8 @@ pub enum Format {
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 7] = [Self::Gltf, Self::Vrm, Self::Obj, Self::Fbx, Self::Collada, Self::Md5, Self::Bvh];
+    pub const ALL: [Self; 7] =
+        [Self::Gltf, Self::Vrm, Self::Obj, Self::Fbx, Self::Collada, Self::Md5, Self::Bvh];
 
     /// How files of the format end, in lower case and without the dot.
     pub fn extensions(self) -> &'static [&'static str] {

@@ -289,6 +289,69 @@ fn takes_move_nodes_and_shapes() {
     }
 }
 
+/// Numbers of the Open Asset Import Library 5.2.5, from its export to glTF, times 0.01 where it keeps centimetres. Boxes of
+/// skinned meshes are those before skinning: its weights do not sum to 1.
+#[test]
+fn other_peoples_files_have_the_sizes_that_another_reader_finds() {
+    let Some(folder) = models("FBX") else { return };
+    let open = |name: &str| read(name, &std::fs::read(folder.join(name)).unwrap()).unwrap();
+    let near = |found: f32, expected: f32| {
+        assert!((found - expected).abs() < 2e-5 * (1.0 + expected.abs()), "{found} is not {expected}");
+    };
+    let mirrored = open("cubes_with_mirroring_and_pivot.fbx");
+    assert_eq!(triangles(&mirrored), 420);
+    let box_ = [-0.06067, -0.14515, -0.06044, 0.14866, 0.15981, 0.26727];
+    bounds(&mirrored).iter().flatten().zip(box_).for_each(|(found, expected)| near(*found, expected));
+    let spider = open("spider.fbx");
+    assert_eq!((triangles(&spider), spider.nodes.len()), (1368, 22));
+    let box_ = [-92.655_235, -42.233_826, -106.691_2, 57.936_218, 37.503_952, 86.691_2];
+    bounds(&spider).iter().flatten().zip(box_).for_each(|(found, expected)| near(*found, expected));
+
+    let bones = open("huesitos.fbx");
+    let worlds = bones.worlds(&bones.rest());
+    for (name, expected) in [
+        ("Bone", [-0.04024, 0.0, -3.07135]),
+        ("Bone.002", [-0.04024, 2.11188, -3.07135]),
+        ("Bone.004", [0.88255, 2.11188, -3.41173]),
+        ("Bone.006", [3.14413, 2.11188, -4.50092]),
+        ("Bone.008", [-0.04024, 4.62308, -3.07135]),
+    ] {
+        let world = worlds[node(&bones, name)].translation.as_vec3().to_array();
+        world.into_iter().zip(expected).for_each(|(found, expected)| near(found, expected));
+    }
+    let mesh = bones.parts[0].mesh.bounds().unwrap();
+    let box_ = [-1.023_423_4, -1.023_423_4, -1.256_192_7, 4.334_299, 2.191_927_7, 4.182_18].map(|x| x * 0.01);
+    mesh.min
+        .to_array()
+        .into_iter()
+        .chain(mesh.max.to_array())
+        .zip(box_)
+        .for_each(|(found, expected)| near(found, expected));
+    assert_eq!((triangles(&bones), bones.skins[0].joints.len(), bones.clips.len()), (120, 9, 1));
+
+    let tube = open("animation_with_skeleton.fbx");
+    assert_eq!((triangles(&tube), tube.skins[0].joints.len(), tube.nodes.len()), (2112, 14, 21));
+    assert_eq!(tube.clips[0].name, "Armature|ArmatureAction");
+}
+
+/// The bones of these files stand as they were bound, so that at rest all of them move the mesh alike.
+#[test]
+fn at_rest_bones_agree() {
+    let Some(folder) = models("FBX") else { return };
+    let scene = read("huesitos.fbx", &std::fs::read(folder.join("huesitos.fbx")).unwrap()).unwrap();
+    let bones = scene.bones(&scene.rest());
+    for bone in &bones {
+        let difference = bone
+            .to_cols_array()
+            .iter()
+            .zip(bones[0].to_cols_array())
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f32::max);
+        // Matrices hold a scale of 100.
+        assert!(difference < 1e-3, "{bone} is not {}", bones[0]);
+    }
+}
+
 #[test]
 fn other_peoples_files_load_or_are_refused() {
     let Some(folder) = models("FBX") else { return };
@@ -301,7 +364,7 @@ fn other_peoples_files_load_or_are_refused() {
             refused.push(error.to_string());
         }
     }
-    // An archive under a wrong name.
+    // A binary file whose zeros became blanks.
     assert_eq!(
         refused,
         ["transparentTest.fbx: near byte 0: expected an FBX file, found Not an FBX file (Unknown)"]

@@ -163,7 +163,7 @@ impl<'a> Reader<'a> {
             for (track, step) in tracks {
                 track.write(time, after, &mut values[*step]);
             }
-            let (trs, _) = parts(product(steps.iter().zip(values.iter().map(Vec::as_slice))));
+            let trs = parts(product(steps.iter().zip(values.iter().map(Vec::as_slice))));
             let [t, r, s] = [
                 trs.translation.extend(0.0).to_array(),
                 trs.rotation.to_array(),
@@ -175,7 +175,7 @@ impl<'a> Reader<'a> {
         let (times, values) = self.sample(&samplers, curved, cost, window, value)?;
         let rest = self.scene.nodes[node].local;
         if let Transform::Matrix(matrix) = rest {
-            let (trs, _) = parts(DMat4::from(crate::scene::widen(&matrix)));
+            let trs = parts(DMat4::from(crate::scene::widen(&matrix)));
             self.scene.nodes[node].local = Transform::Trs(trs);
             let name = self.scene.nodes[node].name.clone();
             let text = format!("node {node} '{name}' is moved, so the shear in its transform is left out");
@@ -276,15 +276,15 @@ fn split_component(path: &str) -> (&str, Option<usize>) {
 }
 
 /// Translation, rotation and scale of a matrix; what a shear or a flat matrix has beyond them is lost.
-fn parts(matrix: DMat4) -> (Trs, bool) {
+fn parts(matrix: DMat4) -> Trs {
     match Transform::from_matrix(matrix) {
-        Transform::Trs(trs) => (trs, true),
+        Transform::Trs(trs) => trs,
         Transform::Matrix(_) => {
             let affine = DAffine3::from_mat4(matrix);
             let (scale, rotation, translation) = affine.to_scale_rotation_translation();
             let rotation = if rotation.is_finite() { rotation } else { DQuat::IDENTITY };
             let (translation, scale) = (translation.as_vec3(), scale.as_vec3());
-            (Trs { translation, rotation: rotation.as_quat(), scale }, false)
+            Trs { translation, rotation: rotation.as_quat(), scale }
         }
     }
 }

@@ -70,7 +70,9 @@ impl<'a> Reader<'a> {
         let Some(asset) = root.child("asset") else { return Ok(DMat4::IDENTITY) };
         let unit = asset.child("unit").and_then(|unit| Some((unit, unit.attribute("meter")?)));
         let meters = match unit {
-            Some((unit, text)) => text.trim().parse().map_err(|_| unit.error("a number as 'meter'", text))?,
+            Some((unit, text)) => {
+                text.trim().replace(',', ".").parse().map_err(|_| unit.error("a number as 'meter'", text))?
+            }
             None => 1.0,
         };
         if !(meters > 0.0 && f64::is_finite(meters)) {

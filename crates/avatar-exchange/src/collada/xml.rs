@@ -210,10 +210,10 @@ impl<'a> At<'a> {
         found.ok_or_else(|| self.error(format!("the '#id' of an element in '{key}'"), format!("'{url}'")))
     }
 
-    /// Numbers between blanks. Commas, which some exporters write for points, and other text are errors.
+    /// Numbers between blanks, with a point or, as exporters on systems with decimal commas write them, a comma.
     pub(super) fn numbers<T: std::str::FromStr>(self) -> Result<Vec<T>, ImportError> {
         let parse = |word: &str| {
-            word.parse().map_err(|_| {
+            word.parse().or_else(|_| word.replacen(',', ".", 1).parse()).map_err(|_| {
                 self.error("numbers", format!("'{}'", word.chars().take(30).collect::<String>()))
             })
         };

@@ -17,7 +17,8 @@ mod place;
 mod v0;
 mod v1;
 
-use crate::gltf::{self, Resolve};
+use crate::Resolve;
+use crate::gltf;
 use crate::{ImportError, Node, Note, RawScene, Scene, Transform, Trs};
 use glam::{Quat, Vec3};
 use place::Place;
