@@ -19,12 +19,11 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
             break;
         }
         let stored = shape_blocks[shape.index * block_count + block];
-        if stored == RESTING_BLOCK {
-            continue;
+        if stored != RESTING_BLOCK {
+            let offset = shape_offsets[stored * SHAPE_BLOCK + within];
+            blended.position_world += shape.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
+            blended.normal_world += shape.weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
         }
-        let offset = shape_offsets[stored * SHAPE_BLOCK + within];
-        blended.position_world += shape.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
-        blended.normal_world += shape.weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
     }
     if length(blended.normal_world) < MIN_NORMAL_LENGTH {
         blended.normal_world = bind.normal_world;
