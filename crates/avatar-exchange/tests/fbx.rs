@@ -11,7 +11,7 @@ mod damage;
 
 use avatar_exchange::{ImportError, Scene, Transform, fbx};
 use avatar_mesh::drivers::ShapeDrivers;
-use damage::{damage, files, models, read_any};
+use damage::{bounds, damage, files, models, read_any, triangles};
 use glam::{Quat, Vec2, Vec3};
 use std::f32::consts::FRAC_PI_2;
 
