@@ -255,7 +255,7 @@ pub fn awkward(seed: u64) -> RawScene {
             node.parent = None;
         }
         if let Transform::Trs(trs) = &mut node.local {
-            trs.rotation = trs.rotation * (0.5 + r.share());
+            trs.rotation *= 0.5 + r.share();
         }
     }
     for skin in &mut scene.skins {
