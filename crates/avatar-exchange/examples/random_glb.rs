@@ -16,8 +16,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [folder, count] = &arguments[..] else { return Err("expected FOLDER COUNT".into()) };
     for seed in 0..count.parse()? {
-        let bytes = avatar_exchange::glb::write_raw(&random::scene(seed))?;
-        std::fs::write(Path::new(folder).join(format!("random-{seed}.glb")), bytes)?;
+        for (name, scene) in [("random", random::scene(seed)), ("random-awkward", random::awkward(seed))] {
+            let bytes = avatar_exchange::glb::write_raw(&scene)?;
+            std::fs::write(Path::new(folder).join(format!("{name}-{seed}.glb")), bytes)?;
+        }
     }
     Ok(())
 }

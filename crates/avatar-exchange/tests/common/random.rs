@@ -244,3 +244,58 @@ fn channel(r: &mut Random, node: usize, target: ChannelTarget, weights: usize) -
     let values = values.collect();
     Channel { node, target, interpolation, times, values }
 }
+
+/// A valid scene with what glTF has no word for, or forbids. The first texture coordinate of a part tells which one it is:
+/// parts that get nodes of their own come last.
+pub fn awkward(seed: u64) -> RawScene {
+    let mut r = Random(seed ^ 0x5eed);
+    let mut scene = scene(seed);
+    for node in &mut scene.nodes {
+        if r.chance(4) {
+            node.parent = None;
+        }
+        if let Transform::Trs(trs) = &mut node.local {
+            trs.rotation *= 0.5 + r.share();
+        }
+    }
+    for skin in &mut scene.skins {
+        let twice = skin.joints[r.below(skin.joints.len())];
+        skin.joints.push(twice);
+        skin.inverse_binds.push(affine(&mut r));
+    }
+    for (number, part) in scene.parts.iter_mut().enumerate() {
+        part.mesh.uvs[0].x = number as f32;
+        part.mesh.normals.iter_mut().for_each(|normal| *normal *= 2.0 * r.share());
+        part.tangents.iter_mut().for_each(|tangent| *tangent *= 2.0 * r.share());
+        if r.chance(4) {
+            part.mesh.triangles.clear();
+        }
+        if r.chance(3) {
+            (part.skin, part.mesh.skinning) = (None, None);
+        }
+        for (bones, weights) in
+            part.mesh.skinning.iter_mut().flat_map(|s| s.bones.iter_mut().zip(&mut s.weights))
+        {
+            if r.chance(2) {
+                bones[3] = bones[0];
+                (weights[0], weights[3]) = (weights[0] / 2.0, weights[0] / 2.0 + 4e-7);
+            }
+        }
+        if r.chance(4) && !part.mesh.shapes.is_empty() {
+            part.mesh.shapes[0].name = "another".to_owned();
+        }
+    }
+    for channel in scene.clips.iter_mut().flat_map(|clip| &mut clip.channels) {
+        // Later in the channel, the least step of time would be felt where keys are close.
+        channel.times[1] = channel.times[0];
+    }
+    if let Some(channel) = scene.clips.first().and_then(|clip| clip.channels.first()).cloned() {
+        scene.clips[0].channels.push(channel);
+    }
+    for material in &mut scene.materials {
+        material.metallic = 3.0 * r.float();
+        material.emissive[0] = f32::NAN;
+    }
+    scene.images.iter_mut().filter(|_| r.chance(3)).for_each(|image| image.bytes.clear());
+    scene
+}
