@@ -55,7 +55,7 @@ impl Images<'_, '_> {
     fn of(&mut self, map: &ufbx::MaterialMap, scene: &mut RawScene) -> Option<usize> {
         let texture = map.texture.as_ref().filter(|_| map.texture_enabled)?;
         // What is layered or computed: the first picture in it.
-        let texture = texture.file_textures.get(0).unwrap_or(texture);
+        let texture = texture.file_textures.first().unwrap_or(texture);
         let key = texture.element.typed_id;
         if let Some(known) = self.of_texture.get(&key) {
             return *known;

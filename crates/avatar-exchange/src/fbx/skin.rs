@@ -19,7 +19,7 @@ impl BoundSkin {
         mesh: &ufbx::Mesh,
         scene: &mut RawScene,
     ) -> Result<Option<Self>, ImportError> {
-        let Some(deformer) = mesh.skin_deformers.get(0) else { return Ok(None) };
+        let Some(deformer) = mesh.skin_deformers.first() else { return Ok(None) };
         if deformer.clusters.is_empty() {
             return Ok(None);
         }
