@@ -355,15 +355,14 @@ fn at_rest_bones_agree() {
 #[test]
 fn embedded_pictures_come_with_their_bytes() {
     let Some(folder) = models("FBX") else { return };
-    for name in ["box_orphant_embedded_texture.fbx", "embedded_ascii/box_embedded_texture_fragmented.fbx"] {
+    // How the bytes of a Targa picture (colours, packed by run lengths) and of a PNG begin.
+    for (name, picture, begin) in [
+        ("box_orphant_embedded_texture.fbx", "GridGrey.tga", &[0, 10][..]),
+        ("embedded_ascii/box_embedded_texture_fragmented.fbx", "paper.png", b"PN"),
+    ] {
         let scene = read(name, &std::fs::read(folder.join(name)).unwrap()).unwrap();
         let image = &scene.images[scene.materials[0].base_color_texture.unwrap()];
-        // A Targa picture of colours, packed by run lengths: types 0, 10.
-        assert_eq!(
-            (image.name.as_str(), image.bytes.get(1..3)),
-            ("GridGrey.tga", Some(&[0, 10][..])),
-            "{name}"
-        );
+        assert_eq!((image.name.as_str(), image.bytes.get(1..3)), (picture, Some(begin)), "{name}");
     }
     // The other way: a file that is brought.
     let bytes = std::fs::read(folder.join("spider.fbx")).unwrap();
