@@ -315,7 +315,7 @@ fn clips_of_the_file_cut_time() {
 
 #[test]
 fn materials_have_colours_and_textures() {
-    let look = "<library_images><image id='i'><init_from>file:///C:/faces/skin.PNG</init_from></image></library_images>
+    let look = "<library_images><image id='i'><init_from>file:///C:/faces/%2e%2e/my%20skin%.PNG</init_from></image></library_images>
         <library_effects><effect id='e'><profile_COMMON>
         <newparam sid='surf'><surface type='2D'><init_from>i</init_from></surface></newparam>
         <newparam sid='samp'><sampler2D><source>surf</source></sampler2D></newparam>
@@ -334,7 +334,7 @@ fn materials_have_colours_and_textures() {
         Ok(vec![1, 2, 3])
     });
     let scene = scene.unwrap();
-    assert_eq!(asked, ["skin.PNG"]);
+    assert_eq!(asked, ["my skin%.PNG"]);
     assert_eq!(
         (scene.images[0].bytes.as_slice(), scene.images[0].mime.as_str()),
         (&[1, 2, 3][..], "image/png")
@@ -345,7 +345,7 @@ fn materials_have_colours_and_textures() {
     // Without the picture there is a note instead.
     let scene = load(&text);
     assert!(scene.images[0].bytes.is_empty());
-    note(&scene, "'skin.PNG' was not found");
+    note(&scene, "'my skin%.PNG' was not found");
 }
 
 #[test]
@@ -410,6 +410,32 @@ fn other_peoples_files_have_the_sizes_that_another_reader_finds() {
             );
         }
     }
+}
+
+/// The bones of this file stand as they were bound, so that at rest all of them move the mesh alike; one of its clips
+/// bends it.
+#[test]
+fn at_rest_bones_agree() {
+    let Some(folder) = models("Collada") else { return };
+    let name = "library_animation_clips.dae";
+    let scene = read(name, &std::fs::read(folder.join(name)).unwrap()).unwrap();
+    let spread = |pose: &ScenePose| {
+        let bones = scene.bones(pose);
+        let from_first = |bone: &glam::Affine3A| {
+            bone.to_cols_array()
+                .iter()
+                .zip(bones[0].to_cols_array())
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f32::max)
+        };
+        bones.iter().map(from_first).fold(0.0, f32::max)
+    };
+    assert_eq!(scene.skins[0].joints.len(), 5);
+    assert!(spread(&scene.rest()) < 1e-6);
+    let clips: Vec<&str> = scene.clips.iter().map(|clip| clip.name.as_str()).collect();
+    assert_eq!(clips, ["bend", "turn"]);
+    let end = scene.clips[0].duration_secs();
+    assert!(spread(&scene.at(0, 0.5 * end).unwrap()) > 0.1);
 }
 
 #[test]

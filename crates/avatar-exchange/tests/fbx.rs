@@ -304,7 +304,7 @@ fn other_peoples_files_have_the_sizes_that_another_reader_finds() {
     bounds(&mirrored).iter().flatten().zip(box_).for_each(|(found, expected)| near(*found, expected));
     let spider = open("spider.fbx");
     assert_eq!((triangles(&spider), spider.nodes.len()), (1368, 22));
-    let box_ = [-92.655_235, -42.233_826, -106.691_2, 57.936_218, 37.503_952, 86.691_2];
+    let box_ = [-92.655_235, -42.233_826, -106.691_2, 57.936_22, 37.503_952, 86.691_2];
     bounds(&spider).iter().flatten().zip(box_).for_each(|(found, expected)| near(*found, expected));
 
     let bones = open("huesitos.fbx");
@@ -350,6 +350,25 @@ fn at_rest_bones_agree() {
         // Matrices hold a scale of 100.
         assert!(difference < 1e-3, "{bone} is not {}", bones[0]);
     }
+}
+
+#[test]
+fn embedded_pictures_come_with_their_bytes() {
+    let Some(folder) = models("FBX") else { return };
+    // How the bytes of a Targa picture (colours, packed by run lengths) and of a PNG begin.
+    for (name, picture, begin) in [
+        ("box_orphant_embedded_texture.fbx", "GridGrey.tga", &[0, 10][..]),
+        ("embedded_ascii/box_embedded_texture_fragmented.fbx", "paper.png", b"PN"),
+    ] {
+        let scene = read(name, &std::fs::read(folder.join(name)).unwrap()).unwrap();
+        let image = &scene.images[scene.materials[0].base_color_texture.unwrap()];
+        assert_eq!((image.name.as_str(), image.bytes.get(1..3)), (picture, Some(begin)), "{name}");
+    }
+    // The other way: a file that is brought.
+    let bytes = std::fs::read(folder.join("spider.fbx")).unwrap();
+    let scene = fbx::read("spider.fbx", &bytes, &mut |path| Ok(path.as_bytes().to_vec())).unwrap();
+    let brought = scene.images.iter().find(|image| image.name == "SpiderTex.jpg").unwrap();
+    assert_eq!((brought.bytes.as_slice(), brought.mime.as_str()), (&b"SpiderTex.jpg"[..], "image/jpeg"));
 }
 
 #[test]

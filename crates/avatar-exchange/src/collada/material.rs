@@ -85,7 +85,7 @@ impl<'a> Reader<'a> {
         }
         let address =
             image.path(&["init_from", "ref"]).or(image.child("init_from")).map_or("", |at| at.text());
-        let (read, problem) = resolve::image(address, resolve);
+        let (read, problem) = resolve::image(&unescaped(address), resolve);
         self.scene.images.push(read);
         if let Some(problem) = problem {
             self.note(image, problem);
@@ -93,6 +93,21 @@ impl<'a> Reader<'a> {
         images.insert(image.number, self.scene.images.len() - 1);
         Some(self.scene.images.len() - 1)
     }
+}
+
+/// An address with its `%20` as they are meant. What is no such number stays.
+fn unescaped(address: &str) -> String {
+    let (mut bytes, mut rest) = (Vec::with_capacity(address.len()), address.as_bytes());
+    while let Some((&first, others)) = rest.split_first() {
+        let digits =
+            others.get(..2).filter(|_| first == b'%').and_then(|digits| std::str::from_utf8(digits).ok());
+        let byte = digits
+            .filter(|digits| !digits.starts_with('+'))
+            .and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        bytes.push(byte.unwrap_or(first));
+        rest = if byte.is_some() { &others[2..] } else { others };
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 fn color(at: At<'_>) -> Option<[f32; 4]> {
