@@ -1,5 +1,5 @@
 use anyhow::{Context, Result, anyhow, bail};
-use avatar_exchange::TextFile;
+use avatar_exchange::{Format, TextFile};
 use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning};
 use include_dir::{Dir, include_dir};
 use std::borrow::Cow;
@@ -99,7 +99,7 @@ fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     let mut files = Vec::new();
     for path in further {
         let name = path.display().to_string();
-        let found = with_its_files(path).map_err(|reason| anyhow!("{name}: {reason}"))?;
+        let found = with_its_files(path, &file).map_err(|reason| anyhow!("{name}: {reason}"))?;
         for path in found {
             let name = path.display().to_string();
             files.push((read_file(&path).map_err(|reason| anyhow!("{name}: {reason}"))?, name));
@@ -112,8 +112,8 @@ fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     Import::from_scene(scene).map_err(|error| anyhow!("{file}: {error}"))
 }
 
-/// A file, or the files of a folder in the order of their names.
-fn with_its_files(path: &Path) -> Result<Vec<PathBuf>, String> {
+/// A file, or those files of a folder that may belong to `first`, in the order of their names.
+fn with_its_files(path: &Path, first: &str) -> Result<Vec<PathBuf>, String> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
@@ -121,7 +121,15 @@ fn with_its_files(path: &Path) -> Result<Vec<PathBuf>, String> {
     let entries = std::fs::read_dir(path).map_err(unreadable)?;
     let mut files =
         entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>().map_err(unreadable)?;
-    files.retain(|file| file.is_file());
+    let endings = Format::of_name(first).map_or(&[][..], Format::further_extensions);
+    let belongs = |file: &Path| {
+        let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        ending.is_some_and(|ending| endings.contains(&ending.as_str())) && file.is_file()
+    };
+    files.retain(|file| belongs(file));
+    if files.is_empty() {
+        return Err(format!("expected files that end in {}, found none", endings.join(", ")));
+    }
     files.sort();
     Ok(files)
 }

@@ -54,8 +54,9 @@ pub(crate) fn scene(
     let fov = VERTICAL_FOV_DEGREES.to_radians();
     // The distance is that of the front view, so that the head does not grow and shrink as the camera goes round.
     let across = bounds.size().x.max(bounds.size().z);
-    // A head is round: the corners of its box that are nearest to the camera are empty.
-    let half = glam::Vec3::new(across, bounds.size().y, across * ROUNDNESS) / 2.0;
+    // A head is round: the corners of its box that are nearest to the camera are empty. Other files hold anything.
+    let roundness = if pack.motion.is_none() { ROUNDNESS } else { 1.0 };
+    let half = glam::Vec3::new(across, bounds.size().y, across * roundness) / 2.0;
     let round = Bounds { min: bounds.center() - half, max: bounds.center() + half };
     let whole_head = Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
     let (yaw, pitch) = (view.yaw_degrees.to_radians(), view.pitch_degrees.to_radians());

@@ -46,9 +46,6 @@ pub struct ImportReport {
 /// Why a scene is no avatar.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ImportFailure {
-    /// Nothing to draw.
-    #[error("expected at least one mesh, found none")]
-    NoParts,
     /// Nodes that are no rig.
     #[error(transparent)]
     Rig(#[from] RigError),
@@ -76,15 +73,15 @@ impl Import {
     /// by their names get the controls of the nine-joint face; all others get controls of their own names.
     ///
     /// # Errors
-    /// Nothing to draw, or numbers that are no rig.
+    /// Numbers that are no rig.
     pub fn from_scene(scene: Scene) -> Result<Self, ImportFailure> {
-        if scene.parts.is_empty() {
-            return Err(ImportFailure::NoParts);
-        }
         let mut report = ImportReport {
             notes: scene.notes.iter().map(ToString::to_string).collect(),
             ..Default::default()
         };
+        if scene.parts.is_empty() {
+            report.notes.push("there is no mesh: a skeleton and its motion, nothing to draw".to_owned());
+        }
         let joints = rig::Joints::of(&scene, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
         let controls = controls::controls(&scene, &joints, &shapes, &mut report)?;

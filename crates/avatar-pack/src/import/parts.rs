@@ -107,7 +107,12 @@ impl Images {
         name: &str,
         report: &mut ImportReport,
     ) -> Material {
-        let fallback = avatar_exchange::Material { metallic: 0.0, ..Default::default() };
+        // Not white: that would show no shapes in bright light.
+        let fallback = avatar_exchange::Material {
+            metallic: 0.0,
+            base_color: [0.6, 0.6, 0.6, 1.0],
+            ..Default::default()
+        };
         let from = part.material.and_then(|material| scene.materials.get(material)).unwrap_or(&fallback);
         let [r, g, b, alpha] = from.base_color;
         let mut place = |image: Option<usize>, factor| image.map(|image| self.place(image, factor));
@@ -161,7 +166,7 @@ impl Images {
                 let problem = match decode(&image.bytes) {
                     _ if image.bytes.is_empty() => "expected a picture, found none".to_owned(),
                     Ok(decoded) => return Some(tinted(decoded, *factor)),
-                    Err(error) => format!("expected a PNG or JPEG picture, found: {error}"),
+                    Err(error) => format!("expected a picture (PNG, JPEG, TGA or BMP), found: {error}"),
                 };
                 warnings.push(Warning::Texture { file, problem });
                 None

@@ -108,7 +108,8 @@ fn mat4(affine: DAffine3) -> Mat4 {
 
 /// Which nodes move vertices, by themselves or through those that hang from them.
 fn moves(scene: &Scene) -> Vec<bool> {
-    let mut moves = vec![false; scene.nodes.len()];
+    // All nodes of a skeleton without a mesh are there to move.
+    let mut moves = vec![scene.parts.is_empty(); scene.nodes.len()];
     for entry in &scene.palette().entries {
         moves[entry.node] = true;
     }
