@@ -103,10 +103,10 @@ pub fn write(scene: &Scene) -> Result<Vec<u8>, ExportError> {
     container(Value::Object(root).to_string().into_bytes(), bytes)
 }
 
-/// As [`write`], for a scene that was not checked yet.
+/// As [`write()`], for a scene that was not checked yet.
 ///
 /// # Errors
-/// As [`write`], and what [`Scene::from_raw`] finds.
+/// As [`write()`], and what [`Scene::from_raw`] finds.
 pub fn write_raw(scene: &RawScene) -> Result<Vec<u8>, ExportError> {
     write(&Scene::from_raw(scene.clone())?)
 }
