@@ -5,7 +5,7 @@ use crate::renderer::RendererConfig;
 use crate::resources::HAIR_MAP_FORMAT;
 use crate::shaders::{
     COMPOSE_HAIR, COMPOSE_HAIR_DEPTH, Constants, HAIR_SHADOW_PASS, LAYERED_STRANDS, MASKED_STRANDS,
-    STRAND_LAYERS,
+    STRAND_LAYERS, STRAND_SLICES,
 };
 use crate::targets::{HAIR_CLEAR_FORMAT, HAIR_SUM_FORMAT};
 
@@ -22,10 +22,11 @@ pub(crate) struct HairPipelines {
 pub(crate) enum Strands {
     /// Each covers some of a pixel's samples.
     Masked(wgpu::RenderPipeline),
-    /// Where pixels have one sample: where they lie, all of them blended, and the two steps that lay them over
-    /// the picture: colour and depth.
+    /// Where pixels have one sample: where they lie, how much they cover at each depth, all of them blended, and
+    /// the two steps that lay them over the picture: colour and depth.
     Layered {
         layers: wgpu::RenderPipeline,
+        slices: wgpu::RenderPipeline,
         blended: wgpu::RenderPipeline,
         compose: [wgpu::RenderPipeline; 2],
     },
@@ -86,6 +87,12 @@ impl HairPipelines {
             target: blended(HAIR_SUM_FORMAT, added(), largest()),
             ..ribbons.again()
         };
+        let slices = Recipe {
+            program: &STRAND_SLICES,
+            target: blended(HAIR_SUM_FORMAT, added(), added()),
+            beside: blended(HAIR_SUM_FORMAT, added(), added()),
+            ..layers.again()
+        };
         let layered = Recipe {
             program: &LAYERED_STRANDS,
             depth: Some((Greater, false)),
@@ -95,6 +102,7 @@ impl HairPipelines {
         };
         let strands = Strands::Layered {
             layers: layers.build(device, &constants),
+            slices: slices.build(device, &constants),
             blended: layered.build(device, &constants),
             compose: [compose, compose_depth].map(|recipe| recipe.build(device, &constants)),
         };

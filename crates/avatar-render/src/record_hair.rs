@@ -71,8 +71,9 @@ impl<'a> Frame<'a> {
                 pass.set_pipeline(pipeline);
                 self.draw_strands(&mut pass, f32::INFINITY);
             }
-            Strands::Layered { layers, blended, compose } => {
+            Strands::Layered { layers, slices, blended, compose } => {
                 self.strand_layers(encoder, layers);
+                self.strand_slices(encoder, slices);
                 self.blended_strands(encoder, blended);
                 let times = self.timer.and_then(|timer| timer.render_pass_part(Pass::Hair, false, true));
                 let mut pass = self.begin_picture(encoder, Pass::Hair, false, false, times);
@@ -95,6 +96,23 @@ impl<'a> Frame<'a> {
             ..Default::default()
         });
         self.set_groups(&mut pass, &self.targets.for_hair_shadow);
+        pass.set_pipeline(pipeline);
+        self.draw_strands(&mut pass, f32::INFINITY);
+    }
+
+    /// How much strands cover at each depth.
+    fn strand_slices(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+        let targets = self.targets;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("hair: slices"),
+            color_attachments: &targets
+                .hair_slices
+                .each_ref()
+                .map(|view| cleared(view, wgpu::Color::TRANSPARENT)),
+            depth_stencil_attachment: Some(self.depth_to_compare()),
+            ..Default::default()
+        });
+        self.set_groups(&mut pass, &targets.for_hair_slices);
         pass.set_pipeline(pipeline);
         self.draw_strands(&mut pass, f32::INFINITY);
     }

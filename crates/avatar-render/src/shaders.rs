@@ -296,6 +296,13 @@ pub(crate) const STRAND_LAYERS: Program = strand_program!(
     [module!("strands/coverage"), module!("strands/layers")]
 );
 
+pub(crate) const STRAND_SLICES: Program = strand_program!(
+    "slices of hair",
+    "strand_layers_main",
+    Some("strand_slices_main"),
+    [module!("strands/coverage"), module!("strands/layers"), module!("strands/slices")]
+);
+
 pub(crate) const HAIR_SHADOW_PASS: Program = strand_program!(
     "shadow of hair",
     "hair_shadow_main",
@@ -417,6 +424,7 @@ pub(crate) mod tests {
             MASKED_STRANDS,
             LAYERED_STRANDS,
             STRAND_LAYERS,
+            STRAND_SLICES,
             HAIR_SHADOW_PASS,
             COMPOSE_HAIR,
             COMPOSE_HAIR_DEPTH,

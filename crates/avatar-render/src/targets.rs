@@ -29,8 +29,10 @@ pub struct Targets {
     pub(crate) occlusion: wgpu::TextureView,
     pub(crate) skin_light: wgpu::TextureView,
     pub(crate) scattered: wgpu::TextureView,
-    /// Where strands lie, their colours, and what they leave clear, where pixels have one sample.
+    /// Where strands lie, how much they cover at each depth, their colours, and what they leave clear, where pixels have one
+    /// sample.
     pub(crate) hair_layers: wgpu::TextureView,
+    pub(crate) hair_slices: [wgpu::TextureView; 2],
     pub(crate) hair_sum: wgpu::TextureView,
     pub(crate) hair_clear: wgpu::TextureView,
     /// What passes read, each without what it writes.
@@ -40,6 +42,7 @@ pub struct Targets {
     pub(crate) for_scattering: wgpu::BindGroup,
     pub(crate) for_picture: wgpu::BindGroup,
     pub(crate) for_hair_shadow: wgpu::BindGroup,
+    pub(crate) for_hair_slices: wgpu::BindGroup,
     pub(crate) for_hair: wgpu::BindGroup,
     pub(crate) for_composing: wgpu::BindGroup,
 }
@@ -101,6 +104,8 @@ impl Targets {
         let no_light = attachment("nothing", SKIN_LIGHT_FORMAT, 1, false, true);
         let no_depth = attachment("nothing", DEPTH_FORMAT, 1, false, true);
         let hair_layers = attachment("layers of hair", HAIR_SUM_FORMAT, 1, !several, true);
+        let hair_slices = ["hair: front slices", "hair: back slices"]
+            .map(|label| attachment(label, HAIR_SUM_FORMAT, 1, !several, true));
         let hair_sum = attachment("hair", HAIR_SUM_FORMAT, 1, !several, true);
         let hair_clear = attachment("hair: what it leaves clear", HAIR_CLEAR_FORMAT, 1, !several, true);
         let hair_map = &renderer.resources.hair_map;
@@ -117,10 +122,16 @@ impl Targets {
                 .then(|| attachment("multisampled color", config.color_format, config.samples, true, false)),
             for_prepass: renderer.view_group(device, "view: for depth and normals", nothing, hair_map),
             for_hair_shadow: renderer.view_group(device, "view: for shadows of hair", nothing, &no_light),
+            for_hair_slices: renderer.view_group(
+                device,
+                "view: for slices of hair",
+                [&no_depth, &no_light, &no_occlusion, &hair_layers],
+                hair_map,
+            ),
             for_hair: renderer.view_group(
                 device,
                 "view: for hair",
-                [&no_depth, &no_light, &no_occlusion, &hair_layers],
+                [&no_depth, &hair_slices[0], &hair_slices[1], &hair_layers],
                 hair_map,
             ),
             for_composing: renderer.view_group(
@@ -139,6 +150,7 @@ impl Targets {
             skin_light,
             scattered,
             hair_layers,
+            hair_slices,
             hair_sum,
             hair_clear,
         })

@@ -75,14 +75,11 @@ fn strands_at_one_sample_are_nearer_to_many_samples_than_plain_lines_at_four() {
             gains.push((name, yaw, ours, plain));
         }
     }
-    // Nearer on the whole; smooth, dense, parallel hair is where plain lines do best.
-    let count = gains.len() as f64;
-    let ours = gains.iter().map(|(_, _, ours, _)| ours).sum::<f64>() / count;
-    let plain = gains.iter().map(|(.., plain)| plain).sum::<f64>() / count;
-    assert!(ours > plain + 0.01, "{ours} at one sample, {plain} of plain lines at four");
     for (name, yaw, ours, plain) in gains {
-        let least = if name == "bob" { plain - 0.05 } else { plain + 0.015 };
-        assert!(ours > least, "{name}, yaw {yaw}: {ours} at one sample, {plain} of plain lines at four");
+        assert!(
+            ours > plain + 0.015,
+            "{name}, yaw {yaw}: {ours} at one sample, {plain} of plain lines at four"
+        );
     }
 }
 

@@ -14,3 +14,13 @@ fn strand_coverage(pixels: f32, off: f32) -> f32 {
 fn nearness(depth: f32) -> f32 {
     return saturate((frame.hair_far - view_distance(depth)) * frame.hair_per_depth);
 }
+
+const SLICE_COUNT: f32 = 8.0;
+
+// Which slice of a pixel's hair lies at a nearness, with the share of the slice that is before it. Slices go from the nearest
+// strand to as far behind the mean, thin ones first: what lies in front hides the rest.
+fn slice_at(layers: vec4f, near: f32) -> f32 {
+    let mean = layers.g / max(layers.r, 1e-4);
+    let depth = saturate((layers.a - near) / max(2.0 * (layers.a - mean), 1e-3));
+    return SLICE_COUNT * sqrt(depth);
+}

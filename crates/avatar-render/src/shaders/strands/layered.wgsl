@@ -1,7 +1,7 @@
 // Strands where pixels have one sample, blended without sorting: M. McGuire and L. Bavoil, "Weighted Blended
-// Order-Independent Transparency", 2013. The weight of a strand is what the strands before it let through, by the same
-// measure as shadows of hair: what they cover grows evenly from the nearest to as far behind the mean (C. Yuksel and J.
-// Keyser, "Deep Opacity Maps", 2008).
+// Order-Independent Transparency", 2013. The weight of a strand is what the strands before it let through, by the cover of
+// slices behind the nearest strand (C. Yuksel and J. Keyser, "Deep Opacity Maps", 2008): within a slice it grows evenly.
+// The view holds the slices in the place of normals and occlusion, and what they are cut from in that of light.
 
 struct StrandLayer {
     @location(0) weighted: vec4f,
@@ -16,9 +16,13 @@ const SCALE: f32 = 64.0;
 @fragment
 fn strand_layered_main(in: StrandOut) -> StrandLayer {
     let coverage = strand_coverage(in.pixels, in.off);
-    let layers = textureLoad(skin_light, vec2i(in.position_clip.xy), 0);
-    let mean = layers.g / max(layers.r, 1e-4);
-    let before = saturate((layers.a - nearness(in.position_clip.z)) / max(2.0 * (layers.a - mean), 1e-3));
-    let weight = coverage * SCALE * exp(-min(layers.r * before, DEEPEST));
+    let pixel = vec2i(in.position_clip.xy);
+    let layers = textureLoad(skin_light, pixel, 0);
+    let front = textureLoad(normal_texture_view, pixel, 0);
+    let back = textureLoad(occlusion_view, pixel, 0);
+    let at = vec4f(slice_at(layers, nearness(in.position_clip.z)));
+    let first = vec4f(0.0, 1.0, 2.0, 3.0);
+    let before = dot(front, saturate(at - first)) + dot(back, saturate(at - first - 4.0));
+    let weight = coverage * SCALE * exp(-min(before, DEEPEST));
     return StrandLayer(vec4f(in.color * weight, weight), vec4f(coverage));
 }
