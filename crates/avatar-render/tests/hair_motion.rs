@@ -92,28 +92,32 @@ fn most(values: &[f32]) -> f32 {
 fn tips_lag_settle_and_move_alike_at_every_frame_rate() {
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let mut stage = Stage::new(gpu, &head, Style::BOB);
-    let plays: Vec<_> = [30, 60, 144]
-        .into_iter()
-        .map(|rate| {
-            stage.state.still_hair();
-            stage.play(rate, 9)
-        })
-        .collect();
-    stage.state.still_hair();
-    let still = stage.strands();
-    for seen in &plays {
-        // The third sixth is where the head stops, the ninth a second later.
-        let (stop, later) = (apart(&still, &seen[3]), apart(&still, &seen[9]));
-        assert!(stop.len() > 500, "{}", stop.len());
-        assert!(mean(&stop) > 0.03, "lag {}", mean(&stop));
-        assert!(mean(&later) < 0.005 && most(&later) < 0.03, "{} {}", mean(&later), most(&later));
-    }
-    for other in &plays[1..] {
-        for (k, (a, b)) in plays[0].iter().zip(other).enumerate() {
-            let off = apart(a, b);
-            println!("{k}: mean {:.4}, most {:.4}", mean(&off), most(&off));
-            assert!(most(&off) < 0.02, "sixth {k}: {}", most(&off));
+    for (name, style) in [("bob", Style::BOB), ("long", Style::LONG), ("curly", Style::CURLY)] {
+        let mut stage = Stage::new(gpu, &head, style);
+        let plays: Vec<_> = [30, 60, 144]
+            .into_iter()
+            .map(|rate| {
+                stage.state.still_hair();
+                stage.play(rate, 9)
+            })
+            .collect();
+        stage.state.still_hair();
+        let still = stage.strands();
+        for seen in &plays {
+            // The third sixth is where the head stops, the ninth a second later.
+            let (stop, later) = (apart(&still, &seen[3]), apart(&still, &seen[9]));
+            assert!(stop.len() > 500, "{name}: {}", stop.len());
+            let (lag, left, farthest) = (mean(&stop), mean(&later), most(&later));
+            println!("{name}: lag {lag:.4}, a second later {left:.4}, at most {farthest:.4}");
+            assert!(lag > 0.03, "{name}: lag {lag}");
+            assert!(left < 0.005 && farthest < 0.03, "{name}: {left} {farthest}");
+        }
+        for other in &plays[1..] {
+            for (k, (a, b)) in plays[0].iter().zip(other).enumerate() {
+                let off = apart(a, b);
+                println!("{name}, {k}: mean {:.4}, most {:.4}", mean(&off), most(&off));
+                assert!(most(&off) < 0.02, "{name}, sixth {k}: {}", most(&off));
+            }
         }
     }
 }
