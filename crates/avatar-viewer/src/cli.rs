@@ -11,7 +11,7 @@ use std::str::FromStr;
 ///
 /// PACK is a folder in the raw format: Transformations.xml, a vertex and an index buffer for each of the seven parts,
 /// textures, and optionally controls.toml, poses.toml, materials.toml and hair.toml; or a file of an interchange format
-/// (.glb, .gltf, .obj, .md5mesh, .bvh; docs/formats.md). Without PACK the built-in avatar is used.
+/// (.glb, .gltf, .vrm, .obj, .fbx, .dae, .md5mesh, .bvh; docs/formats.md). Without PACK the built-in avatar is used.
 /// Without a verb a window opens; a folder whose name is that of a verb is given as ./NAME.
 ///
 /// Exit status: 0 on success, 2 on wrong usage, 1 on any other failure.

@@ -108,6 +108,10 @@ fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     let further: Vec<_> = files.iter().map(|(bytes, file)| TextFile { file, bytes }).collect();
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut resolve = |name: &str| read_file(&folder.join(inside(name)?));
+    if Format::of_name(&file) == Some(Format::Vrm) && further.is_empty() {
+        let model = avatar_exchange::vrm::read(&file, &bytes, &mut resolve)?;
+        return Import::from_vrm(model).map_err(|error| anyhow!("{file}: {error}"));
+    }
     let scene = avatar_exchange::read(&file, &bytes, &further, &mut resolve)?;
     Import::from_scene(scene).map_err(|error| anyhow!("{file}: {error}"))
 }

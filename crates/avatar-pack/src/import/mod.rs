@@ -5,6 +5,8 @@ mod motion;
 mod names;
 mod parts;
 mod rig;
+#[cfg(feature = "vrm")]
+mod vrm;
 
 pub use motion::{MotionAt, MotionError, SceneMotion};
 pub use names::{Role, ShapeSet};
@@ -75,6 +77,11 @@ impl Import {
     /// # Errors
     /// Numbers that are no rig.
     pub fn from_scene(scene: Scene) -> Result<Self, ImportFailure> {
+        Self::with_roles(scene, &[])
+    }
+
+    /// As [`Import::from_scene`], where what some nodes do is known.
+    fn with_roles(scene: Scene, known: &[(Role, usize)]) -> Result<Self, ImportFailure> {
         let mut report = ImportReport {
             notes: scene.notes.iter().map(ToString::to_string).collect(),
             ..Default::default()
@@ -82,7 +89,7 @@ impl Import {
         if scene.parts.is_empty() {
             report.notes.push("there is no mesh: a skeleton and its motion, nothing to draw".to_owned());
         }
-        let joints = rig::Joints::of(&scene, &mut report)?;
+        let joints = rig::Joints::of(&scene, known, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
         let controls = controls::controls(&scene, &joints, &shapes, &mut report)?;
         let names: Vec<&str> = shapes.names.iter().map(String::as_str).collect();

@@ -45,6 +45,12 @@ impl SceneMotion {
         &self.scene
     }
 
+    /// The place in [`crate::Pack::shapes`] of a shape at a node of the scene.
+    pub fn shape(&self, node: usize, shape: usize) -> Option<usize> {
+        let shapes = self.scene.nodes.get(node)?.weights.len();
+        (shape < shapes).then(|| self.first_shape.get(node).map(|first| first + shape)).flatten()
+    }
+
     /// Names of the clips; those without get a number.
     pub fn clips(&self) -> Vec<String> {
         super::rig::unique_names(self.scene.clips.iter().map(|clip| clip.name.as_str()), "clip")

@@ -26,7 +26,11 @@ pub(super) struct Joints {
 }
 
 impl Joints {
-    pub(super) fn of(scene: &Scene, report: &mut ImportReport) -> Result<Self, RigError> {
+    pub(super) fn of(
+        scene: &Scene,
+        known: &[(Role, usize)],
+        report: &mut ImportReport,
+    ) -> Result<Self, RigError> {
         let names = unique_names(scene.nodes.iter().map(|node| node.name.as_str()), "node");
         let locals: Vec<DAffine3> = (scene.nodes.iter().zip(&names))
             .map(|(node, name)| invertible(&node.local, name, report))
@@ -48,7 +52,7 @@ impl Joints {
             })
             .collect();
         let moves = moves(scene);
-        let roles = roles(scene, &names, &moves);
+        let roles = roles(scene, known, &names, &moves);
         report.joints.extend(roles.iter().map(|(role, node)| (*role, names[*node].clone())));
         let node_from_parent = locals.iter().map(|local| local.inverse()).collect();
         Ok(Self { rig, palette, of_node, node_from_parent, roles, moves, names })
@@ -121,9 +125,10 @@ fn moves(scene: &Scene) -> Vec<bool> {
     moves
 }
 
-/// The first node of each role that moves something, from the roots.
-fn roles(scene: &Scene, names: &[String], moves: &[bool]) -> Vec<(Role, usize)> {
-    let mut found: Vec<(Role, usize)> = Vec::new();
+/// The nodes whose roles are known, then the first one of each other role that moves something, from the roots.
+fn roles(scene: &Scene, known: &[(Role, usize)], names: &[String], moves: &[bool]) -> Vec<(Role, usize)> {
+    let is_there = |(_, node): &&(Role, usize)| moves.get(*node).is_some_and(|moves| *moves);
+    let mut found: Vec<(Role, usize)> = known.iter().filter(is_there).copied().collect();
     for &node in scene.order() {
         let role = role_of(&names[node]).filter(|_| moves[node]);
         if let Some(role) = role.filter(|role| found.iter().all(|(other, _)| other != role)) {
