@@ -26,6 +26,14 @@ impl Files {
             Ok(metadata) if metadata.is_dir() => {
                 bail!("{}: expected a file that further files belong to, found a folder", path.display())
             }
+            Ok(_) if Format::of_name(&path.to_string_lossy()).is_none() => {
+                let endings = Format::ALL.iter().flat_map(|format| format.extensions());
+                let endings = endings.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
+                bail!(
+                    "{}: expected the folder of an avatar, or a file that ends in {endings}, found a file of another kind",
+                    path.display()
+                )
+            }
             Ok(_) => import(path, further).map(|import| Self::File(path.to_owned(), Box::new(import))),
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 bail!(

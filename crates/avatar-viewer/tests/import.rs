@@ -153,7 +153,11 @@ fn files_that_are_none_are_refused_with_their_place() {
         ("lies.gltf", with("\"count\": 3", "\"count\": 3000000000"), ["accessor", "expected"]),
         ("lost.gltf", with("tri.bin", "none.bin"), ["none.bin", "expected"]),
         ("out.gltf", with("tri.bin", "../tri.bin"), ["../tri.bin", "expected"]),
-        ("what.xyz", Vec::new(), ["expected one that ends in .glb", "what.xyz"]),
+        (
+            "what.xyz",
+            Vec::new(),
+            ["what.xyz: expected the folder of an avatar, or a file that ends in .glb", "found"],
+        ),
     ] {
         let bad = folder.path().join(name);
         fs::write(&bad, bytes).expect("written");
