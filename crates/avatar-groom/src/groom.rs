@@ -61,7 +61,7 @@ impl Groom {
         let guides = guides::choose(&roots);
         let head_bone = head_bone(skin, &roots);
         let mut groom = Self {
-            combs: roots.iter().map(|root| comb(skin, root, &style, middle, height)).collect(),
+            combs: roots.iter().map(|root| comb(skin, root, eyes, &style, middle, height)).collect(),
             lengths: roots.iter().map(|root| length(skin, density, root, &style, height)).collect(),
             guide_of: guides::assign(&roots, &positions, &guides, |p| p.x < parting),
             phases: Vec::new(),
@@ -169,14 +169,18 @@ fn position(skin: &Mesh, root: &Root) -> Vec3 {
 }
 
 /// Where a strand is combed, in the frame of its triangle.
-fn comb(skin: &Mesh, root: &Root, style: &Style, middle: f32, height: f32) -> Vec3 {
+fn comb(skin: &Mesh, root: &Root, eyes: &[Bounds], style: &Style, middle: f32, height: f32) -> Vec3 {
     let region = style.region(root.region);
-    let x = position(skin, root).x
-        - middle
-        - if root.region == Region::Scalp { region.parting * height } else { 0.0 };
+    let place = position(skin, root);
+    let x = place.x - middle - if root.region == Region::Scalp { region.parting * height } else { 0.0 };
     // Away from the parting on both sides, without a jump at it.
     let side = (x / (0.004 * height)).clamp(-1.0, 1.0);
     let [away, up, forward] = region.comb;
+    // Lashes of lower lids are the mirror of those above the eye.
+    let eye =
+        eyes.iter().map(|eye| eye.center()).min_by(|a, b| a.distance(place).total_cmp(&b.distance(place)));
+    let is_lower = root.region == Region::Lashes && eye.is_some_and(|eye| place.y < eye.y);
+    let up = if is_lower { -up } else { up };
     let bind = Vec3::new(away * side, up, forward);
     let corner = |i: usize| skin.positions.get(root.corners[i] as usize).copied().unwrap_or(Vec3::ZERO);
     let [x, y, z] = axes([corner(0), corner(1), corner(2)]);

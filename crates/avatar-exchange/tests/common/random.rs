@@ -294,7 +294,7 @@ pub fn awkward(seed: u64) -> RawScene {
     }
     for material in &mut scene.materials {
         material.metallic = 3.0 * r.float();
-        material.emissive[0] = f32::NAN;
+        material.emissive[0] = -1.0;
     }
     scene.images.iter_mut().filter(|_| r.chance(3)).for_each(|image| image.bytes.clear());
     scene
