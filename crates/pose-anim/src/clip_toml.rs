@@ -7,6 +7,8 @@ use placed_toml::{Document, Entry, Table, TomlError, quote};
 
 const TIME: &str = "a number of seconds from 0 to 1000000, not before the previous key's";
 const SLOPES: &str = "[leaving, arriving]: the slopes of a cubic, per second, here and at the next key";
+const RISE: &str = "by how much the whole rises, from -1e9 to 1e9";
+const FARTHEST: f64 = 1e9;
 
 pub(crate) fn read(source: &str, controls: &ControlTable) -> Result<ClipSet, TomlError> {
     let document = Document::parse(source)?;
@@ -68,16 +70,42 @@ fn keys(entry: &Entry<'_, '_>, control: &Control) -> Result<Vec<Key>, TomlError>
             key.transition = Transition::Ease(transition(&entry)?);
         }
         if let Some(entry) = table.take("slopes") {
-            let slopes: Vec<f32> =
-                entry.array()?.iter().map(|item| item.number(SLOPES)).collect::<Result<_, _>>()?;
+            let slopes: Vec<f64> =
+                entry.array()?.iter().map(|item| item.precise(SLOPES)).collect::<Result<_, _>>()?;
             let [leaving, arriving] = slopes[..] else { return Err(entry.error_found(SLOPES)) };
             if key.transition != Transition::LINEAR {
                 return Err(entry.error("either a transition or slopes", "both"));
             }
-            key.transition = Transition::Hermite { leaving: leaving.into(), arriving: arriving.into() };
+            key.transition = Transition::Hermite { leaving, arriving };
         }
-        table.finish(&["t", "v", "transition", "slopes"])?;
+        if let Some(entry) = table.take("part") {
+            if key.transition != Transition::LINEAR {
+                return Err(entry.error("either a transition, slopes or part of a transition", "two of them"));
+            }
+            key.transition = part(&entry)?;
+        }
+        table.finish(&["t", "v", "transition", "slopes", "part"])?;
         keys.push(key);
     }
     if keys.is_empty() { Err(entry.error("at least one key", "none")) } else { Ok(keys) }
+}
+
+/// What baking a key into an eased span leaves on either side.
+fn part(entry: &Entry<'_, '_>) -> Result<Transition, TomlError> {
+    let mut table = entry.table()?;
+    let easing = transition(&table.require("of", "the transition of the whole")?)?;
+    let mut share = |name| {
+        let expected = "a share of the whole's time, from 0 to 1";
+        let entry = table.require(name, expected)?;
+        let share = entry.precise(expected)?;
+        if (0.0..=1.0).contains(&share) { Ok(share) } else { Err(entry.error_found(expected)) }
+    };
+    let (from, to) = (share("from")?, share("to")?);
+    let rise = table.require("rise", RISE)?;
+    let whole = rise.precise(RISE)?;
+    if !(-FARTHEST..=FARTHEST).contains(&whole) {
+        return Err(rise.error_found(RISE));
+    }
+    table.finish(&["of", "from", "to", "rise"])?;
+    Ok(Transition::Part { easing, from, to, rise: whole })
 }

@@ -114,6 +114,17 @@ impl Easing {
     /// beyond the numbers, and no meaning.
     pub const FURTHEST: f64 = 1000.0;
 
+    /// The name by which [`Self::from_name`] knows the function; `None` for a Bézier curve that has none.
+    pub fn name(self) -> Option<String> {
+        if let Some((name, _)) = PLAIN.iter().find(|(_, plain)| *plain == self) {
+            return Some((*name).to_owned());
+        }
+        let Self::Family(family, direction) = self else { return None };
+        let (family, _) = FAMILIES.iter().find(|(_, other)| *other == family)?;
+        let (direction, _) = DIRECTIONS.iter().find(|(_, other)| *other == direction)?;
+        Some(format!("{family}-{direction}"))
+    }
+
     /// All names that [`Self::from_name`] knows.
     pub fn names() -> Vec<String> {
         let families = FAMILIES.iter().flat_map(|(family, _)| {

@@ -112,13 +112,13 @@ pub(crate) fn transition(entry: &Entry<'_, '_>) -> Result<Easing, TomlError> {
         return Easing::from_name(name).ok_or_else(unknown);
     }
     let Some(items) = entry.as_array() else { return Err(entry.error_found(expected)) };
-    let numbers: Vec<f32> = items.iter().map(|item| item.number(expected)).collect::<Result<_, _>>()?;
+    let numbers: Vec<f64> = items.iter().map(|item| item.precise(expected)).collect::<Result<_, _>>()?;
     match numbers[..] {
         [x1, y1, x2, y2]
             if [x1, x2].iter().all(|x| (0.0..=1.0).contains(x))
-                && Easing::Bezier([x1, y1, x2, y2].map(f64::from)).is_sound() =>
+                && Easing::Bezier([x1, y1, x2, y2]).is_sound() =>
         {
-            Ok(Easing::Bezier([x1, y1, x2, y2].map(f64::from)))
+            Ok(Easing::Bezier([x1, y1, x2, y2]))
         }
         _ => Err(entry.error(expected, format!("an array of {} numbers", items.len()))),
     }

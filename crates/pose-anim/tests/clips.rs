@@ -287,7 +287,15 @@ fn files() {
         ),
         (
             "tracks = { smile = [{ t = 1, v = 1, w = 1 }] }",
-            "clip.tracks.smile.w: expected one of the keys t, v, transition, slopes, found \"w\"",
+            "clip.tracks.smile.w: expected one of the keys t, v, transition, slopes, part, found \"w\"",
+        ),
+        (
+            "tracks = { smile = [{ t = 1, v = 1, transition = 'step', part = { of = 'step', from = 0, to = 1, rise = 1 } }] }",
+            "clip.tracks.smile.part: expected either a transition, slopes or part of a transition, found two of them",
+        ),
+        (
+            "tracks = { smile = [{ t = 1, v = 1, part = { of = 'sine-in', from = 0, to = 2, rise = 1 } }] }",
+            "clip.tracks.smile.part.to: expected a share of the whole's time, from 0 to 1, found 2",
         ),
     ];
     for (rest, expected) in rows {
