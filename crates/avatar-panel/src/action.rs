@@ -1,0 +1,155 @@
+use crate::{PoseForm, Theme};
+use pose_anim::{Easing, Wrap};
+
+/// What the user wants. The panel changes nothing by itself but its own [`crate::PanelState`]: whoever shows it carries actions out, in
+/// their order, and shows what came of it in the next [`crate::Model`].
+///
+/// Indices are those of the model that was shown. Times are seconds, values those of the control: degrees, units of the rig or weights.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Gives a control a value within its range.
+    SetControl {
+        /// Index of the control.
+        control: usize,
+        /// Its new value.
+        value: f32,
+        /// Whether more of the same change is to come: the pointer still holds the slider. A change by keyboard comes as a whole.
+        dragging: bool,
+    },
+    /// Takes a control back to its default.
+    ResetControl(usize),
+    /// Takes all controls back to their defaults.
+    ResetAll,
+    /// The pointer or the keyboard is now on this control, or on none. Sent when it changes.
+    Hover(Option<usize>),
+
+    /// Goes to a pose.
+    GoTo(usize),
+    /// Makes a pose of the present face, after all others. The form has been checked.
+    SavePose(PoseForm),
+    /// Renames a pose or gives it another key or duration; its values stay. The form has been checked.
+    EditPose {
+        /// Index of the pose.
+        index: usize,
+        /// What it is to be.
+        form: PoseForm,
+    },
+    /// Gives a pose the values of the present face.
+    UpdatePose(usize),
+    /// Moves a pose in the order.
+    MovePose {
+        /// Where it is.
+        from: usize,
+        /// Its index afterwards.
+        to: usize,
+    },
+    /// Deletes a pose.
+    DeletePose(usize),
+    /// Takes back what [`crate::Model::can_undo`] names.
+    Undo,
+    /// Does again what [`crate::Model::can_redo`] names.
+    Redo,
+
+    /// Plays a clip: from where it was paused, or else from its start.
+    Play(usize),
+    /// Halts the clip where it is.
+    Pause,
+    /// Ends the clip and goes to its start.
+    Stop,
+    /// Sets what follows the end of a clip.
+    SetWrap {
+        /// Index of the clip.
+        clip: usize,
+        /// What follows.
+        wrap: Wrap,
+    },
+    /// Shows the clip at a time, paused.
+    Scrub {
+        /// Index of the clip.
+        clip: usize,
+        /// Seconds from its start, at least 0.
+        time_secs: f64,
+    },
+    /// Bakes the in-between at a time into a key; where the control has no track, the present value begins one.
+    InsertKey {
+        /// Index of the clip.
+        clip: usize,
+        /// Index of the control.
+        control: usize,
+        /// Seconds from the clip's start.
+        time_secs: f64,
+    },
+    /// Moves a key in time, between its neighbours, and in value.
+    MoveKey {
+        /// Index of the clip.
+        clip: usize,
+        /// Index of the control whose track it is.
+        control: usize,
+        /// Index of the key in the track.
+        key: usize,
+        /// Its new time.
+        time_secs: f64,
+        /// Its new value.
+        value: f64,
+    },
+    /// Deletes a key; with the last one goes the track.
+    DeleteKey {
+        /// Index of the clip.
+        clip: usize,
+        /// Index of the control whose track it is.
+        control: usize,
+        /// Index of the key in the track.
+        key: usize,
+    },
+    /// Sets how a track goes on from a key.
+    SetTransition {
+        /// Index of the clip.
+        clip: usize,
+        /// Index of the control whose track it is.
+        control: usize,
+        /// Index of the key in the track.
+        key: usize,
+        /// The transition function of the span that begins there.
+        easing: Easing,
+    },
+    /// Makes an empty clip.
+    NewClip,
+    /// Deletes a clip.
+    DeleteClip(usize),
+    /// Begins to record the face's motion into a new clip.
+    StartRecording,
+    /// Ends the recording.
+    StopRecording,
+    /// Writes the clips to their file.
+    SaveClips,
+
+    /// Asks for a file and opens it.
+    OpenFile,
+    /// Opens a file again.
+    OpenRecent(usize),
+    /// Takes a message away.
+    Dismiss(usize),
+    /// Saves the picture.
+    Picture,
+    /// Films the clip that is chosen, or else the present face.
+    Film {
+        /// Index in [`crate::Model::film_formats`].
+        format: usize,
+        /// Index of the clip.
+        clip: Option<usize>,
+    },
+    /// Ends the film that is being made, and discards it.
+    StopFilm,
+    /// Takes the camera to a place: the index in [`crate::Model::cameras`].
+    Camera(usize),
+    /// Fills the screen, or no longer.
+    FullScreen,
+    /// The theme has changed. The panel has told egui already; this is for the window and its background.
+    Theme(Theme),
+    /// The scale of text has changed; the panel has told egui already.
+    TextScale(f32),
+    /// [`crate::Panel::state`] has changed: a good moment to store it.
+    Remember,
+    /// Ends the program.
+    Quit,
+}
