@@ -1,5 +1,5 @@
 use avatar_mesh::Bounds;
-use glam::{Affine3A, Mat4, Quat, Vec3, Vec4};
+use glam::{Affine3A, Mat4, Quat, Vec2, Vec3, Vec4};
 
 /// Where a picture is taken from. Its own axes: +X right, +Y up, looking along −Z.
 ///
@@ -15,6 +15,9 @@ pub struct Camera {
     pub aspect: f32,
     /// Distance of the near plane.
     pub near: f32,
+    /// Where in the picture that is seen which lies straight ahead, as a lens is shifted: from −1 to 1, +x right, +y up; (0, 0) is
+    /// the middle. What covers a part of the picture leaves the face in the middle of the rest.
+    pub shift: Vec2,
 }
 
 /// The near plane of a camera around a target, as a share of the distance.
@@ -40,6 +43,7 @@ impl Camera {
             vertical_fov_rad,
             aspect,
             near: (distance.abs() * NEAR_SHARE).max(1e-4),
+            shift: Vec2::ZERO,
         }
     }
 
@@ -59,6 +63,23 @@ impl Camera {
         Self::orbit(bounds.center(), distance, yaw_rad, pitch_rad, vertical_fov_rad, aspect)
     }
 
+    /// The camera of a larger picture, of this width and height, that shows in the rectangle between `min` and `max` what
+    /// this one shows in the whole; all in pixels, y down, as windows count.
+    #[must_use]
+    pub fn within(self, size: Vec2, min: Vec2, max: Vec2) -> Self {
+        let (free, middle) = (max - min, (min + max) / 2.0);
+        if !(free.min_element() >= 1.0 && size.min_element() >= 1.0 && free.is_finite() && size.is_finite()) {
+            return self;
+        }
+        let slope = half_fov_tan(self.vertical_fov_rad) * size.y / free.y;
+        Self {
+            vertical_fov_rad: 2.0 * slope.atan(),
+            aspect: size.x / size.y,
+            shift: (middle / size * 2.0 - 1.0) * Vec2::new(1.0, -1.0),
+            ..self
+        }
+    }
+
     /// Where the camera stands.
     pub fn eye(&self) -> Vec3 {
         self.world_from_camera.translation.into()
@@ -67,11 +88,11 @@ impl Camera {
     /// The matrix that takes points of the world to clip space. A field of view outside 0…180° and an aspect or a
     /// near plane that is not positive are replaced by the nearest usable number.
     pub fn clip_from_world(&self) -> Mat4 {
-        let (zoom, near) = (self.zoom(), self.valid_near());
+        let (zoom, near, shift) = (self.zoom(), self.valid_near(), self.valid_shift());
         let clip_from_camera = Mat4::from_cols(
             Vec4::new(zoom / valid_aspect(self.aspect), 0.0, 0.0, 0.0),
             Vec4::new(0.0, zoom, 0.0, 0.0),
-            Vec4::new(0.0, 0.0, 0.0, -1.0),
+            Vec4::new(-shift.x, -shift.y, 0.0, -1.0),
             Vec4::new(0.0, 0.0, near, 0.0),
         );
         clip_from_camera * Mat4::from(self.world_from_camera.inverse())
@@ -79,12 +100,13 @@ impl Camera {
 
     /// The way back, in closed form: far depths have no well-conditioned inverse.
     pub(crate) fn world_from_clip(&self) -> Mat4 {
-        let (zoom, near) = (self.zoom(), self.valid_near());
+        let (zoom, near, shift) = (self.zoom(), self.valid_near(), self.valid_shift());
+        let slope_x = valid_aspect(self.aspect) / zoom;
         let camera_from_clip = Mat4::from_cols(
-            Vec4::new(valid_aspect(self.aspect) / zoom, 0.0, 0.0, 0.0),
+            Vec4::new(slope_x, 0.0, 0.0, 0.0),
             Vec4::new(0.0, 1.0 / zoom, 0.0, 0.0),
             Vec4::new(0.0, 0.0, 0.0, 1.0 / near),
-            Vec4::new(0.0, 0.0, -1.0, 0.0),
+            Vec4::new(-shift.x * slope_x, -shift.y / zoom, -1.0, 0.0),
         );
         Mat4::from(self.world_from_camera) * camera_from_clip
     }
@@ -97,6 +119,10 @@ impl Camera {
     /// The near plane that is used.
     pub(crate) fn valid_near(&self) -> f32 {
         if self.near > 0.0 { self.near } else { 1e-4 }
+    }
+
+    fn valid_shift(&self) -> Vec2 {
+        if self.shift.is_finite() { self.shift } else { Vec2::ZERO }
     }
 }
 
@@ -167,11 +193,28 @@ mod tests {
 
     #[test]
     fn clip_space_leads_back_to_the_world() {
-        let camera = Camera::orbit(Vec3::new(1.0, 2.0, 3.0), 30.0, 0.4, -0.3, 0.5, 1.7);
+        let straight = Camera::orbit(Vec3::new(1.0, 2.0, 3.0), 30.0, 0.4, -0.3, 0.5, 1.7);
+        let camera = Camera { shift: Vec2::new(0.4, -0.3), ..straight };
         for point in [Vec3::ZERO, Vec3::new(3.0, -2.0, 5.0), Vec3::new(-4.0, 8.0, -20.0)] {
             let there = camera.clip_from_world().project_point3(point);
             assert!((camera.world_from_clip().project_point3(there) - point).length() < 1e-3);
         }
+    }
+
+    #[test]
+    fn a_picture_in_a_larger_one_is_the_same_picture() {
+        let camera = Camera::orbit(Vec3::new(1.0, 2.0, 3.0), 30.0, 0.4, -0.3, 0.5, 300.0 / 200.0);
+        let (size, min, max) = (Vec2::new(640.0, 480.0), Vec2::new(320.0, 30.0), Vec2::new(620.0, 230.0));
+        let within = camera.within(size, min, max);
+        let pixel = |camera: Camera, point: Vec3, size: Vec2| {
+            let clip = camera.clip_from_world().project_point3(point);
+            (Vec2::new(clip.x, -clip.y) + 1.0) / 2.0 * size
+        };
+        for point in [Vec3::ZERO, Vec3::new(3.0, -2.0, 5.0), Vec3::new(-4.0, 8.0, -20.0)] {
+            let alone = pixel(camera, point, Vec2::new(300.0, 200.0));
+            assert!((pixel(within, point, size) - (alone + min)).length() < 1e-3, "{point}");
+        }
+        assert_eq!(camera.within(size, max, min), camera);
     }
 
     #[test]
@@ -182,6 +225,7 @@ mod tests {
                 vertical_fov_rad: bad,
                 aspect: bad,
                 near: if bad.is_infinite() { 0.0 } else { bad },
+                shift: Vec2::splat(bad),
             };
             assert!(camera.clip_from_world().is_finite(), "{bad}");
         }
