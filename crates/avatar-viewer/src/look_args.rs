@@ -109,7 +109,6 @@ impl LookArgs {
             Quality::Plain | Quality::Low => LOW_SHARE,
             Quality::Medium | Quality::High => 1.0,
         };
-        let share = std::env::var("SHARE").ok().and_then(|s| s.parse().ok()).unwrap_or(share);
         HairDetail { share, ..HairDetail::default() }
     }
 

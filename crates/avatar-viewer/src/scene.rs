@@ -28,12 +28,15 @@ pub(crate) struct View {
     pub(crate) pitch_degrees: f32,
     /// Distance as a multiple of the one that shows the whole head, or the part.
     pub(crate) distance: f32,
+    /// By how much the head is moved in the picture, to the right and up, in heights of the picture that shows the whole head.
+    pub(crate) pan: [f32; 2],
     /// The part that fills the picture, where it is at bind pose; `None` for the whole head.
     pub(crate) part: Option<usize>,
 }
 
 impl View {
-    pub(crate) const FRONT: Self = Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0, part: None };
+    pub(crate) const FRONT: Self = 
+        Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0, pan: [0.0; 2], part: None };
     pub(crate) const THREE_QUARTER: Self = Self { yaw_degrees: 35.0, ..Self::FRONT };
 }
 
@@ -60,7 +63,12 @@ pub(crate) fn scene(
     let round = Bounds { min: bounds.center() - half, max: bounds.center() + half };
     let whole_head = Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
     let (yaw, pitch) = (view.yaw_degrees.to_radians(), view.pitch_degrees.to_radians());
-    let camera = Camera::orbit(bounds.center(), whole_head * view.distance, yaw, pitch, fov, aspect);
+    let straight = Camera::orbit(bounds.center(), whole_head * view.distance, yaw, pitch, fov, aspect);
+    // What lies at the head's distance moves by these shares of the picture.
+    let height = 2.0 * whole_head * (fov / 2.0).tan();
+    let [right, up] = view.pan.map(|share| share * height);
+    let aside = straight.world_from_camera.transform_vector3(glam::Vec3::new(right, up, 0.0));
+    let camera = Camera::orbit(bounds.center() - aside, whole_head * view.distance, yaw, pitch, fov, aspect);
     Scene { camera, background: linear_from_srgb8(background), light }
 }
 
