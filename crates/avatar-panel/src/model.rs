@@ -52,6 +52,42 @@ pub struct Model<'a> {
     pub full_screen: bool,
 }
 
+impl<'a> Model<'a> {
+    /// A face with its controls and poses, and nothing else: no values (each control shows its default), no clips, no keys.
+    pub const fn new(controls: &'a ControlTable, poses: &'a PoseSet) -> Self {
+        Self {
+            controls,
+            values: &[],
+            highlighted: &[],
+            poses,
+            thumbnails: &[],
+            active_pose: None,
+            can_save: Ok(()),
+            can_undo: None,
+            can_redo: None,
+            clips: &[],
+            clips_changed: false,
+            playback: Playback {
+                clip: None,
+                time_secs: 0.0,
+                playing: false,
+                recording_secs: None,
+                frame_rate: 60.0,
+            },
+            keys: &[],
+            reserved_keys: &[],
+            messages: &[],
+            loading: None,
+            stats: Stats { adapter: "", triangles: 0, strands: 0, passes: &[], frame_ms: &[] },
+            recent: &[],
+            cameras: &[],
+            film_formats: &[],
+            film: None,
+            full_screen: false,
+        }
+    }
+}
+
 /// What plays, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {

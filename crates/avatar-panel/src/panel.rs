@@ -1,15 +1,31 @@
-use crate::{Action, Model, PanelState};
+use crate::clips;
+use crate::face::Face;
+use crate::poses::Poses;
+use crate::timeline::Timeline;
+use crate::widgets::{Icon, icon_button};
+use crate::{Action, Model, PanelState, Tab, help, notices, overlay, style, view};
+use egui::{Align, Align2, Area, Context, Id, Layout, Order, Rect, Ui, vec2};
 
-/// The panel over the picture, and what it has in mind from frame to frame.
+/// The panel over the picture, and what it has in mind from frame to frame. One panel goes with one [`egui::Context`].
 #[derive(Clone, Debug, Default)]
 pub struct Panel {
     state: PanelState,
+    face: Face,
+    poses: Poses,
+    timeline: Timeline,
+    help: bool,
+    /// What the context has been told of the state.
+    told: Option<PanelState>,
 }
+
+/// Share of the window's width that the panel may cover, and of its height the timeline.
+const WIDEST: f32 = 0.6;
+const HIGHEST: f32 = 0.42;
 
 impl Panel {
     /// A panel as it was left.
     pub fn new(state: PanelState) -> Self {
-        Self { state: state.sound() }
+        Self { state: state.sound(), ..Self::default() }
     }
 
     /// What is to be remembered.
@@ -17,12 +33,158 @@ impl Panel {
         self.state.clone()
     }
 
-    /// Opens or closes the help. The keys F1 and ? do so by themselves.
-    pub fn toggle_help(&mut self) {}
+    /// Opens or closes the help. The keys F1, ? and Escape are seen by [`Self::show`] itself: a window that forwards its keys to egui must
+    /// not call this for them, too.
+    pub fn toggle_help(&mut self) {
+        self.help = !self.help;
+    }
+
+    /// Folds the panel away, or opens it.
+    pub fn toggle_folded(&mut self) {
+        self.state.folded = !self.state.folded;
+    }
+
+    /// Whether keys belong to the panel now: text is being typed, or the help is open. Otherwise a window may take keys for poses even
+    /// while a button has the keyboard; what moves within the panel (Tab, arrows, Enter, Space, Delete) is then
+    /// [`egui::Context::egui_wants_keyboard_input`]'s.
+    pub fn takes_keys(&self, ctx: &Context) -> bool {
+        self.help || ctx.text_edit_focused()
+    }
 
     /// Shows everything in a window's root and appends what the user wants. Returns the rectangle that is left for the face, in points of
     /// the context (times [`egui::Context::pixels_per_point`]: pixels).
-    pub fn show(&mut self, ui: &mut egui::Ui, _model: &Model<'_>, _actions: &mut Vec<Action>) -> egui::Rect {
-        ui.available_rect_before_wrap()
+    pub fn show(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) -> Rect {
+        let ctx = ui.ctx().clone();
+        self.prepare(&ctx);
+        help::listen(&ctx, &mut self.help);
+        notices::show(ui, model, actions);
+        if self.state.folded {
+            self.face.hover(None, actions);
+        } else {
+            self.show_timeline(ui, model, actions);
+            self.show_side(ui, model, actions);
+        }
+        let free = ui.available_rect_before_wrap();
+        if self.state.folded {
+            self.opener(&ctx, free);
+        }
+        if self.state.show_stats {
+            overlay::stats(&ctx, free, &model.stats);
+        }
+        if !self.state.seen_hint {
+            overlay::hint(&ctx, free, &mut self.state);
+        }
+        if self.help {
+            help::show(&ctx, model.keys, &mut self.help);
+        }
+        self.remember(actions);
+        free
+    }
+
+    /// Tells the context of looks, theme and scale where they have changed.
+    fn prepare(&mut self, ctx: &Context) {
+        match &mut self.told {
+            None => {
+                style::apply(ctx);
+                style::set_theme(ctx, self.state.theme);
+                ctx.set_zoom_factor(self.state.text_scale);
+            }
+            Some(told) => {
+                if told.theme != self.state.theme {
+                    style::set_theme(ctx, self.state.theme);
+                }
+                if told.text_scale != self.state.text_scale {
+                    ctx.set_zoom_factor(self.state.text_scale);
+                } else if ctx.zoom_factor() != self.state.text_scale {
+                    // By egui's own keys.
+                    self.state.text_scale = ctx.zoom_factor();
+                    self.state = self.state.clone().sound();
+                }
+            }
+        }
+    }
+
+    fn remember(&mut self, actions: &mut Vec<Action>) {
+        if self.told.as_ref() != Some(&self.state) {
+            if self.told.is_some() {
+                actions.push(Action::Remember);
+            }
+            self.told = Some(self.state.clone());
+        }
+    }
+
+    fn show_timeline(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
+        if self.timeline.refresh(model).is_none() || self.state.tab != Tab::Clips {
+            return;
+        }
+        let folded = &mut self.state.timeline_folded;
+        let (frame, whole) = (style::edge_frame(ui), ui.available_height());
+        let panel = if *folded {
+            egui::Panel::bottom("avatar-panel folded timeline")
+        } else {
+            let height = (HIGHEST * whole).clamp(120.0, 420.0);
+            egui::Panel::bottom("avatar-panel timeline")
+                .resizable(true)
+                .default_size(height.min(240.0))
+                .size_range(90.0..=height)
+        };
+        panel.frame(frame).show(ui, |ui| self.timeline.show(ui, model, folded, actions));
+    }
+
+    fn show_side(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
+        let widest = (WIDEST * ui.available_width()).max(200.0).min(ui.available_width());
+        let (least, most) = (PanelState::WIDTHS.start().min(widest), PanelState::WIDTHS.end().min(widest));
+        let panel = egui::Panel::right("avatar-panel side").resizable(true).show_separator_line(false);
+        let panel = panel.default_size(self.state.width.clamp(least, most)).size_range(least..=most);
+        let shown = panel.frame(style::edge_frame(ui)).show(ui, |ui| {
+            self.tabs(ui);
+            ui.add_space(2.0);
+            match self.state.tab {
+                Tab::Face => self.face.show(ui, model, actions),
+                Tab::Poses => self.poses.show(ui, model, actions),
+                Tab::Clips => clips::show(ui, model, &mut self.timeline.clip, actions),
+                Tab::View => view::show(ui, model, &mut self.state, self.timeline.clip, actions),
+            }
+            if self.state.tab != Tab::Face {
+                self.face.hover(None, actions);
+            }
+        });
+        // Where the window narrows it, the user's own width is kept for wider ones.
+        let width = shown.response.rect.width();
+        if width < widest - 1.0 && (width - self.state.width).abs() > 1.0 {
+            self.state.width = width;
+        }
+    }
+
+    fn tabs(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            for (tab, name) in Tab::ALL {
+                let button = ui.selectable_label(self.state.tab == tab, name);
+                crate::widgets::named(&button, || format!("{name} tab"));
+                if button.clicked() {
+                    self.state.tab = tab;
+                }
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.spacing_mut().item_spacing.x = 4.0;
+                if icon_button(ui, Icon::Right, "Fold the panel").clicked() {
+                    self.state.folded = true;
+                }
+                if icon_button(ui, Icon::Help, "Help").clicked() {
+                    self.help = true;
+                }
+            });
+        });
+    }
+
+    /// The button that opens the folded panel.
+    fn opener(&mut self, ctx: &Context, free: Rect) {
+        let area = Area::new(Id::unique("avatar-panel opener")).order(Order::Middle).pivot(Align2::RIGHT_TOP);
+        area.fixed_pos(free.right_top() + vec2(-10.0, 10.0)).show(ctx, |ui| {
+            if icon_button(ui, Icon::Left, "Open the panel").clicked() {
+                self.state.folded = false;
+            }
+        });
     }
 }

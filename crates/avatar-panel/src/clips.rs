@@ -1,0 +1,59 @@
+//! The list of clips. The chosen one is what the timeline shows.
+
+use crate::widgets::{Icon, icon_button, icon_button_if};
+use crate::{Action, Model};
+use egui::{Button, RichText, ScrollArea, Ui};
+
+pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        match model.playback.recording_secs {
+            Some(secs) => {
+                if icon_button(ui, Icon::Stop, "Stop recording").clicked() {
+                    actions.push(Action::StopRecording);
+                }
+                ui.colored_label(crate::style::palette(ui).record, format!("{secs:.1} s"));
+            }
+            None => {
+                if icon_button(ui, Icon::Record, "Record the face's motion").clicked() {
+                    actions.push(Action::StartRecording);
+                }
+            }
+        }
+        if icon_button(ui, Icon::Plus, "New clip").clicked() {
+            actions.push(Action::NewClip);
+        }
+        if let Some(index) = *chosen
+            && let Some(clip) = model.clips.get(index)
+            && icon_button_if(ui, true, Icon::Minus, &format!("Delete clip {}", clip.name)).clicked()
+        {
+            actions.push(Action::DeleteClip(index));
+        }
+        if ui.add_enabled(model.clips_changed, Button::new("Save clips")).clicked() {
+            actions.push(Action::SaveClips);
+        }
+    });
+    ui.separator();
+    if model.clips.is_empty() {
+        ui.weak("No clips yet. Record the face's motion, or begin a new clip.");
+    }
+    ScrollArea::vertical().id_salt("clips").auto_shrink(false).show(ui, |ui| {
+        for (index, clip) in model.clips.iter().enumerate() {
+            let playing = model.playback.playing && model.playback.clip == Some(index);
+            let name = RichText::new(&clip.name);
+            let name = if playing { name.strong() } else { name };
+            let key = clip.key.as_ref().map_or_else(String::new, |key| format!("{key}  "));
+            let right = RichText::new(format!("{key}{:.2} s", clip.duration_secs())).weak();
+            let row = Button::selectable(*chosen == Some(index), name).right_text(right);
+            let response = ui.add(row.min_size(egui::vec2(ui.available_width(), 0.0)));
+            crate::widgets::named(&response, || {
+                format!("clip {}{}", clip.name, if playing { ", playing" } else { "" })
+            });
+            if response.clicked() {
+                *chosen = Some(index);
+            }
+            if response.double_clicked() {
+                actions.push(Action::Play(index));
+            }
+        }
+    });
+}
