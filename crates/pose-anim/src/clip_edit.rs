@@ -1,5 +1,5 @@
 use crate::clip::LATEST_SECS;
-use crate::{Clip, ClipError, Easing, Key, Track, Transition};
+use crate::{Clip, ClipError, Easing, Key, Track, Transition, Wrap};
 
 impl Track {
     /// Makes the in-between at a time a key of its own, without changing the curve: exactly up to rounding, for every kind of
@@ -112,6 +112,23 @@ impl Track {
         }
     }
 
+    /// Leaves what is before a time away, and makes it the start.
+    fn keep_from(&mut self, time_secs: f64) -> Result<(), ClipError> {
+        let first = self.bake(time_secs)?;
+        // Of keys at one time the last one says what follows.
+        let same = self.keys.iter().skip(first).take_while(|key| key.time_secs <= time_secs).count();
+        self.keys.drain(..first + same.saturating_sub(1));
+        self.keys.iter_mut().for_each(|key| key.time_secs -= time_secs);
+        Ok(())
+    }
+
+    /// Leaves what is after a time away.
+    fn keep_until(&mut self, time_secs: f64) -> Result<(), ClipError> {
+        let last = self.bake(time_secs)?;
+        self.keys.truncate(last + 1);
+        Ok(())
+    }
+
     fn scale_time(&mut self, factor: f64) {
         for key in &mut self.keys {
             key.time_secs *= factor;
@@ -209,5 +226,42 @@ impl Clip {
             }
         }
         Ok(())
+    }
+
+    /// The same motion from a time on: played from its start it does what this clip does from there, through all repetitions. A clip
+    /// that goes to and fro becomes one that repeats the way there and back.
+    ///
+    /// # Errors
+    /// A time below 0 or above 10⁶ s, or NaN; a way there and back that is longer than 10⁶ s.
+    pub fn starting_at(&self, time_secs: f64) -> Result<Self, ClipError> {
+        let mut whole = self.clone();
+        let duration_secs = self.duration_secs();
+        let (from_secs, around) = match self.wrap {
+            Wrap::Loop if duration_secs > 0.0 => (time_secs.rem_euclid(duration_secs), true),
+            Wrap::PingPong if duration_secs > 0.0 => {
+                let mut back = self.clone();
+                back.reverse();
+                whole.append(&back)?;
+                whole.wrap = Wrap::Loop;
+                (time_secs.rem_euclid(2.0 * duration_secs), true)
+            }
+            _ => (time_secs, false),
+        };
+        let mut rest = whole.clone();
+        for track in &mut rest.tracks {
+            track.keep_from(from_secs)?;
+        }
+        if around && from_secs > 0.0 {
+            let end_secs = whole.duration_secs();
+            for track in &mut whole.tracks {
+                track.keep_until(from_secs)?;
+            }
+            // Where all tracks end before the clip does.
+            if let Some(track) = rest.tracks.first_mut() {
+                track.bake(end_secs - from_secs)?;
+            }
+            rest.append(&whole)?;
+        }
+        Ok(rest)
     }
 }

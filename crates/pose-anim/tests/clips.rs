@@ -91,6 +91,31 @@ proptest! {
     }
 
     #[test]
+    fn from_a_time_on_it_is_the_same_motion(
+        track in track(), other in track(), wrap in 0..3usize, from in 0.0f64..2.5, shares in prop::collection::vec(0.0f64..4.0, 20)
+    ) {
+        let other = Track::new(other.control() + 1, other.keys().to_vec()).unwrap();
+        let wrap = [Wrap::Once, Wrap::Loop, Wrap::PingPong][wrap];
+        let clip = Clip::new("c", vec![track, other]).unwrap().wrapped(wrap);
+        let duration_secs = clip.duration_secs();
+        let from_secs = from * duration_secs;
+        let rest = clip.starting_at(from_secs).unwrap();
+        for share in shares {
+            let time_secs = share * duration_secs;
+            for track in clip.tracks() {
+                let control = track.control();
+                let here = rest.at(control, time_secs).unwrap();
+                // Next to a jump rounding decides on which side a time lies.
+                let near = [-1e-9, 0.0, 1e-9].map(|d| clip.at(control, from_secs + time_secs + d).unwrap().value);
+                prop_assert!(
+                    near.iter().any(|there| (here.value - there).abs() < 1e-6),
+                    "{wrap:?} {from_secs} {time_secs}: {} {near:?}", here.value
+                );
+            }
+        }
+    }
+
+    #[test]
     fn derivatives_are_those_of_the_curve(track in track(), share in 0.0f64..1.0) {
         let mut track = track;
         track.bake(share * end(&track)).unwrap();
