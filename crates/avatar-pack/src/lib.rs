@@ -10,7 +10,7 @@
 //!
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and an index
 //! buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally `controls.toml`,
-//! `poses.toml`, `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
+//! `poses.toml`, `clips.toml`, `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
 //! bytes in the program.
 //!
 //! ```
@@ -39,6 +39,6 @@ pub use error::{PackError, PackProblem, Warning};
 pub use export::export;
 pub use face::{FaceError, FaceState};
 pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet};
-pub use pack::{Pack, PaletteBone, Part, load_hair, load_materials};
+pub use pack::{Pack, PaletteBone, Part, load_clips, load_hair, load_materials, load_poses};
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

@@ -5,7 +5,7 @@ use avatar_mesh::{
     Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartKind, PartSpec, Winding, raw,
 };
 use glam::Affine3A;
-use pose_anim::{Binding, ControlTable, PoseSet};
+use pose_anim::{Binding, ClipSet, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
 use std::borrow::Cow;
 
@@ -29,11 +29,13 @@ pub struct Pack {
     pub binding: Binding,
     /// The poses, from `poses.toml` or the default set.
     pub poses: PoseSet,
+    /// Clips of controls, from `clips.toml`.
+    pub clips: ClipSet,
     /// The looks of the parts, from `materials.toml` or the defaults.
     pub materials: Materials,
     /// The hair, from `hair.toml`; `None` where there is none of that name.
     pub hair: Option<Hair>,
-    /// The clips of a file of an interchange format; packs in the raw format have none.
+    /// The clips of a file of an interchange format, of whole joints; packs in the raw format have none.
     pub motion: Option<SceneMotion>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
@@ -67,6 +69,30 @@ pub struct Part {
     pub bounds: Option<Bounds>,
 }
 
+/// The poses that a pack says, or the default set: what [`Pack::load`] takes for [`Pack::poses`], alone.
+///
+/// # Errors
+/// A file of that name that is unreadable or not as its format demands, and where in it.
+pub fn load_poses(source: &impl Source, controls: &ControlTable) -> Result<PoseSet, PackError> {
+    match read_text(source, "poses.toml")? {
+        None => Ok(PoseSet::default_face(controls)),
+        Some(text) => PoseSet::from_toml(&text, controls)
+            .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error))),
+    }
+}
+
+/// The clips that a pack says; none without `clips.toml`.
+///
+/// # Errors
+/// A file of that name that is unreadable or not as its format demands, and where in it.
+pub fn load_clips(source: &impl Source, controls: &ControlTable) -> Result<ClipSet, PackError> {
+    match read_text(source, "clips.toml")? {
+        None => Ok(ClipSet::default()),
+        Some(text) => ClipSet::from_toml(&text, controls)
+            .map_err(|error| at(source, "clips.toml", PackProblem::Toml(error))),
+    }
+}
+
 impl Pack {
     /// Loads a pack in the raw format.
     ///
@@ -82,11 +108,8 @@ impl Pack {
             .collect::<Result<Vec<_>, _>>()?;
 
         let (controls, binding) = load_controls(source, &rig)?;
-        let poses = match read_text(source, "poses.toml")? {
-            None => PoseSet::default_face(&controls),
-            Some(text) => PoseSet::from_toml(&text, &controls)
-                .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error)))?,
-        };
+        let poses = load_poses(source, &controls)?;
+        let clips = load_clips(source, &controls)?;
         let materials = load_materials(source)?;
         let hair = load_hair(source)?;
         let shapes = FACE_SHAPES.map(str::to_owned).into();
@@ -98,6 +121,7 @@ impl Pack {
             controls,
             binding,
             poses,
+            clips,
             materials,
             hair,
             motion: None,

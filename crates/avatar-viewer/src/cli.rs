@@ -32,9 +32,12 @@ pub(crate) struct WindowArgs {
     pub(crate) face: FaceArgs,
     #[command(flatten)]
     pub(crate) look: LookArgs,
-    /// Size of the window's picture in pixels
-    #[arg(long, default_value = "1280x720", value_name = "WIDTHxHEIGHT")]
-    pub(crate) size: Size,
+    /// Size of the window's picture in pixels [default: as it was left, at first 1280x720]
+    #[arg(long, value_name = "WIDTHxHEIGHT")]
+    pub(crate) size: Option<Size>,
+    /// Show nothing but the face
+    #[arg(long)]
+    pub(crate) no_panel: bool,
 }
 
 #[derive(Debug, Subcommand)]

@@ -4,6 +4,7 @@
 //! other. Exit status: 0 on success, 2 where the command line has to be corrected, 1 on any other failure.
 
 mod cli;
+mod config;
 mod face_args;
 mod files;
 mod hair_args;
@@ -12,6 +13,7 @@ mod look_args;
 mod offscreen;
 mod output;
 mod scene;
+mod store;
 mod usage;
 mod verbs;
 mod window;

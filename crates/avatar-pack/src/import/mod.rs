@@ -104,6 +104,7 @@ impl Import {
             controls,
             binding,
             poses,
+            clips: pose_anim::ClipSet::default(),
             materials: Materials::default(),
             hair: None,
             motion: Some(SceneMotion::new(scene, joints.of_node, joints.node_from_parent, shapes.first)),

@@ -1,3 +1,4 @@
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// An opened GPU.
@@ -17,9 +18,12 @@ pub struct Gpu {
     pub errors: GpuErrors,
 }
 
-/// The first error of a device that no call returned. wgpu alone would panic.
+/// The first error of a device that no call returned (wgpu alone would panic), and whether the device is lost.
 #[derive(Clone, Debug, Default)]
-pub struct GpuErrors(Arc<Mutex<Option<String>>>);
+pub struct GpuErrors {
+    first: Arc<Mutex<Option<String>>>,
+    lost: Arc<AtomicBool>,
+}
 
 impl GpuErrors {
     /// The first error since the last call, if there was one.
@@ -27,8 +31,13 @@ impl GpuErrors {
         self.slot().take()
     }
 
+    /// Whether the device is lost, for whatever reason: nothing on it can be used any more, and another has to be opened.
+    pub fn is_lost(&self) -> bool {
+        self.lost.load(Ordering::Relaxed)
+    }
+
     fn slot(&self) -> MutexGuard<'_, Option<String>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.first.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Collects the errors of a device from now on.
@@ -38,6 +47,8 @@ impl GpuErrors {
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
             heard.slot().get_or_insert_with(|| error.to_string());
         }));
+        let lost = Arc::clone(&errors.lost);
+        device.set_device_lost_callback(move |_, _| lost.store(true, Ordering::Relaxed));
         errors
     }
 }

@@ -1,6 +1,7 @@
 use crate::cli::KeysArgs;
+use crate::config;
 use crate::output;
-use crate::window::keys::{MOUSE, WINDOW_KEYS};
+use crate::window::keys::MOUSE;
 use anyhow::Result;
 use std::fmt::Write;
 
@@ -9,14 +10,19 @@ pub(super) fn run(args: &KeysArgs) -> Result<()> {
     let mut out = String::new();
     for pose in pack.poses.iter() {
         if let Some(key) = &pose.key {
-            let _ = writeln!(out, "{key:<12} pose {}", pose.name);
+            let _ = writeln!(out, "{key:<24} pose {}", pose.name);
         }
     }
-    for (_, name, meaning, _) in WINDOW_KEYS {
-        let _ = writeln!(out, "{name:<12} {meaning}");
+    for clip in &pack.clips.clips {
+        if let Some(key) = &clip.key {
+            let _ = writeln!(out, "{key:<24} clip {}", clip.name);
+        }
+    }
+    for (name, row) in config::keys()?.rows() {
+        let _ = writeln!(out, "{name:<24} {}", row.meaning);
     }
     for (gesture, meaning) in MOUSE {
-        let _ = writeln!(out, "{:<12} {meaning}", format!("mouse {gesture}"));
+        let _ = writeln!(out, "{:<24} {meaning}", format!("mouse {gesture}"));
     }
     output::print(&out)
 }

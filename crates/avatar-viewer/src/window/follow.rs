@@ -1,65 +1,105 @@
-//! What changes while the window is open beside pose and camera: files of the pack, and the choice of hair.
+//! What changes while the window is open beside pose and camera: files of the avatar, and the choice of hair.
 
 use super::App;
+use super::messages::About;
+use super::watch::Watched;
 use avatar_groom::Hair;
 use avatar_pack::{load_hair, load_materials};
+use std::time::Instant;
 
 impl App {
-    /// Takes over changed materials; with a mistake in them the old ones stay.
-    pub(super) fn reload_materials(&mut self) {
-        match load_materials(&self.files) {
-            Ok(materials) if materials == self.pack.materials => {}
-            Ok(materials) => {
-                self.pack.materials = materials;
-                let shown = self.stage.as_ref().map_or(Ok(()), |stage| stage.set_materials(&self.pack));
-                if let Err(error) = shown {
-                    eprintln!("error: {error:#}: not all materials are shown");
+    /// Reads files again that changed and have been left alone since.
+    pub(super) fn follow(&mut self) {
+        for (index, file) in Watched::ALL.into_iter().enumerate() {
+            if self.reload_at[index].take_if(|at| *at <= Instant::now()).is_some() {
+                match file {
+                    Watched::Materials => self.reload_materials(),
+                    Watched::Hair => self.reload_hair(),
+                    Watched::Poses => {
+                        let read = self.face.reload_poses();
+                        self.reloaded(About::Poses, "The poses stay as they were.", read);
+                    }
+                    Watched::Clips => {
+                        let read = self.face.reload_clips();
+                        self.reloaded(About::Clips, "The clips stay as they were.", read);
+                    }
                 }
-                self.redraw();
             }
-            Err(error) => eprintln!("error: {error}: the materials stay as they were"),
         }
     }
 
+    fn reloaded(&mut self, about: About, kept: &str, read: anyhow::Result<bool>) {
+        match read {
+            // A mistake that was mended by hand leaves what it was before.
+            Ok(_) => self.messages.settle(about),
+            Err(error) => self.messages.error(about, kept, &error),
+        }
+        self.redraw();
+    }
+
+    /// Takes over changed materials; with a mistake in them the old ones stay.
+    fn reload_materials(&mut self) {
+        match load_materials(&self.face.files) {
+            Ok(materials) if materials == self.face.pack.materials => self.messages.settle(About::Materials),
+            Ok(materials) => {
+                self.face.pack.materials = materials;
+                let shown =
+                    self.stage.as_mut().map_or(Ok(()), |stage| stage.set_materials(&self.face.pack));
+                match shown {
+                    Ok(()) => self.messages.settle(About::Materials),
+                    Err(error) => self.messages.error(About::Materials, "Not all materials are shown.", &error),
+                }
+                self.frames.forget_miniatures();
+            }
+            Err(error) => {
+                self.messages.error(About::Materials, "The materials stay as they were.", &error.into());
+            }
+        }
+        self.redraw();
+    }
+
     /// Takes over changed hair; with a mistake in its file the old one stays.
-    pub(super) fn reload_hair(&mut self) {
-        match load_hair(&self.files) {
-            Ok(hair) if hair == self.pack.hair => {}
+    fn reload_hair(&mut self) {
+        match load_hair(&self.face.files) {
+            Ok(hair) if hair == self.face.pack.hair => self.messages.settle(About::Hair),
             Ok(hair) => {
                 let before = self.chosen_hair();
-                self.pack.hair = hair;
+                self.face.pack.hair = hair;
                 self.change_hair(before);
             }
-            Err(error) => eprintln!("error: {error}: the hair stays as it was"),
+            Err(error) => self.messages.error(About::Hair, "The hair stays as it was.", &error.into()),
         }
+        self.redraw();
     }
 
     /// Plants what is chosen now, if it is not as `before`.
     fn change_hair(&mut self, before: Option<Hair>) {
         let hair = self.chosen_hair();
         let Some(stage) = self.stage.as_mut().filter(|_| hair != before) else { return };
-        if let Err(error) = stage.set_hair(&self.pack, &self.textures, hair) {
-            eprintln!("error: {error:#}: the hair stays as it was");
+        match stage.set_hair(&self.face.pack, &self.face.textures, hair) {
+            Ok(()) => self.messages.settle(About::Hair),
+            Err(error) => self.messages.error(About::Hair, "The hair stays as it was.", &error),
         }
+        self.frames.forget_miniatures();
         self.redraw();
     }
 
     /// The next hair, or the one before.
     pub(super) fn next_hair(&mut self, backward: bool) {
         let before = self.chosen_hair();
-        self.look.hair = self.look.hair.next(self.pack.hair.as_ref(), backward);
+        self.look.hair = self.look.hair.next(self.face.pack.hair.as_ref(), backward);
         self.show_title();
         self.change_hair(before);
     }
 
     fn chosen_hair(&self) -> Option<Hair> {
-        self.look.hair.choose(self.pack.hair.as_ref())
+        self.look.hair.choose(self.face.pack.hair.as_ref())
     }
 
     /// Which hair was chosen by key stands in the title: without a map of hair it is nowhere else to be seen.
     fn show_title(&self) {
         if let Some(stage) = &self.stage {
-            stage.window().set_title(&format!("{} (hair: {})", self.title, self.look.hair.name()));
+            stage.window().set_title(&format!("{} (hair: {})", self.title(), self.look.hair.name()));
         }
     }
 }

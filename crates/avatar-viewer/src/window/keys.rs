@@ -38,8 +38,6 @@ pub(crate) enum Action {
     Help,
     /// Fold the panel, or unfold it.
     Panel,
-    /// Show statistics, or no longer.
-    Stats,
     /// Fill the screen, or no longer.
     FullScreen,
     /// Close the window.
@@ -224,6 +222,17 @@ pub(crate) fn pose(pack: &Pack, logical: &Key, physical: PhysicalKey) -> Option<
         PhysicalKey::Code(code) => digit(code).and_then(named),
         PhysicalKey::Unidentified(_) => None,
     })
+}
+
+/// The clip that this key plays.
+pub(crate) fn clip(pack: &Pack, logical: &Key) -> Option<usize> {
+    let name = match logical {
+        Key::Character(typed) => typed.to_string(),
+        Key::Named(key) => format!("{key:?}"),
+        _ => return None,
+    };
+    let mut clips = pack.clips.clips.iter();
+    clips.position(|clip| clip.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(&name)))
 }
 
 fn digit(code: KeyCode) -> Option<&'static str> {

@@ -1,42 +1,51 @@
-//! The window: winit's events in, presses and camera moves out, a frame drawn only when something moves.
+//! The window: winit's events in, the face and the panel over it out; a frame is drawn only when something changes.
+//!
+//! ```text
+//!  events ─▶ Overlay (egui) ─▶ panel's actions ─┐
+//!     └────▶ keys, pointer ─────────────────────┴─▶ act ─▶ Face (motion, poses, clips) ─▶ Stage (GPU) ─▶ picture
+//!  files, other threads ─▶ Wake ─▶ follow ──────────────────┘
+//! ```
 
+mod act;
+mod camera;
+mod face;
 mod follow;
+mod frame;
+mod key_name;
 pub(crate) mod keys;
+mod loading;
+mod messages;
+mod overlay;
 mod stage;
 mod watch;
 
 use crate::cli::WindowArgs;
+use crate::config::{self, Config};
 use crate::face_args::FaceChoice;
 use crate::files::Files;
 use crate::look_args::LookArgs;
-use crate::scene::View;
 use anyhow::{Context, Result, anyhow};
-use avatar_pack::{FaceState, Pack, Textures};
+use avatar_pack::{Pack, Textures};
+use camera::Camera;
 use clap::ArgMatches;
-use keys::Action;
-use pose_anim::{Player, Pose};
+use face::Face;
+use frame::Frames;
+use keys::Keys;
+use loading::Loading;
+use messages::{About, Messages};
+use overlay::Overlay;
 use stage::Stage;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use watch::{WATCHED, Wake, watch};
+use watch::{Wake, Watched, watch};
 use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
-use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
-use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::event::{ElementState, KeyEvent, Modifiers, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
-/// Degrees that the camera turns for a pixel of dragging.
-const DEGREES_PER_PIXEL: f32 = 0.35;
-/// How far up or down the camera may go: at the poles "up" would flip.
-const MAX_PITCH_DEGREES: f32 = 85.0;
-/// How near and far, as multiples of the distance that shows the whole head.
-const DISTANCES: std::ops::RangeInclusive<f32> = 0.35..=4.0;
-/// One notch of the wheel.
-const WHEEL_ZOOM: f32 = 0.92;
-/// A frame that takes longer (a suspended laptop) does not let the motion jump.
-const MAX_FRAME_SECS: f64 = 0.25;
-/// How long hair swings on after the head has stopped.
-const SWINGS_ON: Duration = Duration::from_millis(1800);
 /// How long a changed file has to be left alone before it is read. Saving is several changes: who reads after the first
 /// one finds an empty file, or none, and who reads after each tells of one mistake several times.
 const SETTLED: Duration = Duration::from_millis(100);
@@ -47,33 +56,57 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let pack = files.load_pack()?;
     let textures = files.load_textures();
     let start = args.face.resolve(&pack, matches)?;
-    keys::dead(&pack).for_each(|warning| eprintln!("warning: {warning}"));
     let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|_| no_display())?;
+    let mut messages = Messages::default();
+    let (mut config, mistake) = match args.no_panel {
+        // Nothing is remembered of a window that shows nothing but the face.
+        true => Default::default(),
+        false => Config::load(),
+    };
+    if let Some(mistake) = mistake {
+        messages.warn(About::Settings, "What was remembered cannot be read.", mistake);
+    }
+    let keys = config::keys().unwrap_or_else(|error| {
+        messages.error(About::Keys, "The usual keys are used.", &error);
+        Keys::default()
+    });
+    keys.dead(&pack).iter().for_each(|warning| eprintln!("warning: {warning}"));
+    if let Some(path) = args.pack.pack.as_deref().filter(|_| !args.no_panel) {
+        config.opened(path);
+    }
+    let size = match (args.size, config.window) {
+        (Some(size), _) => [size.width, size.height],
+        (None, Some(size)) => size,
+        (None, None) => [1280, 720],
+    };
+    let proxy = event_loop.create_proxy();
+    let face = Face::new(files, pack, textures, Some(start))?;
     // Watches as long as it lives.
-    let _watcher = watch(&files, event_loop.create_proxy());
-    let mut player = Player::new(&pack.controls);
-    player.jump_to(&start.start_values())?;
+    let watcher = watch(&face.files, &face.store, proxy.clone());
     let mut app = App {
-        title: format!("Mimik: {}", files.name()),
-        files,
-        size: PhysicalSize::new(args.size.width, args.size.height),
-        state: FaceState::new(&pack),
-        pack,
-        textures,
+        proxy,
+        size: PhysicalSize::new(size[0], size[1]),
+        with_panel: !args.no_panel,
         look: args.look,
-        player,
-        start: Some(start),
-        view: View::FRONT,
+        keys,
+        config,
+        messages,
+        camera: Camera::START,
+        face,
+        overlay: None,
         stage: None,
-        last_frame: None,
-        swing: None,
-        // Nobody told of changes since the pack was loaded.
-        reload_at: [Some(Instant::now() + SETTLED); WATCHED.len()],
+        frames: Frames::default(),
+        loading: None,
+        watcher,
+        // Nobody told of changes since the avatar was loaded.
+        reload_at: [Some(Instant::now() + SETTLED); Watched::ALL.len()],
+        modifiers: Modifiers::default(),
         pointer: PhysicalPosition::default(),
-        dragging: false,
+        dragging: None,
         failure: None,
     };
     event_loop.run_app(&mut app).context("the window's event loop")?;
+    app.remember();
     app.failure.map_or(Ok(()), Err)
 }
 
@@ -88,61 +121,87 @@ fn no_display() -> anyhow::Error {
 }
 
 struct App {
-    title: String,
-    files: Files,
+    proxy: EventLoopProxy<Wake>,
     size: PhysicalSize<u32>,
-    pack: Pack,
-    textures: Textures,
+    with_panel: bool,
     look: LookArgs,
-    player: Player,
-    state: FaceState,
-    /// The face of the command line, with its single controls and joints; until a pose is pressed.
-    start: Option<FaceChoice>,
-    view: View,
+    keys: Keys,
+    config: Config,
+    messages: Messages,
+    camera: Camera,
+    face: Face,
+    overlay: Option<Overlay>,
     stage: Option<Stage>,
-    /// When the last frame of a running motion was drawn; `None` while nothing moves.
-    last_frame: Option<Instant>,
-    /// When the last frame was drawn that hair moved in, and until when it does.
-    swing: Option<(Instant, Instant)>,
+    frames: Frames,
+    loading: Option<Loading>,
+    watcher: Option<notify::RecommendedWatcher>,
     /// When each of the files is read again, unless it changes once more before.
-    reload_at: [Option<Instant>; WATCHED.len()],
+    reload_at: [Option<Instant>; Watched::ALL.len()],
+    modifiers: Modifiers,
     /// The pointer's last place in the window.
     pointer: PhysicalPosition<f64>,
-    dragging: bool,
+    /// What the pointer drags.
+    dragging: Option<Drag>,
     failure: Option<anyhow::Error>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Drag {
+    Orbit,
+    Pan,
 }
 
 impl ApplicationHandler<Wake> for App {
     fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
-        for ((file, _), at) in WATCHED.iter().zip(&mut self.reload_at) {
-            if *file == wake {
-                *at = Some(Instant::now() + SETTLED);
+        match wake {
+            Wake::Changed(file) => {
+                for (watched, at) in Watched::ALL.iter().zip(&mut self.reload_at) {
+                    if *watched == file {
+                        *at = Some(Instant::now() + SETTLED);
+                    }
+                }
+            }
+            Wake::Ready => self.take_loaded(),
+            Wake::Chosen(path) => self.open(&path),
+            Wake::Accessibility(event) => {
+                if let Some(overlay) = &mut self.overlay {
+                    overlay.accesskit(event.window_event);
+                }
+                self.redraw();
             }
         }
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        for (index, (file, _)) in WATCHED.iter().enumerate() {
-            if self.reload_at[index].take_if(|at| *at <= Instant::now()).is_some() {
-                match file {
-                    Wake::Materials => self.reload_materials(),
-                    Wake::Hair => self.reload_hair(),
-                }
-            }
-        }
-        let next = self.reload_at.iter().flatten().min().copied();
+        self.follow();
+        let next = self.reload_at.iter().flatten().copied().chain(self.frames.next()).min();
         event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+
+    fn new_events(&mut self, _: &ActiveEventLoop, _: winit::event::StartCause) {
+        if self.frames.is_due() {
+            self.redraw();
+        }
     }
 
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.stage.is_none()
-            && let Err(error) = self.open(event_loop)
+            && let Err(error) = self.open_window(event_loop)
         {
             self.fail(event_loop, error);
         }
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        // Before the panel sees the event: Escape takes the keyboard from it.
+        let (typing, focused) =
+            self.overlay.as_ref().map_or((false, false), |overlay| (overlay.takes_keys(), overlay.has_focus()));
+        if let (Some(overlay), Some(stage)) = (&mut self.overlay, &self.stage)
+            && !matches!(event, WindowEvent::RedrawRequested)
+            && overlay.event(stage.window(), &event).repaint
+        {
+            self.redraw();
+        }
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::Resized(size) => {
@@ -152,20 +211,28 @@ impl ApplicationHandler<Wake> for App {
                     Err(error) => self.fail(event_loop, error),
                 }
             }
-            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => self.key(event_loop, &event),
-            WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
-                self.dragging = state == ElementState::Pressed;
+            WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => self.redraw(),
+            WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers,
+            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
+                if !typing && !(focused && walks(&event.logical_key)) {
+                    self.key(event_loop, &event);
+                }
             }
+            WindowEvent::MouseInput { state, button, .. } => self.button(state, button),
             WindowEvent::CursorMoved { position, .. } => self.pointer(position),
             WindowEvent::MouseWheel { delta, .. } => {
-                let notches = match delta {
-                    MouseScrollDelta::LineDelta(_, lines) => lines,
-                    MouseScrollDelta::PixelDelta(pixels) => pixels.y as f32 / 40.0,
-                };
-                self.zoom(WHEEL_ZOOM.powf(notches));
+                if !self.overlay.as_ref().is_some_and(Overlay::takes_pointer) {
+                    let notches = match delta {
+                        MouseScrollDelta::LineDelta(_, lines) => lines,
+                        MouseScrollDelta::PixelDelta(pixels) => pixels.y as f32 / 40.0,
+                    };
+                    self.camera.wheel(notches);
+                    self.redraw();
+                }
             }
+            WindowEvent::DroppedFile(path) => self.open(&path),
             WindowEvent::RedrawRequested => {
-                if let Err(error) = self.frame() {
+                if let Err(error) = self.frame(event_loop) {
                     self.fail(event_loop, error);
                 }
             }
@@ -174,18 +241,64 @@ impl ApplicationHandler<Wake> for App {
     }
 }
 
+/// Whether a key moves within the panel while a part of the panel has the keyboard.
+fn walks(key: &Key) -> bool {
+    matches!(
+        key,
+        Key::Named(
+            NamedKey::Tab
+                | NamedKey::Enter
+                | NamedKey::Space
+                | NamedKey::Escape
+                | NamedKey::Delete
+                | NamedKey::Backspace
+                | NamedKey::ArrowLeft
+                | NamedKey::ArrowRight
+                | NamedKey::ArrowUp
+                | NamedKey::ArrowDown
+        )
+    )
+}
+
 impl App {
-    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
-        let attributes = Window::default_attributes().with_title(&self.title).with_inner_size(self.size);
+    fn title(&self) -> String {
+        format!("Mimik: {}", self.face.files.name())
+    }
+
+    fn open_window(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
+        // A window that is seen before AccessKit knows of it is never read to anybody.
+        let attributes = Window::default_attributes()
+            .with_title(self.title())
+            .with_inner_size(self.size)
+            .with_visible(!self.with_panel);
         let window = event_loop.create_window(attributes).context("expected a window, found none")?;
-        let stage = Stage::open(
-            Arc::new(window),
-            event_loop.owned_display_handle(),
-            &self.pack,
-            &self.textures,
-            self.look,
-        )?;
-        self.stage = Some(stage);
+        if self.with_panel {
+            let panel = self.config.panel.clone();
+            self.overlay = Some(Overlay::new(event_loop, &window, self.proxy.clone(), panel));
+            window.set_visible(true);
+        }
+        self.open_stage(event_loop, Arc::new(window))?;
+        self.redraw();
+        Ok(())
+    }
+
+    fn open_stage(&mut self, event_loop: &ActiveEventLoop, window: Arc<Window>) -> Result<()> {
+        let display = event_loop.owned_display_handle();
+        self.stage = Some(Stage::open(window, display, &self.face.pack, &self.face.textures, self.look)?);
+        Ok(())
+    }
+
+    /// Everything on the device is gone: the same face on another one.
+    fn reopen(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
+        let Some(window) = self.stage.take().map(Stage::into_window) else { return Ok(()) };
+        if let Some(overlay) = &self.overlay {
+            let state = overlay.panel.state();
+            self.overlay = None;
+            self.overlay = Some(Overlay::new(event_loop, &window, self.proxy.clone(), state));
+        }
+        self.frames.forget_miniatures();
+        self.open_stage(event_loop, window).context("the graphics device was lost")?;
+        self.messages.news(About::Device, "The graphics device was lost, and opened again.", "");
         self.redraw();
         Ok(())
     }
@@ -205,100 +318,118 @@ impl App {
         if event.state != ElementState::Pressed {
             return;
         }
-        match keys::action(&event.logical_key) {
-            Some(Action::Close) => event_loop.exit(),
-            Some(Action::Orbit(yaw, pitch)) => self.orbit(yaw, pitch),
-            Some(Action::Zoom(factor)) => self.zoom(factor),
-            Some(Action::Front) => {
-                self.view = View::FRONT;
-                self.redraw();
+        if self.keys.has(&event.logical_key, &self.modifiers) {
+            if let Some(action) = self.keys.action(&event.logical_key, &self.modifiers, event.repeat) {
+                self.act_on_key(event_loop, action, &event.logical_key);
             }
-            Some(Action::Defaults) => {
-                let defaults = self.pack.controls.defaults();
-                self.press(&Pose::from_values("defaults", &defaults));
-            }
-            // Planting takes a moment: a key that is held down would run ahead of what is seen.
-            Some(Action::Hair { .. }) if event.repeat => {}
-            Some(Action::Hair { backward }) => self.next_hair(backward),
-            // A key that is held down repeats itself; a pose is pressed once.
-            None if event.repeat => {}
-            None => {
-                if let Some(pose) = keys::pose(&self.pack, &event.logical_key, event.physical_key).cloned() {
-                    self.press(&pose);
-                }
-            }
+            return;
+        }
+        // A key that is held down repeats itself; a pose is pressed once. Ctrl is no part of a pose's key.
+        let state = self.modifiers.state();
+        if event.repeat || state.control_key() || state.alt_key() || state.super_key() {
+            return;
+        }
+        if let Some(pose) = keys::pose(&self.face.pack, &event.logical_key, event.physical_key) {
+            self.catch_up();
+            self.face.go_to(pose);
+            self.redraw();
+        } else if let Some(clip) = keys::clip(&self.face.pack, &event.logical_key) {
+            self.catch_up();
+            self.play(clip);
         }
     }
 
-    fn press(&mut self, pose: &Pose) {
-        self.start = None;
-        self.catch_up();
-        self.player.press(pose);
-        self.redraw();
+    fn button(&mut self, state: ElementState, button: MouseButton) {
+        let drag = match button {
+            MouseButton::Left if self.modifiers.state().shift_key() => Drag::Pan,
+            MouseButton::Left => Drag::Orbit,
+            MouseButton::Right | MouseButton::Middle => Drag::Pan,
+            _ => return,
+        };
+        let is_ours = !self.overlay.as_ref().is_some_and(Overlay::takes_pointer);
+        self.dragging = (state == ElementState::Pressed && is_ours).then_some(drag);
     }
 
     fn pointer(&mut self, position: PhysicalPosition<f64>) {
-        let (dx, dy) = (position.x - self.pointer.x, position.y - self.pointer.y);
+        let (dx, dy) = ((position.x - self.pointer.x) as f32, (position.y - self.pointer.y) as f32);
         self.pointer = position;
-        if self.dragging {
-            // The face follows the pointer: dragging to the right shows the character's right side.
-            self.orbit(-dx as f32 * DEGREES_PER_PIXEL, dy as f32 * DEGREES_PER_PIXEL);
+        match self.dragging {
+            Some(Drag::Orbit) => self.camera.drag(dx, dy),
+            Some(Drag::Pan) => {
+                let height = self.stage.as_ref().map_or(1.0, |stage| stage.size().1.max(1) as f32);
+                self.camera.pan(dx / height, -dy / height);
+            }
+            None => return,
         }
-    }
-
-    fn orbit(&mut self, yaw: f32, pitch: f32) {
-        let around = self.view.yaw_degrees + yaw;
-        // Only a full turn is taken away, so that small angles stay the numbers that they are.
-        self.view.yaw_degrees = if around.abs() > 180.0 { around - 360.0 * around.signum() } else { around };
-        self.view.pitch_degrees =
-            (self.view.pitch_degrees + pitch).clamp(-MAX_PITCH_DEGREES, MAX_PITCH_DEGREES);
-        self.redraw();
-    }
-
-    fn zoom(&mut self, factor: f32) {
-        self.view.distance = (self.view.distance * factor).clamp(*DISTANCES.start(), *DISTANCES.end());
         self.redraw();
     }
 
     /// Brings the motion to this moment, so that a press acts at the time of the press.
     fn catch_up(&mut self) {
-        let now = Instant::now();
-        if let Some(last) = self.last_frame.replace(now) {
-            let elapsed = now.duration_since(last).as_secs_f64().min(MAX_FRAME_SECS);
-            // Elapsed times are neither negative nor NaN, the only errors there are.
-            let _ = self.player.advance(elapsed);
+        let secs = self.frames.catch_up(Instant::now());
+        self.face.advance(secs);
+    }
+
+    /// Reads another avatar beside the running picture.
+    fn open(&mut self, path: &Path) {
+        self.loading = Some(Loading::start(path, self.proxy.clone()));
+        self.redraw();
+    }
+
+    /// Takes over what was read; a broken file leaves everything as it is.
+    fn take_loaded(&mut self) {
+        self.redraw();
+        let Some(loading) = &mut self.loading else { return };
+        let Some(loaded) = loading.take() else { return };
+        let path = loading.path.clone();
+        self.loading = None;
+        let shown = loaded.and_then(|loaded| self.show(loaded.files, loaded.pack, loaded.textures));
+        match shown {
+            Ok(()) => {
+                self.messages.settle(About::Opening);
+                self.config.opened(&path);
+                self.remember();
+            }
+            Err(error) => {
+                let title = format!("{} was not opened.", path.display());
+                self.messages.error(About::Opening, title, &error);
+            }
         }
     }
 
-    fn frame(&mut self) -> Result<()> {
-        if self.last_frame.is_some() {
-            self.catch_up();
+    fn show(&mut self, files: Files, pack: Pack, textures: Textures) -> Result<()> {
+        let start = FaceChoice::of_values(pack.controls.defaults());
+        let face = Face::new(files, pack, textures, Some(start))?;
+        if let Some(stage) = &mut self.stage {
+            stage.set_avatar(&face.pack, &face.textures, self.look)?;
         }
-        let Some(stage) = &mut self.stage else { return Ok(()) };
-        match &self.start {
-            Some(start) => start.apply(&self.pack, &mut self.state)?,
-            None => self.state.pose(&self.pack, self.player.values())?,
+        self.face = face;
+        self.camera = Camera::START;
+        self.frames.forget_miniatures();
+        self.watcher = watch(&self.face.files, &self.face.store, self.proxy.clone());
+        for about in [About::Poses, About::Clips, About::Materials, About::Hair] {
+            self.messages.settle(about);
         }
-        let now = Instant::now();
-        let is_at_rest = self.player.is_at_rest();
-        // Hair goes on a little after the head; where nothing has moved for longer it hangs still.
-        let until = match is_at_rest {
-            false => Some(now + SWINGS_ON),
-            true => self.swing.map(|(_, until)| until).filter(|until| now < *until),
-        };
-        let last = self.swing.filter(|_| until.is_some()).map(|(last, _)| last);
-        stage.advance_hair(last.map_or(f32::NAN, |last| now.duration_since(last).as_secs_f32()));
-        self.swing = until.filter(|_| stage.has_swinging_hair()).map(|until| (now, until));
-        stage.draw(&self.pack, &self.state, self.view)?;
-        if is_at_rest {
-            self.last_frame = None;
-        } else {
-            self.last_frame.get_or_insert_with(Instant::now);
-        }
-        // Nothing moves: no frame until something happens.
-        if !is_at_rest || self.swing.is_some() {
-            self.redraw();
+        if let Some(stage) = &self.stage {
+            stage.window().set_title(&self.title());
         }
         Ok(())
+    }
+
+    /// Stores what is remembered from run to run.
+    fn remember(&mut self) {
+        let Some(overlay) = &self.overlay else { return };
+        self.config.panel = overlay.panel.state();
+        if let Some(stage) = &self.stage
+            && stage.window().fullscreen().is_none()
+        {
+            let size = stage.window().inner_size();
+            if size.width > 0 && size.height > 0 {
+                self.config.window = Some([size.width, size.height]);
+            }
+        }
+        if let Err(error) = self.config.save() {
+            self.messages.error(About::Settings, "Settings were not stored.", &error);
+        }
     }
 }

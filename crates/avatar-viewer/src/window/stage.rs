@@ -1,10 +1,13 @@
+use super::overlay::{Overlay, Painted};
 use crate::look_args::LookArgs;
-use crate::scene::{self, BACKGROUND, SAMPLES, View};
+use crate::scene::{self, SAMPLES, View};
 use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
-use avatar_render::headless::{Gpu, GpuOptions, open_for_surface_blocking};
-use avatar_render::{AvatarModel, AvatarState, Renderer, RendererConfig, Targets};
+use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_for_surface_blocking};
+use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, Scene, Targets};
+use glam::Vec2;
+use image::RgbaImage;
 use std::sync::Arc;
 use wgpu::CurrentSurfaceTexture as Acquired;
 use winit::dpi::PhysicalSize;
@@ -25,6 +28,50 @@ pub(super) struct Stage {
     /// Of the hair, if there is any.
     style: Option<avatar_groom::Style>,
     look: LookArgs,
+    /// The format through which the panel is drawn.
+    panel_format: wgpu::TextureFormat,
+    /// Measures passes while somebody looks at the numbers.
+    timer: Option<PassTimer>,
+    /// Draws small pictures of poses.
+    miniatures: Option<Miniatures>,
+}
+
+/// A picture beside the window, and a state of the avatar for it.
+struct Miniatures {
+    canvas: Canvas,
+    avatar: AvatarState,
+    state: FaceState,
+}
+
+/// Side of a pose's small picture in pixels.
+const MINIATURE: u32 = 112;
+
+/// What a frame shows.
+pub(super) struct Shot<'a> {
+    pub(super) pack: &'a Pack,
+    pub(super) state: &'a FaceState,
+    pub(super) view: View,
+    pub(super) background: [u8; 4],
+    /// Left, top, right and bottom of what the panel leaves, in pixels; `None` for the whole window.
+    pub(super) free: Option<[f32; 4]>,
+}
+
+impl Shot<'_> {
+    /// The scene of a picture of this size.
+    pub(super) fn scene(&self, width: u32, height: u32, look: &LookArgs) -> Scene {
+        let whole = Vec2::new(width as f32, height as f32);
+        let (min, max) = match self.free {
+            Some([left, top, right, bottom]) => (Vec2::new(left, top), Vec2::new(right, bottom).min(whole)),
+            None => (Vec2::ZERO, whole),
+        };
+        let free = (max - min).max(Vec2::ONE);
+        let mut scene =
+            scene::scene(self.pack, self.view, free.x as u32, free.y as u32, self.background, look.light());
+        if self.free.is_some() {
+            scene.camera = scene.camera.within(whole, min, max);
+        }
+        scene
+    }
 }
 
 impl Stage {
@@ -49,6 +96,16 @@ impl Stage {
         // Blending and resolving samples are right in linear light, which sRGB formats do in hardware.
         config.format = formats.iter().copied().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
         config.present_mode = wgpu::PresentMode::Fifo;
+        // The panel blends in the space of the screen: through a view without sRGB, where the surface has such views.
+        let flags = gpu.adapter.get_downlevel_capabilities().flags;
+        let plain = config.format.remove_srgb_suffix();
+        let panel_format = match flags.contains(wgpu::DownlevelFlags::SURFACE_VIEW_FORMATS) {
+            true => plain,
+            false => config.format,
+        };
+        if panel_format != config.format {
+            config.view_formats.push(panel_format);
+        }
 
         let device = &gpu.device;
         let shading = look.shading(&gpu.info);
@@ -60,13 +117,32 @@ impl Stage {
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         let style = hair.map(|hair| hair.style);
         let mut stage =
-            Self { window, gpu, surface, config, renderer, targets: None, model, avatar, style, look };
+            Self {
+                window,
+                gpu,
+                surface,
+                config,
+                renderer,
+                targets: None,
+                model,
+                avatar,
+                style,
+                look,
+                panel_format,
+                timer: None,
+                miniatures: None,
+            };
         stage.resize(size)?;
         Ok(stage)
     }
 
     pub(super) fn window(&self) -> &Window {
         &self.window
+    }
+
+    /// Gives up everything but the window.
+    pub(super) fn into_window(self) -> Arc<Window> {
+        self.window
     }
 
     /// Fits surface and targets to the window; a window without area (minimised) is not drawn.
@@ -86,11 +162,99 @@ impl Stage {
         Ok(())
     }
 
+    /// Shows another avatar.
+    ///
+    /// # Errors
+    /// The device cannot hold it; then the old one stays.
+    pub(super) fn set_avatar(&mut self, pack: &Pack, textures: &Textures, look: LookArgs) -> Result<()> {
+        let hair = look.hair.choose(pack.hair.as_ref());
+        let model = scene::upload(pack, textures, &self.gpu.device, &self.gpu.queue, hair)?;
+        if let Some(error) = self.gpu.errors.take() {
+            bail!("expected adapter {:?} to hold the avatar, found: {error}", self.gpu.info.name);
+        }
+        self.avatar = AvatarState::new(&self.gpu.device, &model);
+        self.avatar.set_hair_detail(look.hair_detail(&self.gpu.info));
+        self.model = model;
+        self.style = hair.map(|hair| hair.style);
+        self.look = look;
+        self.miniatures = None;
+        Ok(())
+    }
+
+    /// Name of the adapter, triangles and strands.
+    pub(super) fn numbers(&self, pack: &Pack) -> (&str, u64, u64) {
+        let triangles = pack.parts.iter().map(|part| part.mesh.triangles.len() as u64).sum();
+        (&self.gpu.info.name, triangles, self.model.strand_count() as u64)
+    }
+
+    /// Whether the device is lost: everything on it has to be made anew on another.
+    pub(super) fn is_lost(&self) -> bool {
+        self.gpu.errors.is_lost()
+    }
+
+    /// Size of what is drawn on, in pixels.
+    pub(super) fn size(&self) -> (u32, u32) {
+        (self.config.width, self.config.height)
+    }
+
+    /// Measures the passes of frames from now on, or no longer.
+    pub(super) fn measure(&mut self, is_wanted: bool) {
+        if !is_wanted {
+            self.timer = None;
+        } else if self.timer.is_none() {
+            self.timer = PassTimer::new(&self.gpu.device, &self.gpu.queue);
+        }
+    }
+
+    /// Milliseconds of the passes of the frame before; waits for the frame to end.
+    pub(super) fn passes(&self) -> Vec<(&'static str, f32)> {
+        let Some(timer) = &self.timer else { return Vec::new() };
+        let times = timer.read(&self.gpu.device).unwrap_or_default();
+        times.into_iter().map(|(pass, ns)| (pass, (ns / 1e6) as f32)).collect()
+    }
+
+    /// The picture in the window without the panel, whatever its size.
+    ///
+    /// # Errors
+    /// The device cannot draw it.
+    pub(super) fn picture(&mut self, shot: &Shot<'_>, width: u32, height: u32) -> Result<RgbaImage> {
+        let shading = self.look.shading(&self.gpu.info);
+        let canvas = Canvas::new(&self.gpu, width, height, SAMPLES, shading)?;
+        self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
+        let scene = shot.scene(width, height, &self.look);
+        let picture = canvas.render(&self.gpu, &scene, &[(&self.model, &self.avatar)])?;
+        RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")
+    }
+
+    /// A small picture of the face with these control values.
+    ///
+    /// # Errors
+    /// The device cannot draw it.
+    pub(super) fn miniature(&mut self, pack: &Pack, values: &[f32], background: [u8; 4]) -> Result<RgbaImage> {
+        let miniatures = match self.miniatures.take() {
+            Some(miniatures) => miniatures,
+            None => {
+                let shading = self.look.shading(&self.gpu.info);
+                let mut avatar = AvatarState::new(&self.gpu.device, &self.model);
+                avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
+                let canvas = Canvas::new(&self.gpu, MINIATURE, MINIATURE, SAMPLES, shading)?;
+                Miniatures { canvas, avatar, state: FaceState::new(pack) }
+            }
+        };
+        let Miniatures { canvas, avatar, state } = self.miniatures.insert(miniatures);
+        state.pose(pack, values)?;
+        avatar.set(&self.gpu.queue, state.bones(), state.weights())?;
+        let view = View { distance: 0.92, ..View::FRONT };
+        let scene = scene::scene(pack, view, MINIATURE, MINIATURE, background, self.look.light());
+        let picture = canvas.render(&self.gpu, &scene, &[(&self.model, avatar)])?;
+        RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")
+    }
+
     /// Gives the parts the looks that the pack has now.
     ///
     /// # Errors
     /// A model with fewer parts than the pack has.
-    pub(super) fn set_materials(&self, pack: &Pack) -> Result<()> {
+    pub(super) fn set_materials(&mut self, pack: &Pack) -> Result<()> {
         scene::set_materials(pack, &self.model, &self.gpu.queue)
     }
 
@@ -103,6 +267,7 @@ impl Stage {
         self.style = hair.map(|hair| hair.style);
         self.avatar = AvatarState::new(&self.gpu.device, &self.model);
         self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
+        self.miniatures = None;
         Ok(())
     }
 
@@ -116,8 +281,8 @@ impl Stage {
         self.model.strand_count() > 0 && self.style.is_some_and(|style| style.swings())
     }
 
-    /// Draws one frame. A surface that is not ready loses this frame, not the window.
-    pub(super) fn draw(&mut self, pack: &Pack, state: &FaceState, view: View) -> Result<()> {
+    /// Draws one frame, the panel over the picture. A surface that is not ready loses this frame, not the window.
+    pub(super) fn draw(&mut self, shot: &Shot<'_>, panel: Option<(&mut Overlay, &Painted)>) -> Result<()> {
         if self.targets.is_none() {
             return Ok(());
         }
@@ -147,13 +312,17 @@ impl Stage {
         };
         let Some(targets) = &self.targets else { return Ok(()) };
         let (width, height) = (self.config.width, self.config.height);
-        self.avatar.set(&self.gpu.queue, state.bones(), state.weights())?;
-        let scene = scene::scene(pack, view, width, height, BACKGROUND, self.look.light());
+        self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
+        let scene = shot.scene(width, height, &self.look);
         let label = Some("frame");
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
         let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let avatars = [(&self.model, &self.avatar)];
-        self.renderer.draw(&mut encoder, &target, targets, &self.gpu.queue, &scene, &avatars)?;
+        let timer = self.timer.as_ref();
+        self.renderer.draw_timed(&mut encoder, &target, targets, &self.gpu.queue, &scene, &avatars, timer)?;
+        if let Some((overlay, painted)) = panel {
+            overlay.draw(&self.gpu, &mut encoder, &frame.texture, self.panel_format, painted);
+        }
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);

@@ -1,46 +1,88 @@
 use crate::files::Files;
+use crate::store::Store;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
+use std::path::{Path, PathBuf};
 use winit::event_loop::EventLoopProxy;
 
-/// What wakes the window beside its own events: this file of the pack may have changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What wakes the window beside its own events.
+#[derive(Debug)]
 pub(super) enum Wake {
-    Materials,
-    Hair,
+    /// This file of the avatar may have changed.
+    Changed(Watched),
+    /// Something that another thread works at is ready to be taken.
+    Ready,
+    /// The user has chosen a file to open.
+    Chosen(PathBuf),
+    /// Somebody reads the window to the user, or acts for the user.
+    Accessibility(accesskit_winit::Event),
 }
 
-/// The files whose changes are taken over while the window is open.
-pub(super) const WATCHED: [(Wake, &str); 2] =
-    [(Wake::Materials, "materials.toml"), (Wake::Hair, "hair.toml")];
+impl From<accesskit_winit::Event> for Wake {
+    fn from(event: accesskit_winit::Event) -> Self {
+        Self::Accessibility(event)
+    }
+}
 
-/// Tells the window when files of the pack change that it follows. The folder is watched instead of the file: many editors put a new
+/// A file whose changes are taken over while the window is open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Watched {
+    Materials,
+    Hair,
+    Poses,
+    Clips,
+}
+
+impl Watched {
+    pub(super) const ALL: [Self; 4] = [Self::Materials, Self::Hair, Self::Poses, Self::Clips];
+
+    fn path(self, files: &Files, store: &Store) -> Option<PathBuf> {
+        let in_folder = |name: &str| match files {
+            Files::Folder(folder) => Some(folder.join(name)),
+            _ => None,
+        };
+        match self {
+            Self::Materials => in_folder("materials.toml"),
+            Self::Hair => in_folder("hair.toml"),
+            Self::Poses => store.path(crate::store::POSES).map(Path::to_owned),
+            Self::Clips => store.path(crate::store::CLIPS).map(Path::to_owned),
+        }
+    }
+}
+
+/// Tells the window when files of the avatar change that it follows. Folders are watched instead of files: many editors put a new
 /// file in the place of the old one. Where watching does not work the window works all the same, after a warning.
-pub(super) fn watch(files: &Files, window: EventLoopProxy<Wake>) -> Option<RecommendedWatcher> {
-    let Files::Folder(folder) = files else { return None };
+pub(super) fn watch(files: &Files, store: &Store, window: EventLoopProxy<Wake>) -> Option<RecommendedWatcher> {
+    let paths: Vec<(Watched, PathBuf)> =
+        Watched::ALL.into_iter().filter_map(|file| Some((file, file.path(files, store)?))).collect();
+    let mut folders: Vec<PathBuf> = paths.iter().filter_map(|(_, path)| Some(path.parent()?.to_owned())).collect();
+    folders.sort();
+    folders.dedup();
+    // The user's own folder may not be there yet; what this program writes there it knows.
+    folders.retain(|folder| folder.as_os_str().is_empty() || folder.is_dir());
     let changed = move |event: notify::Result<notify::Event>| {
         let Ok(event) = event else { return };
         // Reading a file is an event, too.
         if matches!(event.kind, EventKind::Access(_)) {
             return;
         }
-        for (wake, file) in WATCHED {
-            if event.paths.iter().any(|path| path.file_name().is_some_and(|name| name == file)) {
+        for (file, path) in &paths {
+            if event.paths.iter().any(|changed| changed.file_name() == path.file_name()) {
                 // An error means that the window is closed.
-                let _ = window.send_event(wake);
+                let _ = window.send_event(Wake::Changed(*file));
             }
         }
     };
     let watcher = notify::recommended_watcher(changed).and_then(|mut watcher| {
-        watcher.watch(folder, RecursiveMode::NonRecursive)?;
+        for folder in &folders {
+            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            watcher.watch(folder, RecursiveMode::NonRecursive)?;
+        }
         Ok(watcher)
     });
     watcher
         .inspect_err(|error| {
-            eprintln!(
-                "warning: {}: expected to be told of changes of {}, found: {error}",
-                folder.display(),
-                WATCHED.map(|(_, file)| file).join(" and ")
-            );
+            let folders = folders.iter().map(|folder| folder.display().to_string()).collect::<Vec<_>>().join(" and ");
+            eprintln!("warning: {folders}: expected to be told of changes of files, found: {error}");
         })
         .ok()
 }

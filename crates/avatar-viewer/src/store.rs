@@ -1,0 +1,97 @@
+//! Where poses and clips that a user makes are kept.
+
+use crate::config;
+use crate::files::Files;
+use crate::output::OutputFile;
+use anyhow::{Context, Result, anyhow};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Names of the files, and their places in [`Store`].
+pub(crate) const POSES: usize = 0;
+pub(crate) const CLIPS: usize = 1;
+const NAMES: [&str; 2] = ["poses.toml", "clips.toml"];
+
+/// The files that hold an avatar's poses and clips.
+#[derive(Debug)]
+pub(crate) struct Store {
+    paths: [Option<PathBuf>; 2],
+    /// What the files were when they were read or written last.
+    texts: [String; 2],
+}
+
+impl Store {
+    /// Those of a pack are in its folder; those of a file are beside it; those of the built-in avatar are the user's.
+    pub(crate) fn of(files: &Files) -> Self {
+        Self { paths: [POSES, CLIPS].map(|which| path_of(files, which)), texts: Default::default() }
+    }
+
+    /// Where a file is, if there can be one.
+    pub(crate) fn path(&self, which: usize) -> Option<&Path> {
+        self.paths[which].as_deref()
+    }
+
+    /// The file's text; `None` where there is none.
+    pub(crate) fn read(&mut self, which: usize) -> Result<Option<String>> {
+        let Some(path) = self.path(which) else { return Ok(None) };
+        let text = read(path)?;
+        self.texts[which] = text.clone().unwrap_or_default();
+        Ok(text)
+    }
+
+    /// What the file was when it was read or written last.
+    pub(crate) fn text(&self, which: usize) -> &str {
+        &self.texts[which]
+    }
+
+    /// Writes the file, whole or not at all.
+    pub(crate) fn write(&mut self, which: usize, text: &str) -> Result<()> {
+        if text == self.texts[which] {
+            return Ok(());
+        }
+        let path = self.path(which);
+        let path = path.ok_or_else(|| anyhow!("expected a folder of the user's to write {} to, found none", NAMES[which]))?;
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
+        }
+        OutputFile::check(path)?.write(text.as_bytes())?;
+        self.texts[which] = text.to_owned();
+        Ok(())
+    }
+
+    /// An error in a file, with its name before its place.
+    pub(crate) fn placed(&self, which: usize, error: &dyn std::fmt::Display) -> anyhow::Error {
+        match self.path(which) {
+            Some(path) => anyhow!("{}: {error}", path.display()),
+            None => anyhow!("{error}"),
+        }
+    }
+}
+
+fn path_of(files: &Files, which: usize) -> Option<PathBuf> {
+    match files {
+        Files::Folder(folder) => Some(folder.join(NAMES[which])),
+        Files::File(path, _) => {
+            let mut name = path.file_name()?.to_owned();
+            name.push(format!(".{}", NAMES[which]));
+            Some(path.with_file_name(name))
+        }
+        Files::BuiltIn => Some(config::folder()?.join("marsienne").join(NAMES[which])),
+    }
+}
+
+/// A text that may not be there.
+pub(crate) fn read(path: &Path) -> Result<Option<String>> {
+    match std::fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error).with_context(|| format!("{}: expected a readable text", path.display())),
+    }
+}
+
+/// What the user keeps for an avatar that has no folder of its own: read in the place of what it comes with.
+pub(crate) fn overlay(files: &Files, name: &str) -> Option<PathBuf> {
+    let which = NAMES.iter().position(|own| *own == name)?;
+    path_of(files, which).filter(|path| !matches!(files, Files::Folder(_)) && path.is_file())
+}

@@ -1,0 +1,79 @@
+use avatar_panel::{Message, Severity};
+
+/// What the user has to know, until it is dismissed or its cause has gone.
+#[derive(Debug, Default)]
+pub(super) struct Messages {
+    all: Vec<Told>,
+}
+
+#[derive(Debug)]
+struct Told {
+    /// A newer message about the same takes its place.
+    about: About,
+    severity: Severity,
+    title: String,
+    text: String,
+}
+
+/// What a message is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum About {
+    Opening,
+    Poses,
+    Clips,
+    Materials,
+    Hair,
+    Picture,
+    Film,
+    Settings,
+    Keys,
+    Device,
+}
+
+/// The latest ones that are kept.
+const KEPT: usize = 5;
+
+impl Messages {
+    /// Tells of an error, also where the program was started from.
+    pub(super) fn error(&mut self, about: About, title: impl Into<String>, error: &anyhow::Error) {
+        let (title, text) = (title.into(), format!("{error:#}"));
+        eprintln!("error: {text}: {title}");
+        self.tell(about, Severity::Error, title, text);
+    }
+
+    pub(super) fn warn(&mut self, about: About, title: impl Into<String>, text: impl Into<String>) {
+        let (title, text) = (title.into(), text.into());
+        eprintln!("warning: {text}");
+        self.tell(about, Severity::Warning, title, text);
+    }
+
+    pub(super) fn news(&mut self, about: About, title: impl Into<String>, text: impl Into<String>) {
+        self.tell(about, Severity::Info, title.into(), text.into());
+    }
+
+    fn tell(&mut self, about: About, severity: Severity, title: String, text: String) {
+        self.settle(about);
+        self.all.insert(0, Told { about, severity, title, text });
+        self.all.truncate(KEPT);
+    }
+
+    /// The cause has gone.
+    pub(super) fn settle(&mut self, about: About) {
+        self.all.retain(|told| told.about != about);
+    }
+
+    pub(super) fn dismiss(&mut self, index: usize) {
+        if index < self.all.len() {
+            self.all.remove(index);
+        }
+    }
+
+    pub(super) fn shown(&self) -> impl Iterator<Item = Message<'_>> {
+        self.all.iter().map(|told| Message {
+            severity: told.severity,
+            title: &told.title,
+            text: &told.text,
+            dismissible: true,
+        })
+    }
+}

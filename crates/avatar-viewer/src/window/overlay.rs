@@ -1,0 +1,162 @@
+use avatar_panel::{Action, Model, Panel, PanelState};
+use avatar_render::headless::Gpu;
+use egui_wgpu::{RendererOptions, ScreenDescriptor};
+use egui_winit::EventResponse;
+use std::time::Duration;
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
+use winit::window::Window;
+
+/// The panel in the window: events in, actions and triangles out.
+pub(super) struct Overlay {
+    pub(super) panel: Panel,
+    pub(super) ctx: egui::Context,
+    input: egui_winit::State,
+    /// `None` until there is a GPU, and after one was lost.
+    renderer: Option<egui_wgpu::Renderer>,
+    /// Pictures that the GPU has yet to be told of: frames may be lost.
+    textures: egui::TexturesDelta,
+    /// Marks over the picture, painted under the panel, in pixels of the window.
+    pub(super) marks: Vec<[f32; 2]>,
+}
+
+/// A frame of the panel, ready to be drawn.
+pub(super) struct Painted {
+    triangles: Vec<egui::ClippedPrimitive>,
+    pixels_per_point: f32,
+    /// What is left for the face: left, top, right and bottom in pixels.
+    pub(super) free: [f32; 4],
+    /// When the panel wants to be drawn again.
+    pub(super) again: Duration,
+}
+
+impl Overlay {
+    pub(super) fn new<T: From<accesskit_winit::Event> + Send>(
+        event_loop: &ActiveEventLoop,
+        window: &Window,
+        proxy: EventLoopProxy<T>,
+        state: PanelState,
+    ) -> Self {
+        let ctx = egui::Context::default();
+        // The keys of the camera are + and - without Ctrl; those with Ctrl scale the text, as in browsers.
+        let scale = Some(window.scale_factor() as f32);
+        let mut input = egui_winit::State::new(ctx.clone(), egui::ViewportId::ROOT, window, scale, window.theme(), None);
+        input.init_accesskit(event_loop, window, proxy);
+        Self { panel: Panel::new(state), ctx, input, renderer: None, textures: egui::TexturesDelta::default(), marks: Vec::new() }
+    }
+
+    pub(super) fn event(&mut self, window: &Window, event: &WindowEvent) -> EventResponse {
+        self.input.on_window_event(window, event)
+    }
+
+    pub(super) fn accesskit(&mut self, event: accesskit_winit::WindowEvent) {
+        if let accesskit_winit::WindowEvent::ActionRequested(request) = event {
+            self.input.on_accesskit_action_request(request);
+        }
+    }
+
+    /// Whether keys belong to the panel: text is typed, or help is read.
+    pub(super) fn takes_keys(&self) -> bool {
+        self.panel.takes_keys(&self.ctx)
+    }
+
+    /// Whether the keys that walk through widgets belong to the panel.
+    pub(super) fn has_focus(&self) -> bool {
+        self.ctx.egui_wants_keyboard_input()
+    }
+
+    /// Whether the pointer is over the panel, or holds something of it.
+    pub(super) fn takes_pointer(&self) -> bool {
+        self.ctx.egui_wants_pointer_input() || self.ctx.is_pointer_over_egui()
+    }
+
+    /// Lays the panel out.
+    pub(super) fn run(&mut self, window: &Window, model: &Model<'_>, actions: &mut Vec<Action>) -> Painted {
+        let input = self.input.take_egui_input(window);
+        let (panel, marks) = (&mut self.panel, &self.marks);
+        let mut free = egui::Rect::ZERO;
+        let output = self.ctx.run_ui(input, |ui| {
+            free = panel.show(ui, model, actions);
+            paint_marks(ui.ctx(), marks);
+        });
+        self.input.handle_platform_output(window, output.platform_output);
+        let pixels_per_point = output.pixels_per_point;
+        let again = output.viewport_output.get(&egui::ViewportId::ROOT);
+        let again = again.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
+        let scaled = |rect: egui::Rect| [rect.left(), rect.top(), rect.right(), rect.bottom()].map(|x| x * pixels_per_point);
+        self.textures.append(output.textures_delta);
+        Painted {
+            triangles: self.ctx.tessellate(output.shapes, pixels_per_point),
+            pixels_per_point,
+            free: scaled(free),
+            again,
+        }
+    }
+
+    /// Draws over what is there, through a view of this format.
+    pub(super) fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        texture: &wgpu::Texture,
+        format: wgpu::TextureFormat,
+        painted: &Painted,
+    ) {
+        let renderer = self
+            .renderer
+            .get_or_insert_with(|| egui_wgpu::Renderer::new(&gpu.device, format, RendererOptions::default()));
+        for (id, deltas) in self.textures.set.drain() {
+            for delta in deltas {
+                renderer.update_texture(&gpu.device, &gpu.queue, id, &delta);
+            }
+        }
+        let screen = ScreenDescriptor {
+            size_in_pixels: [texture.width(), texture.height()],
+            pixels_per_point: painted.pixels_per_point,
+        };
+        // Only callbacks record commands of their own, and there are none.
+        let _ = renderer.update_buffers(&gpu.device, &gpu.queue, encoder, &painted.triangles, &screen);
+        let view = texture.create_view(&wgpu::TextureViewDescriptor {
+            label: Some("panel"),
+            format: Some(format),
+            ..Default::default()
+        });
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("panel"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+            })],
+            ..Default::default()
+        });
+        renderer.render(&mut pass.forget_lifetime(), &painted.triangles, &screen);
+        for id in self.textures.free.drain() {
+            renderer.free_texture(&id);
+        }
+    }
+}
+
+impl Drop for Overlay {
+    fn drop(&mut self) {
+        // egui insists that what was not shown is thrown away on purpose.
+        self.textures.clear();
+    }
+}
+
+/// Radius of a mark in points.
+const MARK: f32 = 1.6;
+
+/// Shows which part of the face is meant.
+fn paint_marks(ctx: &egui::Context, marks: &[[f32; 2]]) {
+    if marks.is_empty() {
+        return;
+    }
+    let painter = ctx.layer_painter(egui::LayerId::background());
+    let color = ctx.global_style().visuals.selection.bg_fill.gamma_multiply(0.7);
+    let scale = 1.0 / ctx.pixels_per_point();
+    for [x, y] in marks {
+        painter.circle_filled(egui::pos2(x * scale, y * scale), MARK, color);
+    }
+}
