@@ -30,7 +30,9 @@
 //!     ..Model::new(&controls, &poses)
 //! };
 //! let mut free = egui::Rect::NOTHING;
-//! ctx.run_ui(egui::RawInput::default(), |ui| free = panel.show(ui, &model, &mut actions));
+//! let mut output = ctx.run_ui(egui::RawInput::default(), |ui| free = panel.show(ui, &model, &mut actions));
+//! // A window would paint it.
+//! output.textures_delta.clear();
 //! for action in actions {
 //!     if let Action::SetControl { control, value, .. } = action {
 //!         values[control] = value;

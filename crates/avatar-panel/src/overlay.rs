@@ -10,7 +10,9 @@ const LINES_MS: [f32; 3] = [8.333, 16.667, 33.333];
 
 pub(crate) fn stats(ctx: &Context, free: Rect, stats: &Stats<'_>) {
     let area = Area::new(Id::unique("avatar-panel statistics")).order(Order::Middle).interactable(false);
-    area.fixed_pos(free.min + vec2(10.0, 10.0)).show(ctx, |ui| {
+    area.fixed_pos(free.min + vec2(10.0, 10.0)).constrain(false).show(ctx, |ui| {
+        // Never over the panel, however little room it leaves.
+        ui.shrink_clip_rect(free);
         style::float_frame(ui).show(ui, |ui| {
             ui.set_max_width(230.0);
             ui.spacing_mut().item_spacing.y = 2.0;
@@ -80,8 +82,11 @@ fn grouped(number: u64) -> String {
     text
 }
 
-/// The line for those who are here for the first time.
+/// The line for those who are here for the first time. Where there is no room for it, it waits.
 pub(crate) fn hint(ctx: &Context, free: Rect, state: &mut PanelState) {
+    if free.width() < 180.0 || free.height() < 120.0 {
+        return;
+    }
     let place = free.center_bottom() - vec2(0.0, 14.0);
     let area = Area::new(Id::unique("avatar-panel hint")).order(Order::Middle).pivot(Align2::CENTER_BOTTOM);
     area.fixed_pos(place).constrain_to(free).show(ctx, |ui| {

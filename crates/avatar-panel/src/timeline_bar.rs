@@ -95,7 +95,7 @@ pub(crate) fn inspector(
     let track = chosen.and_then(|(control, _)| clip.track(control));
     let control = chosen.and_then(|(control, _)| model.controls.controls().get(control));
     let (Some((at, key)), Some(track), Some(control)) = (chosen, track, control) else {
-        ui.weak("Choose a key to change it. Drag keys to move them, double-click a track to add one.");
+        ui.weak("Drag a key to move it, double-click a track to add one.");
         return;
     };
     let Some(found) = track.keys().get(key) else { return };
