@@ -2,7 +2,7 @@
 
 use crate::groups::{self, Row};
 use crate::style::palette;
-use crate::widgets::{Icon, icon_button, named};
+use crate::widgets::{Icon, icon_button, named, passed_by};
 use crate::{Action, Model};
 use egui::{
     Align, Button, DragValue, Label, Layout, Rect, Response, RichText, ScrollArea, Sense, Slider, TextEdit,
@@ -159,7 +159,8 @@ fn control(
 ) -> bool {
     let control = &model.controls.controls()[index];
     let (sign, unit, decimals) = groups::unit(control);
-    let shown = model.values.get(index).copied().filter(|value| value.is_finite()).unwrap_or(control.default);
+    let given = model.values.get(index).copied().filter(|value| value.is_finite());
+    let shown = given.unwrap_or(control.default).max(control.min).min(control.max);
     let changed = is_changed(control, shown);
     let colors = palette(ui);
     let builder = UiBuilder::new().scope_id(ui.scope_id().with(("control", index))).max_rect(rect);
@@ -186,6 +187,7 @@ fn control(
         }
         named(&slider, || format!("{}, {unit}", control.name));
         let speed = f64::from(control.max - control.min) / 200.0;
+        let slid = value;
         let entry = DragValue::new(&mut value).range(range).clamp_existing_to_range(false).speed(speed);
         let entry = entry
             .max_decimals(decimals)
@@ -193,6 +195,9 @@ fn control(
             .suffix(sign)
             .update_while_editing(false);
         let entry = ui.put(parts.value, entry);
+        if passed_by(&entry, f64::from(slid), f64::from(value), decimals) {
+            value = slid;
+        }
         named(&entry, || format!("value of {}, {unit}", control.name));
 
         let ended = slider.drag_stopped() || entry.drag_stopped();

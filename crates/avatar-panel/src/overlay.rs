@@ -14,7 +14,8 @@ pub(crate) fn stats(ctx: &Context, free: Rect, stats: &Stats<'_>) {
         // Never over the panel, however little room it leaves.
         ui.shrink_clip_rect(free);
         style::float_frame(ui).show(ui, |ui| {
-            ui.set_max_width(230.0);
+            // As wide as there is room.
+            ui.set_max_width((free.width() - 40.0).clamp(110.0, 210.0));
             ui.spacing_mut().item_spacing.y = 2.0;
             if !stats.adapter.is_empty() {
                 ui.strong(stats.adapter);
@@ -38,7 +39,7 @@ pub(crate) fn stats(ctx: &Context, free: Rect, stats: &Stats<'_>) {
 
 fn line(ui: &mut Ui, name: &str, value: &str) {
     ui.horizontal(|ui| {
-        ui.set_width(210.0);
+        ui.set_width(ui.available_width());
         ui.weak(name);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(value).monospace())
@@ -47,7 +48,7 @@ fn line(ui: &mut Ui, name: &str, value: &str) {
 }
 
 fn graph(ui: &mut Ui, frame_ms: &[f32]) {
-    let (rect, response) = ui.allocate_exact_size(vec2(210.0, 48.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 48.0), Sense::hover());
     response.widget_info(|| {
         egui::WidgetInfo::labeled(
             egui::Role::Image,

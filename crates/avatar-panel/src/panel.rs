@@ -24,6 +24,8 @@ pub struct Panel {
 /// Share of the window's width that the panel may cover, and of its height the timeline.
 const WIDEST: f32 = 0.6;
 const HIGHEST: f32 = 0.42;
+/// Height of a window in points that is too low for a timeline.
+const LOWEST: f32 = 260.0;
 
 impl Panel {
     /// A panel as it was left.
@@ -71,7 +73,8 @@ impl Panel {
         if self.state.folded {
             self.opener(&ctx, free);
         }
-        if self.state.show_stats {
+        // The hint goes first where both have no room.
+        if self.state.show_stats && (self.state.seen_hint || free.width() > 500.0) {
             overlay::stats(&ctx, free, &model.stats);
         }
         if !self.state.seen_hint {
@@ -120,7 +123,9 @@ impl Panel {
         }
         let folded = &mut self.state.timeline_folded;
         let (frame, whole) = (style::edge_frame(ui), ui.available_height());
-        let panel = if *folded {
+        // Without room for tracks beside everything else there are the buttons only.
+        let has_room = whole >= LOWEST;
+        let panel = if *folded || !has_room {
             egui::Panel::bottom("avatar-panel folded timeline")
         } else {
             let height = (HIGHEST * whole).clamp(100.0, 420.0);
@@ -129,7 +134,7 @@ impl Panel {
                 .default_size(height.min(240.0))
                 .size_range(80.0..=height)
         };
-        panel.frame(frame).show(ui, |ui| self.timeline.show(ui, model, folded, actions));
+        panel.frame(frame).show(ui, |ui| self.timeline.show(ui, model, has_room.then_some(folded), actions));
     }
 
     fn show_side(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {

@@ -50,6 +50,12 @@ pub(crate) fn named(response: &Response, name: impl FnOnce() -> String) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name()));
 }
 
+/// Whether a number was only looked at: egui reads its rounded text again when the keyboard leaves it.
+pub(crate) fn passed_by(response: &Response, before: f64, after: f64, decimals: usize) -> bool {
+    let rounding = 0.500_1 * 10f64.powi(-i32::try_from(decimals).unwrap_or(0));
+    response.lost_focus() && (after - before).abs() <= rounding
+}
+
 fn paint(ui: &Ui, icon: Icon, rect: Rect, color: Color32) {
     let at = |x: f32, y: f32| pos2(rect.left() + x * rect.width(), rect.top() + y * rect.height());
     let line = Stroke::new(1.6, color);

@@ -212,6 +212,24 @@ fn the_chosen_key_is_changed_by_numbers_and_buttons() {
 }
 
 #[test]
+fn the_keyboard_passes_by_numbers_of_a_key_without_rounding_them() {
+    let mut window = window(World::new().nodding());
+    let bow = window.state().control("head.bow");
+    let fine = (0.123_456_789, 1.234_567_89);
+    window.state_mut().clips[0].track_mut(bow).unwrap().move_key(1, fine.0, fine.1).unwrap();
+    window.run_steps(2);
+    click(&mut window, "key 2 of head.bow, 0.12 s, 1.23");
+    for field in ["Time of the key, seconds", "Value of the key, degrees"] {
+        window.get_by_label(field).focus();
+        window.run_steps(2);
+        window.key_press(Key::Tab);
+        window.run_steps(2);
+    }
+    assert_eq!(keys(&window)[1], fine);
+    assert!(window.state().log.is_empty());
+}
+
+#[test]
 fn the_transition_is_chosen_from_all_and_its_curve_is_drawn() {
     let mut window = window(World::new().nodding());
     click(&mut window, MIDDLE);

@@ -151,6 +151,19 @@ fn arrow_keys_move_the_focused_slider_and_only_that() {
 }
 
 #[test]
+fn the_keyboard_passes_by_without_rounding_what_it_passes() {
+    let mut window = window();
+    window.state_mut().values.fill(0.123_456_7);
+    for _ in 0..70 {
+        window.key_press(Key::Tab);
+        window.run_steps(2);
+    }
+    let changed = |action: &&Action| matches!(action, Action::SetControl { .. });
+    let changes: Vec<_> = window.state().log.iter().filter(changed).collect();
+    assert!(changes.is_empty(), "{changes:?}");
+}
+
+#[test]
 fn hovering_tells_the_control_once_and_that_it_ends() {
     let mut window = window();
     let (bow, open) = (window.state().control("head.bow"), window.state().control("jaw.open"));
