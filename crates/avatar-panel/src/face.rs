@@ -206,9 +206,8 @@ fn control(
             actions.push(Action::SetControl { control: index, value, dragging });
         }
         let twice = ui.input(|input| input.pointer.button_double_clicked(egui::PointerButton::Primary));
-        if name.double_clicked() || (twice && slider.contains_pointer()) {
-            actions.push(Action::ResetControl(index));
-        } else if changed && reset(ui, parts.reset, &control.name, colors.accent) {
+        let dotted = changed && reset(ui, parts.reset, &control.name, colors.accent);
+        if dotted || name.double_clicked() || (twice && slider.contains_pointer()) {
             actions.push(Action::ResetControl(index));
         }
         if slider.gained_focus() || entry.gained_focus() {

@@ -6,8 +6,7 @@ use avatar_panel::Action;
 use egui::accesskit::Role;
 use egui::{Event, Key, PointerButton, Pos2, Rect, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use pose_anim::{Control, ControlTable, Drive, Pace};
-use support::{Window, World};
+use support::{Window, World, many};
 
 const SIZE: [f32; 2] = [900.0, 700.0];
 
@@ -209,19 +208,6 @@ fn a_group_folds_and_opens() {
     window.get_by_label("Head, 3 controls, closed").click();
     window.run_steps(3);
     assert!(window.query_by_label("head.turn, degrees").is_some());
-}
-
-/// A face with this many controls.
-pub fn many(count: usize) -> ControlTable {
-    let control = |index: usize| Control {
-        name: format!("part{:02}.control{index:03}", index / 12),
-        drives: Drive::Shape { shape: format!("Shape{index}") },
-        min: 0.0,
-        max: 1.0,
-        default: 0.0,
-        pace: Pace::SHAPE,
-    };
-    ControlTable::new((0..count).map(control).collect()).unwrap()
 }
 
 #[test]

@@ -34,10 +34,8 @@ fn dressed(mut world: World, state: PanelState) -> World {
 
 /// A few pixels may differ, as edges of glyphs do from processor to processor; the smallest dot has more.
 fn compare(window: &mut support::Window<'_>, name: &str) {
-    let options = SnapshotOptions::new().failed_pixel_count_threshold(12);
-    if let Err(error) = window.try_snapshot_options(name, &options) {
-        panic!("{error}");
-    }
+    let options = SnapshotOptions::new().max_failed_pixels(12);
+    assert_eq!(window.try_snapshot_options(name, &options).map_err(|error| error.to_string()), Ok(()));
 }
 
 #[test]

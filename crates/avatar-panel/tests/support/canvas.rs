@@ -7,7 +7,7 @@ use image::{Rgba, RgbaImage};
 use std::collections::HashMap;
 
 #[derive(Default)]
-pub struct Canvas {
+pub(crate) struct Canvas {
     textures: HashMap<TextureId, Texture>,
 }
 
@@ -45,15 +45,8 @@ impl TestRenderer for Canvas {
             let (x, y) = (x as f32 / size.x - 0.5, y as f32 / size.y - 0.5);
             // In bands, which make small files.
             let light = 1.0 - ((x * x * 2.5 + y * y * 1.6).sqrt().min(1.0) * 10.0).round() / 10.0;
-            Rgba(
-                [70.0, 58.0, 54.0]
-                    .map(|ground| (ground + 150.0 * light) as u8)
-                    .into_iter()
-                    .chain([255])
-                    .collect::<Vec<_>>()
-                    .try_into()
-                    .unwrap(),
-            )
+            let [r, g, b] = [70.0, 58.0, 54.0].map(|ground| (ground + 150.0 * light) as u8);
+            Rgba([r, g, b, 255])
         });
         for clipped in ctx.tessellate(output.shapes.clone(), scale) {
             if let Primitive::Mesh(mesh) = clipped.primitive {

@@ -1,45 +1,46 @@
 //! A program around the panel: it carries actions out as a window would, and keeps them to be looked at.
 #![allow(dead_code, reason = "each test needs a part of it")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "it is part of tests")]
 
-pub mod canvas;
+pub(crate) mod canvas;
 
 use avatar_panel::{
     Action, FilmProgress, KeyRow, Loading, Message, Model, Panel, PanelState, Playback, PoseForm, Stats, Tab,
 };
 use egui::{Rect, UiBuilder, Vec2};
 use egui_kittest::Harness;
-use pose_anim::{Clip, ControlTable, Key, Pose, PoseSet, Track, Transition};
+use pose_anim::{Clip, Control, ControlTable, Drive, Key, Pace, Pose, PoseSet, Track, Transition};
 
-pub type Window<'a> = Harness<'a, World>;
+pub(crate) type Window<'a> = Harness<'a, World>;
 
-pub struct World {
-    pub panel: Panel,
-    pub controls: ControlTable,
-    pub values: Vec<f32>,
-    pub highlighted: Vec<usize>,
-    pub poses: PoseSet,
-    pub thumbnails: Vec<Option<egui::TextureId>>,
-    pub active_pose: Option<usize>,
-    pub can_save: Result<(), &'static str>,
-    pub undo: Option<&'static str>,
-    pub redo: Option<&'static str>,
-    pub clips: Vec<Clip>,
-    pub playback: Playback,
-    pub keys: Vec<KeyRow<'static>>,
-    pub messages: Vec<Message<'static>>,
-    pub loading: Option<Loading<'static>>,
-    pub film: Option<FilmProgress>,
-    pub stats: Stats<'static>,
-    pub log: Vec<Action>,
-    pub free: Rect,
+pub(crate) struct World {
+    pub(crate) panel: Panel,
+    pub(crate) controls: ControlTable,
+    pub(crate) values: Vec<f32>,
+    pub(crate) highlighted: Vec<usize>,
+    pub(crate) poses: PoseSet,
+    pub(crate) thumbnails: Vec<Option<egui::TextureId>>,
+    pub(crate) active_pose: Option<usize>,
+    pub(crate) can_save: Result<(), &'static str>,
+    pub(crate) undo: Option<&'static str>,
+    pub(crate) redo: Option<&'static str>,
+    pub(crate) clips: Vec<Clip>,
+    pub(crate) playback: Playback,
+    pub(crate) keys: Vec<KeyRow<'static>>,
+    pub(crate) messages: Vec<Message<'static>>,
+    pub(crate) loading: Option<Loading<'static>>,
+    pub(crate) film: Option<FilmProgress>,
+    pub(crate) stats: Stats<'static>,
+    pub(crate) log: Vec<Action>,
+    pub(crate) free: Rect,
 }
 
 impl World {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::with(ControlTable::default_face())
     }
 
-    pub fn with(controls: ControlTable) -> Self {
+    pub(crate) fn with(controls: ControlTable) -> Self {
         let poses = PoseSet::default_face(&controls);
         Self {
             panel: Panel::new(PanelState { seen_hint: true, ..PanelState::default() }),
@@ -68,13 +69,13 @@ impl World {
         }
     }
 
-    pub fn on(mut self, tab: Tab) -> Self {
+    pub(crate) fn on(mut self, tab: Tab) -> Self {
         self.panel = Panel::new(PanelState { tab, ..self.panel.state() });
         self
     }
 
     /// A clip that nods: 0 at 0 s, 10 at 0.5 s, 0 at 1 s.
-    pub fn nodding(mut self) -> Self {
+    pub(crate) fn nodding(mut self) -> Self {
         let bow = self.control("head.bow");
         let key = |time_secs, value| Key { time_secs, value, transition: Transition::LINEAR };
         let track = Track::new(bow, vec![key(0.0, 0.0), key(0.5, 10.0), key(1.0, 0.0)]).unwrap();
@@ -82,18 +83,18 @@ impl World {
         self
     }
 
-    pub fn control(&self, name: &str) -> usize {
+    pub(crate) fn control(&self, name: &str) -> usize {
         self.controls.index(name).unwrap()
     }
 
-    pub fn window<'a>(self, size: impl Into<Vec2>) -> Window<'a> {
+    pub(crate) fn window<'a>(self, size: impl Into<Vec2>) -> Window<'a> {
         let canvas = canvas::Canvas::default();
         let window =
             Harness::builder().with_size(size).with_max_steps(40).with_step_dt(1.0 / 60.0).renderer(canvas);
         window.build_ui_state(|ui, world: &mut Self| world.frame(ui), self)
     }
 
-    pub fn frame(&mut self, ui: &mut egui::Ui) {
+    pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let mut actions = Vec::new();
         let model = Model {
             values: &self.values,
@@ -185,4 +186,17 @@ fn named(mut pose: Pose, form: &PoseForm) -> Pose {
     pose.key = form.key.clone();
     pose.duration_secs = form.duration_secs;
     pose
+}
+
+/// A face with this many controls.
+pub(crate) fn many(count: usize) -> ControlTable {
+    let control = |index: usize| Control {
+        name: format!("part{:02}.control{index:03}", index / 12),
+        drives: Drive::Shape { shape: format!("Shape{index}") },
+        min: 0.0,
+        max: 1.0,
+        default: 0.0,
+        pace: Pace::SHAPE,
+    };
+    ControlTable::new((0..count).map(control).collect()).unwrap()
 }
