@@ -4,7 +4,7 @@ use crate::poses::Poses;
 use crate::timeline::Timeline;
 use crate::widgets::{Icon, icon_button};
 use crate::{Action, Model, PanelState, Tab, Theme, help, notices, overlay, style, view};
-use egui::{Align, Align2, Area, Context, Id, Layout, Order, Rect, Ui, vec2};
+use egui::{Align, Align2, Area, Context, Id, Key, Layout, Order, Rect, Ui, vec2};
 
 /// The panel over the picture, and what it has in mind from frame to frame. One panel goes with one [`egui::Context`].
 #[derive(Clone, Debug, Default)]
@@ -49,11 +49,24 @@ impl Panel {
         self.state.folded = !self.state.folded;
     }
 
-    /// Whether keys belong to the panel now: text is being typed, or the help is open. Otherwise a window may take keys for poses even
-    /// while a button has the keyboard; what moves within the panel (Tab, arrows, Enter, Space, Delete) is then
-    /// [`egui::Context::egui_wants_keyboard_input`]'s.
-    pub fn takes_keys(&self, ctx: &Context) -> bool {
-        self.help || ctx.text_edit_focused()
+    /// Whether a key that is pressed now is the panel's, and not the window's: all of them while text is typed or the help is open; those
+    /// that move about and press things while something in the panel has the keyboard; and always those of the help and Tab, which is the
+    /// way into the panel.
+    pub fn takes_key(&self, ctx: &Context, key: Key) -> bool {
+        let moves = [
+            Key::ArrowUp,
+            Key::ArrowDown,
+            Key::ArrowLeft,
+            Key::ArrowRight,
+            Key::Enter,
+            Key::Space,
+            Key::Delete,
+            Key::Backspace,
+            Key::Escape,
+        ];
+        let focused = ctx.egui_wants_keyboard_input();
+        let own = [Key::F1, Key::Questionmark, Key::Tab].contains(&key);
+        self.help || ctx.text_edit_focused() || own || (focused && moves.contains(&key))
     }
 
     /// Shows everything in a window's root and appends what the user wants. Returns the rectangle that is left for the face, in points of

@@ -201,6 +201,30 @@ fn the_scale_follows_the_keys_that_zoom() {
 }
 
 #[test]
+fn keys_are_the_panels_only_where_it_needs_them() {
+    let mut window = window(World::new());
+    let takes = |window: &Window<'_>| {
+        let panel = &window.state().panel;
+        [Key::Num1, Key::Space, Key::Tab, Key::F1].map(|key| panel.takes_key(&window.ctx, key))
+    };
+    assert_eq!(takes(&window), [false, false, true, true]);
+    window.get_by_label("head.turn, degrees").focus();
+    window.run_steps(2);
+    assert_eq!(takes(&window), [false, true, true, true]);
+    click(&mut window, "Search controls");
+    assert_eq!(takes(&window), [true; 4]);
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    assert_eq!(takes(&window), [false, false, true, true]);
+    // A click leaves the keyboard where it is: keys go on calling poses.
+    click(&mut window, "Poses tab");
+    assert_eq!(takes(&window), [false, false, true, true]);
+    window.key_press(Key::F1);
+    window.run_steps(2);
+    assert_eq!(takes(&window), [true; 4]);
+}
+
+#[test]
 fn the_hint_goes_for_good() {
     let mut world = World::new();
     world.panel = Panel::new(PanelState::default());
