@@ -2,10 +2,11 @@
 
 mod support;
 
-use avatar_panel::{Action, PoseForm, Tab};
+use avatar_panel::{Action, Model, PoseForm, Tab};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use pose_anim::{DEFAULT_POSES_TOML, PoseSet};
 use support::{Window, World};
 
 fn window<'a>(world: World) -> Window<'a> {
@@ -193,4 +194,26 @@ fn pictures_make_a_grid() {
     assert_eq!(first.top(), second.top());
     assert!(first.right() < second.left());
     assert!(first.height() > first.width());
+}
+
+/// What the form lets through can be read back from a file, and what it holds back cannot.
+#[test]
+fn keys_and_durations_are_right_where_the_file_takes_them() {
+    let world = World::new();
+    let model = Model::new(&world.controls, &world.poses);
+    let durations = [None, Some(0.0005), Some(0.001), Some(0.5), Some(3600.0), Some(3601.0)];
+    let mut right = 0;
+    for key in ["g", "é", "?", "F5", "F12", "ab", "no key", "?!", "ää", "1", "q"] {
+        for duration_secs in durations {
+            let form = PoseForm { name: "new one".to_owned(), key: Some(key.to_owned()), duration_secs };
+            let duration = duration_secs.map_or_else(String::new, |secs| format!("duration = {secs}"));
+            let own =
+                format!("{}\n[[pose]]\nname = \"new one\"\nkey = {key:?}\n{duration}\n", DEFAULT_POSES_TOML);
+            let read = PoseSet::from_toml(&own, &world.controls);
+            assert_eq!(form.check(&model, None).is_ok(), read.is_ok(), "{form:?}: {read:?}");
+            right += usize::from(read.is_ok());
+        }
+    }
+    // Six keys of eleven are free and well made, four durations of six within the range.
+    assert_eq!(right, 24);
 }
