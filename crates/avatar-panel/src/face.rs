@@ -2,11 +2,11 @@
 
 use crate::groups::{self, Row};
 use crate::style::palette;
-use crate::widgets::{Icon, icon_button, named};
+use crate::widgets::{Icon, icon_button, named, passed_by};
 use crate::{Action, Model};
 use egui::{
-    Button, DragValue, Label, Rect, Response, RichText, ScrollArea, Sense, Slider, TextEdit, Ui, UiBuilder,
-    vec2,
+    Align, Button, DragValue, Label, Layout, Rect, Response, RichText, ScrollArea, Sense, Slider, TextEdit,
+    Ui, UiBuilder, vec2,
 };
 use pose_anim::Control;
 use std::collections::HashSet;
@@ -83,17 +83,19 @@ impl Face {
 
     fn search(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
         ui.horizontal(|ui| {
-            let reset = "Reset all";
-            let width = ui.available_width() - 84.0 - if self.query.is_empty() { 0.0 } else { 28.0 };
-            let field =
-                TextEdit::singleline(&mut self.query).hint_text("Search").desired_width(width.max(40.0));
-            named(&ui.add(field), || "Search controls".to_owned());
+            const RESET: f32 = 72.0;
+            let (height, gap) = (ui.spacing().interact_size.y, ui.spacing().item_spacing.x);
+            let clear = if self.query.is_empty() { 0.0 } else { height + gap };
+            let width = (ui.available_width() - RESET - gap - clear).max(30.0);
+            let field = TextEdit::singleline(&mut self.query).hint_text("Search");
+            named(&ui.add_sized([width, height], field), || "Search controls".to_owned());
             if !self.query.is_empty() && icon_button(ui, Icon::Cross, "Clear the search").clicked() {
                 self.query.clear();
             }
             let controls = model.controls.controls().iter().zip(model.values);
             let changed = controls.into_iter().any(|(control, value)| is_changed(control, *value));
-            if ui.add_enabled(changed, Button::new(reset)).clicked() {
+            let reset = Button::new("Reset all").min_size(vec2(RESET, 0.0)).truncate();
+            if ui.add_enabled(changed, reset).clicked() {
                 actions.push(Action::ResetAll);
             }
         });
@@ -157,7 +159,8 @@ fn control(
 ) -> bool {
     let control = &model.controls.controls()[index];
     let (sign, unit, decimals) = groups::unit(control);
-    let shown = model.values.get(index).copied().filter(|value| value.is_finite()).unwrap_or(control.default);
+    let given = model.values.get(index).copied().filter(|value| value.is_finite());
+    let shown = given.unwrap_or(control.default).max(control.min).min(control.max);
     let changed = is_changed(control, shown);
     let colors = palette(ui);
     let builder = UiBuilder::new().scope_id(ui.scope_id().with(("control", index))).max_rect(rect);
@@ -168,20 +171,23 @@ fn control(
         let parts = Parts::of(rect);
         let text = RichText::new(label);
         let text = if changed { text.strong() } else { text };
-        let name = ui.put(
-            parts.label,
-            Label::new(text).truncate().selectable(false).sense(Sense::CLICK).halign(egui::Align::LEFT),
-        );
-        let name = name.on_hover_text(&control.name);
+        let left = UiBuilder::new().max_rect(parts.label).layout(Layout::left_to_right(Align::Center));
+        let label = Label::new(text).truncate().selectable(false).sense(Sense::CLICK);
+        let name = ui.scope_builder(left, |ui| ui.add(label)).inner.on_hover_text(&control.name);
 
         let mut value = shown;
         ui.spacing_mut().slider_width = parts.slider.width();
+        ui.spacing_mut().interact_size.y = parts.slider.height();
         let range = control.min..=control.max;
         let slider =
             Slider::new(&mut value, range.clone()).show_value(false).clamping(egui::SliderClamping::Edits);
         let slider = ui.put(parts.slider, slider);
+        if changed {
+            travelled(ui, slider.rect, control, value, colors.accent);
+        }
         named(&slider, || format!("{}, {unit}", control.name));
         let speed = f64::from(control.max - control.min) / 200.0;
+        let slid = value;
         let entry = DragValue::new(&mut value).range(range).clamp_existing_to_range(false).speed(speed);
         let entry = entry
             .max_decimals(decimals)
@@ -189,6 +195,9 @@ fn control(
             .suffix(sign)
             .update_while_editing(false);
         let entry = ui.put(parts.value, entry);
+        if passed_by(&entry, f64::from(slid), f64::from(value), decimals) {
+            value = slid;
+        }
         named(&entry, || format!("value of {}, {unit}", control.name));
 
         let ended = slider.drag_stopped() || entry.drag_stopped();
@@ -197,9 +206,8 @@ fn control(
             actions.push(Action::SetControl { control: index, value, dragging });
         }
         let twice = ui.input(|input| input.pointer.button_double_clicked(egui::PointerButton::Primary));
-        if name.double_clicked() || (twice && slider.contains_pointer()) {
-            actions.push(Action::ResetControl(index));
-        } else if changed && reset(ui, parts.reset, &control.name, colors.accent) {
+        let dotted = changed && reset(ui, parts.reset, &control.name, colors.accent);
+        if dotted || name.double_clicked() || (twice && slider.contains_pointer()) {
             actions.push(Action::ResetControl(index));
         }
         if slider.gained_focus() || entry.gained_focus() {
@@ -209,6 +217,18 @@ fn control(
         busy || ui.rect_contains_pointer(rect) || slider.has_focus() || entry.has_focus()
     })
     .inner
+}
+
+/// Marks the way from the default to the value on the rail.
+fn travelled(ui: &Ui, rect: Rect, control: &Control, value: f32, color: egui::Color32) {
+    let range = (control.max - control.min).max(f32::MIN_POSITIVE);
+    // As far as egui's round handle goes.
+    let radius = rect.height() / 2.5;
+    let rail = rect.x_range().shrink(radius);
+    let x = |value: f32| rail.min + ((value - control.min) / range).clamp(0.0, 1.0) * rail.span();
+    let (from, to) = (x(control.default), x(value));
+    let to = if to > from { (to - radius).max(from) } else { (to + radius).min(from) };
+    ui.painter().hline(from.min(to)..=from.max(to), rect.center().y, egui::Stroke::new(3.0, color));
 }
 
 /// The dot that tells of a change, and takes it back.
@@ -246,7 +266,7 @@ impl Parts {
         Self {
             reset: piece(0.0, Self::RESET),
             label: piece(Self::RESET + 2.0, label - 6.0),
-            slider: piece(rail, middle - label - 8.0),
+            slider: piece(rail, middle - label - 8.0).shrink2(vec2(0.0, 2.0)),
             value: piece(rect.width() - Self::VALUE, Self::VALUE),
         }
     }

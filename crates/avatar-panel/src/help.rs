@@ -45,7 +45,8 @@ pub(crate) fn show(ctx: &Context, keys: &[KeyRow<'_>], open: &mut bool) {
             });
         });
         ui.separator();
-        ScrollArea::vertical().max_height((window.height() - 110.0).max(60.0)).show(ui, |ui| {
+        let room = (window.height() - 110.0).max(60.0);
+        ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, |ui| {
             let columns = share(&groups, columns);
             ui.columns(columns.len().max(1), |uis| {
                 for (ui, groups) in uis.iter_mut().zip(&columns) {

@@ -30,7 +30,9 @@
 //!     ..Model::new(&controls, &poses)
 //! };
 //! let mut free = egui::Rect::NOTHING;
-//! ctx.run_ui(egui::RawInput::default(), |ui| free = panel.show(ui, &model, &mut actions));
+//! let mut output = ctx.run_ui(egui::RawInput::default(), |ui| free = panel.show(ui, &model, &mut actions));
+//! // A window would paint it.
+//! output.textures_delta.clear();
 //! for action in actions {
 //!     if let Action::SetControl { control, value, .. } = action {
 //!         values[control] = value;
@@ -42,8 +44,8 @@
 //! # For who wires it to a window
 //!
 //! - Every frame: fill a model, call [`Panel::show`], carry the actions out in order, draw the face within the returned rectangle.
-//! - The pointer is the panel's while [`egui::Context::egui_wants_pointer_input`], keys while [`Panel::takes_keys`].
-//! - F1, ? and Escape open and close the help by themselves.
+//! - The pointer is the panel's while [`egui::Context::egui_wants_pointer_input`], keys are where [`Panel::takes_key`] says so.
+//! - F1, ? and Escape open and close the help by themselves: forward them, and do not call [`Panel::toggle_help`] for them, too.
 //! - Scaling text scales points: [`egui::Context::pixels_per_point`] follows.
 //! - Everything has a name for screen readers; forward AccessKit's events and trees to have them read.
 

@@ -11,7 +11,9 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
     let frame = style::edge_frame(ui);
     let highest = (0.45 * ui.available_height()).max(80.0);
     Panel::top("avatar-panel notices").frame(frame).max_size(highest).show(ui, |ui| {
-        ScrollArea::vertical().max_height(highest - 24.0).auto_shrink([false, true]).show(ui, |ui| {
+        let room = highest - 24.0;
+        let area = ScrollArea::vertical().max_height(room).min_scrolled_height(room);
+        area.auto_shrink([false, true]).show(ui, |ui| {
             if let Some(loading) = model.loading {
                 progress(ui, loading);
             }

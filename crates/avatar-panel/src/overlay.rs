@@ -10,9 +10,12 @@ const LINES_MS: [f32; 3] = [8.333, 16.667, 33.333];
 
 pub(crate) fn stats(ctx: &Context, free: Rect, stats: &Stats<'_>) {
     let area = Area::new(Id::unique("avatar-panel statistics")).order(Order::Middle).interactable(false);
-    area.fixed_pos(free.min + vec2(10.0, 10.0)).show(ctx, |ui| {
+    area.fixed_pos(free.min + vec2(10.0, 10.0)).constrain(false).show(ctx, |ui| {
+        // Never over the panel, however little room it leaves.
+        ui.shrink_clip_rect(free);
         style::float_frame(ui).show(ui, |ui| {
-            ui.set_max_width(230.0);
+            // As wide as there is room.
+            ui.set_max_width((free.width() - 40.0).clamp(110.0, 210.0));
             ui.spacing_mut().item_spacing.y = 2.0;
             if !stats.adapter.is_empty() {
                 ui.strong(stats.adapter);
@@ -36,7 +39,7 @@ pub(crate) fn stats(ctx: &Context, free: Rect, stats: &Stats<'_>) {
 
 fn line(ui: &mut Ui, name: &str, value: &str) {
     ui.horizontal(|ui| {
-        ui.set_width(210.0);
+        ui.set_width(ui.available_width());
         ui.weak(name);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.label(RichText::new(value).monospace())
@@ -45,7 +48,7 @@ fn line(ui: &mut Ui, name: &str, value: &str) {
 }
 
 fn graph(ui: &mut Ui, frame_ms: &[f32]) {
-    let (rect, response) = ui.allocate_exact_size(vec2(210.0, 48.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 48.0), Sense::hover());
     response.widget_info(|| {
         egui::WidgetInfo::labeled(
             egui::Role::Image,
@@ -80,8 +83,11 @@ fn grouped(number: u64) -> String {
     text
 }
 
-/// The line for those who are here for the first time.
+/// The line for those who are here for the first time. Where there is no room for it, it waits.
 pub(crate) fn hint(ctx: &Context, free: Rect, state: &mut PanelState) {
+    if free.width() < 180.0 || free.height() < 120.0 {
+        return;
+    }
     let place = free.center_bottom() - vec2(0.0, 14.0);
     let area = Area::new(Id::unique("avatar-panel hint")).order(Order::Middle).pivot(Align2::CENTER_BOTTOM);
     area.fixed_pos(place).constrain_to(free).show(ctx, |ui| {

@@ -3,8 +3,8 @@ use crate::face::Face;
 use crate::poses::Poses;
 use crate::timeline::Timeline;
 use crate::widgets::{Icon, icon_button};
-use crate::{Action, Model, PanelState, Tab, help, notices, overlay, style, view};
-use egui::{Align, Align2, Area, Context, Id, Layout, Order, Rect, Ui, vec2};
+use crate::{Action, Model, PanelState, Tab, Theme, help, notices, overlay, style, view};
+use egui::{Align, Align2, Area, Context, Id, Key, Layout, Order, Rect, Ui, vec2};
 
 /// The panel over the picture, and what it has in mind from frame to frame. One panel goes with one [`egui::Context`].
 #[derive(Clone, Debug, Default)]
@@ -14,13 +14,18 @@ pub struct Panel {
     poses: Poses,
     timeline: Timeline,
     help: bool,
-    /// What the context has been told of the state.
+    /// The state that the caller knows.
     told: Option<PanelState>,
+    /// Theme and scale that the context has been told.
+    applied: Option<(Theme, f32)>,
+    scaling: bool,
 }
 
 /// Share of the window's width that the panel may cover, and of its height the timeline.
 const WIDEST: f32 = 0.6;
 const HIGHEST: f32 = 0.42;
+/// Height of a window in points that is too low for a timeline.
+const LOWEST: f32 = 260.0;
 
 impl Panel {
     /// A panel as it was left.
@@ -44,11 +49,24 @@ impl Panel {
         self.state.folded = !self.state.folded;
     }
 
-    /// Whether keys belong to the panel now: text is being typed, or the help is open. Otherwise a window may take keys for poses even
-    /// while a button has the keyboard; what moves within the panel (Tab, arrows, Enter, Space, Delete) is then
-    /// [`egui::Context::egui_wants_keyboard_input`]'s.
-    pub fn takes_keys(&self, ctx: &Context) -> bool {
-        self.help || ctx.text_edit_focused()
+    /// Whether a key that is pressed now is the panel's, and not the window's: all of them while text is typed or the help is open; those
+    /// that move about and press things while something in the panel has the keyboard; and always those of the help and Tab, which is the
+    /// way into the panel.
+    pub fn takes_key(&self, ctx: &Context, key: Key) -> bool {
+        let moves = [
+            Key::ArrowUp,
+            Key::ArrowDown,
+            Key::ArrowLeft,
+            Key::ArrowRight,
+            Key::Enter,
+            Key::Space,
+            Key::Delete,
+            Key::Backspace,
+            Key::Escape,
+        ];
+        let focused = ctx.egui_wants_keyboard_input();
+        let own = [Key::F1, Key::Questionmark, Key::Tab].contains(&key);
+        self.help || ctx.text_edit_focused() || own || (focused && moves.contains(&key))
     }
 
     /// Shows everything in a window's root and appends what the user wants. Returns the rectangle that is left for the face, in points of
@@ -68,7 +86,8 @@ impl Panel {
         if self.state.folded {
             self.opener(&ctx, free);
         }
-        if self.state.show_stats {
+        // The hint goes first where both have no room.
+        if self.state.show_stats && (self.state.seen_hint || free.width() > 500.0) {
             overlay::stats(&ctx, free, &model.stats);
         }
         if !self.state.seen_hint {
@@ -83,25 +102,23 @@ impl Panel {
 
     /// Tells the context of looks, theme and scale where they have changed.
     fn prepare(&mut self, ctx: &Context) {
-        match &mut self.told {
-            None => {
-                style::apply(ctx);
-                style::set_theme(ctx, self.state.theme);
-                ctx.set_zoom_factor(self.state.text_scale);
-            }
-            Some(told) => {
-                if told.theme != self.state.theme {
-                    style::set_theme(ctx, self.state.theme);
-                }
-                if told.text_scale != self.state.text_scale {
-                    ctx.set_zoom_factor(self.state.text_scale);
-                } else if ctx.zoom_factor() != self.state.text_scale {
-                    // By egui's own keys.
-                    self.state.text_scale = ctx.zoom_factor();
-                    self.state = self.state.clone().sound();
-                }
-            }
+        if self.applied.is_none() {
+            style::apply(ctx);
         }
+        let (theme, scale) = (self.state.theme, self.state.text_scale);
+        if self.applied.is_none_or(|(before, _)| before != theme) {
+            style::set_theme(ctx, theme);
+        }
+        if self.applied.is_none_or(|(_, before)| before != scale) {
+            ctx.set_zoom_factor(scale);
+            // It comes with the next frame; until then the context's own is an old one.
+            self.scaling = true;
+        } else if !std::mem::take(&mut self.scaling) && ctx.zoom_factor() != scale {
+            // By egui's own keys.
+            self.state.text_scale = ctx.zoom_factor();
+            self.state = self.state.clone().sound();
+        }
+        self.applied = Some((theme, scale));
     }
 
     fn remember(&mut self, actions: &mut Vec<Action>) {
@@ -119,16 +136,18 @@ impl Panel {
         }
         let folded = &mut self.state.timeline_folded;
         let (frame, whole) = (style::edge_frame(ui), ui.available_height());
-        let panel = if *folded {
+        // Without room for tracks beside everything else there are the buttons only.
+        let has_room = whole >= LOWEST;
+        let panel = if *folded || !has_room {
             egui::Panel::bottom("avatar-panel folded timeline")
         } else {
-            let height = (HIGHEST * whole).clamp(120.0, 420.0);
+            let height = (HIGHEST * whole).clamp(100.0, 420.0);
             egui::Panel::bottom("avatar-panel timeline")
                 .resizable(true)
                 .default_size(height.min(240.0))
-                .size_range(90.0..=height)
+                .size_range(80.0..=height)
         };
-        panel.frame(frame).show(ui, |ui| self.timeline.show(ui, model, folded, actions));
+        panel.frame(frame).show(ui, |ui| self.timeline.show(ui, model, has_room.then_some(folded), actions));
     }
 
     fn show_side(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
@@ -151,13 +170,16 @@ impl Panel {
         });
         // Where the window narrows it, the user's own width is kept for wider ones.
         let width = shown.response.rect.width();
-        if width < widest - 1.0 && (width - self.state.width).abs() > 1.0 {
+        let held = ui.input(|input| input.pointer.primary_down());
+        if held && width < widest - 1.0 && (width - self.state.width).abs() > 1.0 {
             self.state.width = width;
         }
     }
 
     fn tabs(&mut self, ui: &mut Ui) {
-        ui.horizontal(|ui| {
+        // Side by side they need so much.
+        let narrow = ui.available_width() < 250.0;
+        ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             for (tab, name) in Tab::ALL {
                 let button = ui.selectable_label(self.state.tab == tab, name);
@@ -166,16 +188,22 @@ impl Panel {
                     self.state.tab = tab;
                 }
             }
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ui.spacing_mut().item_spacing.x = 4.0;
-                if icon_button(ui, Icon::Right, "Fold the panel").clicked() {
-                    self.state.folded = true;
-                }
-                if icon_button(ui, Icon::Help, "Help").clicked() {
-                    self.help = true;
-                }
-            });
+            if narrow {
+                self.corner(ui);
+            } else {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.corner(ui));
+            }
         });
+    }
+
+    fn corner(&mut self, ui: &mut Ui) {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        if icon_button(ui, Icon::Right, "Fold the panel").clicked() {
+            self.state.folded = true;
+        }
+        if icon_button(ui, Icon::Help, "Help").clicked() {
+            self.help = true;
+        }
     }
 
     /// The button that opens the folded panel.

@@ -126,10 +126,8 @@ fn paint(
             None => drop(painter.rect_stroke(place, 4, Stroke::new(1.0, colors.line), StrokeKind::Inside)),
         }
     }
-    let text = Rect::from_min_max(
-        pos2(rect.left() + 8.0, rect.bottom() - line - if square { 2.0 } else { 2.0 }),
-        rect.max - vec2(6.0, 2.0),
-    );
+    let text =
+        Rect::from_min_max(pos2(rect.left() + 8.0, rect.bottom() - line - 2.0), rect.max - vec2(6.0, 2.0));
     let font = TextStyle::Body.resolve(ui.style());
     let mut right = text.right();
     if let Some(key) = &pose.key {

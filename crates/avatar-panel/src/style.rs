@@ -32,7 +32,7 @@ const LIGHT: Palette = Palette {
     accent: Color32::from_rgb(28, 100, 168),
     glow: Color32::from_rgb(206, 225, 244),
     line: Color32::from_rgb(205, 208, 214),
-    ground: Color32::from_rgb(233, 235, 239),
+    ground: Color32::from_rgb(226, 229, 234),
     record: Color32::from_rgb(196, 40, 40),
 };
 
@@ -59,7 +59,7 @@ pub(crate) fn set_theme(ctx: &Context, theme: Theme) {
 
 /// The ground of a panel at an edge of the window.
 pub(crate) fn edge_frame(ui: &Ui) -> Frame {
-    Frame::new().fill(ui.visuals().panel_fill.gamma_multiply(OPACITY)).inner_margin(Margin::same(10))
+    Frame::new().fill(ui.visuals().window_fill.gamma_multiply(OPACITY)).inner_margin(Margin::same(10))
 }
 
 /// The ground of something that lies over the picture.
@@ -90,7 +90,8 @@ fn visuals(base: Visuals, palette: Palette) -> Visuals {
         (gray(247, 248, 250), gray(52, 55, 61), gray(12, 14, 18), gray(92, 97, 106))
     };
     let mut visuals = Visuals {
-        panel_fill: panel,
+        // Around the panel is the picture: nothing paints over it by default.
+        panel_fill: Color32::TRANSPARENT,
         window_fill: panel,
         extreme_bg_color: if dark { gray(17, 19, 22) } else { gray(255, 255, 255) },
         faint_bg_color: palette.ground,
@@ -100,7 +101,6 @@ fn visuals(base: Visuals, palette: Palette) -> Visuals {
         error_fg_color: if dark { Color32::from_rgb(240, 128, 120) } else { Color32::from_rgb(178, 34, 34) },
         window_stroke: Stroke::new(1.0, palette.line),
         window_shadow: Shadow { offset: [0, 4], blur: 16, spread: 0, color: Color32::from_black_alpha(80) },
-        slider_trailing_fill: true,
         handle_shape: egui::style::HandleShape::Circle,
         ..base
     };
@@ -110,7 +110,7 @@ fn visuals(base: Visuals, palette: Palette) -> Visuals {
     let (rest, hover, press) = if dark {
         (gray(52, 56, 63), gray(66, 71, 80), gray(80, 87, 98))
     } else {
-        (gray(222, 225, 230), gray(208, 213, 220), gray(192, 199, 209))
+        (gray(211, 215, 222), gray(197, 203, 212), gray(181, 189, 200))
     };
     let looks = [
         (&mut widgets.noninteractive, palette.ground, text),

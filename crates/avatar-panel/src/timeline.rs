@@ -82,17 +82,18 @@ impl Timeline {
         Some((index, clip))
     }
 
+    /// Shows it all, or the buttons only: where it is folded, or where there is no room, which is `None`.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
         model: &Model<'_>,
-        folded: &mut bool,
+        folded: Option<&mut bool>,
         actions: &mut Vec<Action>,
     ) {
         let Some((index, clip)) = self.refresh(model) else { return };
         let playhead_secs = if model.playback.clip == Some(index) { model.playback.time_secs } else { 0.0 };
-        timeline_bar::transport(self, ui, model, index, playhead_secs, folded, actions);
-        if *folded {
+        let is_open = timeline_bar::transport(self, ui, model, index, playhead_secs, folded, actions);
+        if !is_open {
             return;
         }
         timeline_bar::inspector(self, ui, model, index, clip, actions);

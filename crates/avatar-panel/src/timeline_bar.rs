@@ -3,30 +3,34 @@
 use crate::style::palette;
 use crate::timeline::Timeline;
 use crate::track_row::limits;
-use crate::widgets::{Icon, icon_button, icon_button_if, named};
+use crate::widgets::{Icon, icon_button, icon_button_if, named, passed_by};
 use crate::{Action, Model};
 use egui::{Button, ComboBox, DragValue, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 use pose_anim::{Clip, Easing, Transition, Wrap};
 
 const WRAPS: [(Wrap, &str); 3] = [(Wrap::Once, "Once"), (Wrap::Loop, "Loop"), (Wrap::PingPong, "To and fro")];
 
+/// Playing and, where the timeline is open, editing; whether it is.
 pub(crate) fn transport(
     timeline: &mut Timeline,
     ui: &mut Ui,
     model: &Model<'_>,
     index: usize,
     playhead_secs: f64,
-    folded: &mut bool,
+    folded: Option<&mut bool>,
     actions: &mut Vec<Action>,
-) {
+) -> bool {
     let clip = &model.clips[index];
     let own = model.playback.clip == Some(index);
     ui.horizontal_wrapped(|ui| {
-        let (icon, name) =
-            if *folded { (Icon::Up, "Open the timeline") } else { (Icon::Down, "Fold the timeline") };
-        if icon_button(ui, icon, name).clicked() {
-            *folded = !*folded;
-        }
+        let is_open = folded.is_some_and(|folded| {
+            let (icon, name) =
+                if *folded { (Icon::Up, "Open the timeline") } else { (Icon::Down, "Fold the timeline") };
+            if icon_button(ui, icon, name).clicked() {
+                *folded = !*folded;
+            }
+            !*folded
+        });
         if own && model.playback.playing {
             if icon_button(ui, Icon::Pause, "Pause").clicked() {
                 actions.push(Action::Pause);
@@ -47,8 +51,8 @@ pub(crate) fn transport(
         });
         named(&wraps.response, || format!("What follows the end: {text}"));
         ui.monospace(format!("{playhead_secs:.2} / {:.2} s", clip.duration_secs()));
-        if *folded {
-            return;
+        if !is_open {
+            return is_open;
         }
         let chosen = timeline.control.filter(|control| clip.track(*control).is_some());
         let insert = ui.add_enabled(chosen.is_some(), Button::new("Insert key"));
@@ -79,7 +83,9 @@ pub(crate) fn transport(
         if icon_button(ui, Icon::Fit, "Show the whole clip").clicked() {
             timeline.fit();
         }
-    });
+        is_open
+    })
+    .inner
 }
 
 /// Time, value and transition of the chosen key.
@@ -95,7 +101,7 @@ pub(crate) fn inspector(
     let track = chosen.and_then(|(control, _)| clip.track(control));
     let control = chosen.and_then(|(control, _)| model.controls.controls().get(control));
     let (Some((at, key)), Some(track), Some(control)) = (chosen, track, control) else {
-        ui.weak("Choose a key to change it. Drag keys to move them, double-click a track to add one.");
+        ui.weak("Drag a key to move it, double-click a track to add one.");
         return;
     };
     let Some(found) = track.keys().get(key) else { return };
@@ -118,6 +124,12 @@ pub(crate) fn inspector(
             .suffix(sign);
         let amount = ui.add(entry.update_while_editing(false));
         named(&amount, || format!("Value of the key, {unit}"));
+        if passed_by(&time, found.time_secs, time_secs, 3) {
+            time_secs = found.time_secs;
+        }
+        if passed_by(&amount, found.value, value, decimals) {
+            value = found.value;
+        }
         if (time_secs, value) != (found.time_secs, found.value) {
             actions.push(Action::MoveKey { clip: index, control: at, key, time_secs, value });
         }

@@ -183,7 +183,7 @@ fn keys(
         let radius = if response.hovered() || marked { 5.5 } else { 4.0 };
         let corners = [vec2(0.0, -radius), vec2(radius, 0.0), vec2(0.0, radius), vec2(-radius, 0.0)];
         let diamond = corners.map(|corner| center + corner).to_vec();
-        ui.painter().add(Shape::convex_polygon(diamond, fill, Stroke::new(1.0, ui.visuals().panel_fill)));
+        ui.painter().add(Shape::convex_polygon(diamond, fill, Stroke::new(1.0, ui.visuals().window_fill)));
     }
 }
 

@@ -27,31 +27,33 @@ pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, name: &str) -> Response {
 
 /// The same, which may be disabled.
 pub(crate) fn icon_button_if(ui: &mut Ui, enabled: bool, icon: Icon, name: &str) -> Response {
-    ui.add_enabled_ui(enabled, |ui| {
+    // As a widget of its own, so that it wraps with its row.
+    let button = |ui: &mut Ui| {
         let side = ui.spacing().interact_size.y;
         let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
         if ui.is_rect_visible(rect) {
             let look = ui.style().interact(&response);
-            let color =
-                if icon == Icon::Record { crate::style::palette(ui).record } else { look.fg_stroke.color };
-            ui.painter().rect(
-                rect,
-                look.corner_radius,
-                look.weak_bg_fill,
-                look.bg_stroke,
-                egui::StrokeKind::Inside,
-            );
+            let record = icon == Icon::Record;
+            let color = if record { crate::style::palette(ui).record } else { look.fg_stroke.color };
+            let inside = egui::StrokeKind::Inside;
+            ui.painter().rect(rect, look.corner_radius, look.weak_bg_fill, look.bg_stroke, inside);
             paint(ui, icon, Rect::from_center_size(rect.center(), vec2(10.0, 10.0)), color);
         }
-        response.on_hover_text(name).on_disabled_hover_text(name)
-    })
-    .inner
+        response
+    };
+    ui.add_enabled(enabled, button).on_hover_text(name).on_disabled_hover_text(name)
 }
 
 /// Names a widget for screen readers. The name is only made where one listens.
 pub(crate) fn named(response: &Response, name: impl FnOnce() -> String) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name()));
+}
+
+/// Whether a number was only looked at: egui reads its rounded text again when the keyboard leaves it.
+pub(crate) fn passed_by(response: &Response, before: f64, after: f64, decimals: usize) -> bool {
+    let rounding = 0.500_1 * 10f64.powi(-i32::try_from(decimals).unwrap_or(0));
+    response.lost_focus() && (after - before).abs() <= rounding
 }
 
 fn paint(ui: &Ui, icon: Icon, rect: Rect, color: Color32) {
