@@ -6,6 +6,7 @@
 //!
 //!  Pack + Textures + Hair ──Pack::groom──▶ Groom: the hair, planted
 //!  Pack + control values ──FaceState──▶ bone matrices + blend weights ──▶ avatar-render, or avatar_mesh::deform
+//!  Pack + control values + target ──Gaze──▶ values of eyes and head that look at it
 //! ```
 //!
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and an index
@@ -29,6 +30,7 @@
 mod error;
 mod export;
 mod face;
+pub mod gaze;
 mod hair;
 mod import;
 mod pack;
@@ -38,6 +40,7 @@ mod textures;
 pub use error::{PackError, PackProblem, Warning};
 pub use export::export;
 pub use face::{FaceError, FaceState};
+pub use gaze::Gaze;
 pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet};
 pub use pack::{Pack, PaletteBone, Part, load_hair, load_materials};
 pub use source::{MemorySource, Source, SourceError};
