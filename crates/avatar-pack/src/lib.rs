@@ -6,6 +6,8 @@
 //!
 //!  Pack + Textures + Hair ──Pack::groom──▶ Groom: the hair, planted
 //!  Pack + control values ──FaceState──▶ bone matrices + blend weights ──▶ avatar-render, or avatar_mesh::deform
+//!  Pack + control values + target ──Gaze──▶ values of eyes and head that look at it
+//!  Pack ──Reach──▶ which vertices a control moves, which controls move a vertex; Pack::hit: which vertex a ray hits
 //! ```
 //!
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and an index
@@ -29,16 +31,22 @@
 mod error;
 mod export;
 mod face;
+pub mod gaze;
 mod hair;
 mod import;
 mod pack;
+mod pick;
+mod reach;
 mod source;
 mod textures;
 
 pub use error::{PackError, PackProblem, Warning};
 pub use export::export;
 pub use face::{FaceError, FaceState};
+pub use gaze::Gaze;
 pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet};
 pub use pack::{Pack, PaletteBone, Part, load_clips, load_hair, load_materials, load_poses};
+pub use pick::Hit;
+pub use reach::Reach;
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

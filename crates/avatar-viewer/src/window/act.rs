@@ -9,11 +9,10 @@ use avatar_panel::{Action, PoseForm};
 use pose_anim::{Pose, Transition};
 use std::path::PathBuf;
 use winit::event_loop::ActiveEventLoop;
-use winit::keyboard::{Key, NamedKey};
 use winit::window::Fullscreen;
 
 impl App {
-    pub(super) fn act_on_key(&mut self, event_loop: &ActiveEventLoop, action: KeyAction, key: &Key) {
+    pub(super) fn act_on_key(&mut self, event_loop: &ActiveEventLoop, action: KeyAction) {
         match action {
             KeyAction::Close => event_loop.exit(),
             KeyAction::Orbit(yaw, pitch) => self.camera.orbit(yaw, pitch),
@@ -41,9 +40,8 @@ impl App {
             KeyAction::Open => self.act(event_loop, Action::OpenFile),
             KeyAction::Undo { again } => self.act(event_loop, if again { Action::Redo } else { Action::Undo }),
             KeyAction::Help => {
-                // The panel listens for its usual keys itself.
-                let is_usual = matches!(key, Key::Named(NamedKey::F1)) || matches!(key, Key::Character(typed) if typed == "?");
-                if let Some(overlay) = self.overlay.as_mut().filter(|_| !is_usual) {
+                // The panel takes its usual keys for this itself.
+                if let Some(overlay) = &mut self.overlay {
                     overlay.panel.toggle_help();
                 }
             }

@@ -43,7 +43,6 @@ use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event::{ElementState, KeyEvent, Modifiers, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
-use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
 /// How long a changed file has to be left alone before it is read. Saving is several changes: who reads after the first
@@ -194,8 +193,12 @@ impl ApplicationHandler<Wake> for App {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         // Before the panel sees the event: Escape takes the keyboard from it.
-        let (typing, focused) =
-            self.overlay.as_ref().map_or((false, false), |overlay| (overlay.takes_keys(), overlay.has_focus()));
+        let is_panels = match &event {
+            WindowEvent::KeyboardInput { event, .. } => {
+                self.overlay.as_ref().is_some_and(|overlay| overlay.takes(&event.logical_key))
+            }
+            _ => false,
+        };
         if let (Some(overlay), Some(stage)) = (&mut self.overlay, &self.stage)
             && !matches!(event, WindowEvent::RedrawRequested)
             && overlay.event(stage.window(), &event).repaint
@@ -214,7 +217,7 @@ impl ApplicationHandler<Wake> for App {
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => self.redraw(),
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers,
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
-                if !typing && !(focused && walks(&event.logical_key)) {
+                if !is_panels {
                     self.key(event_loop, &event);
                 }
             }
@@ -239,25 +242,6 @@ impl ApplicationHandler<Wake> for App {
             _ => {}
         }
     }
-}
-
-/// Whether a key moves within the panel while a part of the panel has the keyboard.
-fn walks(key: &Key) -> bool {
-    matches!(
-        key,
-        Key::Named(
-            NamedKey::Tab
-                | NamedKey::Enter
-                | NamedKey::Space
-                | NamedKey::Escape
-                | NamedKey::Delete
-                | NamedKey::Backspace
-                | NamedKey::ArrowLeft
-                | NamedKey::ArrowRight
-                | NamedKey::ArrowUp
-                | NamedKey::ArrowDown
-        )
-    )
 }
 
 impl App {
@@ -320,7 +304,7 @@ impl App {
         }
         if self.keys.has(&event.logical_key, &self.modifiers) {
             if let Some(action) = self.keys.action(&event.logical_key, &self.modifiers, event.repeat) {
-                self.act_on_key(event_loop, action, &event.logical_key);
+                self.act_on_key(event_loop, action);
             }
             return;
         }

@@ -5,6 +5,7 @@ use egui_winit::EventResponse;
 use std::time::Duration;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
+use winit::keyboard::{Key, NamedKey};
 use winit::window::Window;
 
 /// The panel in the window: events in, actions and triangles out.
@@ -55,14 +56,9 @@ impl Overlay {
         }
     }
 
-    /// Whether keys belong to the panel: text is typed, or help is read.
-    pub(super) fn takes_keys(&self) -> bool {
-        self.panel.takes_keys(&self.ctx)
-    }
-
-    /// Whether the keys that walk through widgets belong to the panel.
-    pub(super) fn has_focus(&self) -> bool {
-        self.ctx.egui_wants_keyboard_input()
+    /// Whether a key that is pressed now is the panel's.
+    pub(super) fn takes(&self, key: &Key) -> bool {
+        self.panel.takes_key(&self.ctx, egui_key(key))
     }
 
     /// Whether the pointer is over the panel, or holds something of it.
@@ -142,6 +138,29 @@ impl Drop for Overlay {
     fn drop(&mut self) {
         // egui insists that what was not shown is thrown away on purpose.
         self.textures.clear();
+    }
+}
+
+/// egui's name of a key; one that means nothing to a panel for all that type.
+fn egui_key(key: &Key) -> egui::Key {
+    match key {
+        Key::Named(NamedKey::Tab) => egui::Key::Tab,
+        Key::Named(NamedKey::Enter) => egui::Key::Enter,
+        Key::Named(NamedKey::Space) => egui::Key::Space,
+        Key::Named(NamedKey::Escape) => egui::Key::Escape,
+        Key::Named(NamedKey::Delete) => egui::Key::Delete,
+        Key::Named(NamedKey::Backspace) => egui::Key::Backspace,
+        Key::Named(NamedKey::ArrowLeft) => egui::Key::ArrowLeft,
+        Key::Named(NamedKey::ArrowRight) => egui::Key::ArrowRight,
+        Key::Named(NamedKey::ArrowUp) => egui::Key::ArrowUp,
+        Key::Named(NamedKey::ArrowDown) => egui::Key::ArrowDown,
+        Key::Named(NamedKey::Home) => egui::Key::Home,
+        Key::Named(NamedKey::End) => egui::Key::End,
+        Key::Named(NamedKey::PageUp) => egui::Key::PageUp,
+        Key::Named(NamedKey::PageDown) => egui::Key::PageDown,
+        Key::Named(NamedKey::F1) => egui::Key::F1,
+        Key::Character(typed) if typed == "?" => egui::Key::Questionmark,
+        _ => egui::Key::A,
     }
 }
 

@@ -1,0 +1,241 @@
+//! Where eyes look: control values that turn the eyes, and the head after them, to a point.
+//!
+//! ```text
+//!  values + target ──look_at───────▶ eye.left.ud, eye.left.lr, eye.right.ud, eye.right.lr   both eyes meet at the target
+//!                  └─face_toward──▶ head.turn, head.bow                                    the face, by a share of the way
+//! ```
+//!
+//! Nothing is assumed about axes and signs of controls: what looks along +Z at bind pose is turned by its joint's bone matrix
+//! `X`, and the values are found by steps that try out what each control does.
+
+mod solve;
+
+use crate::{FaceError, FaceState, Pack};
+use glam::{Affine3A, Vec3};
+use pose_anim::{Control, Drive, JointMotion};
+use solve::Unknown;
+
+/// The controls of the eyes: up and down, left and right.
+const EYES: [[&str; 2]; 2] = [["eye.left.ud", "eye.left.lr"], ["eye.right.ud", "eye.right.lr"]];
+/// The controls of the head that the face turns with.
+const HEAD: [&str; 2] = ["head.turn", "head.bow"];
+/// Directions further from straight ahead say nothing about the side.
+const WIDEST_RAD: f32 = 0.95 * std::f32::consts::PI;
+
+/// Finds the values of controls that make a face look at a point. Made once for a pack; afterwards nothing allocates.
+///
+/// The results depend on the values and the target only, not on where the eyes were before: a viewer may smooth them as it likes.
+#[derive(Clone, Debug)]
+pub struct Gaze {
+    state: FaceState,
+    /// Control values that are tried out.
+    values: Vec<f32>,
+    eyes: Vec<Turned>,
+    head: Option<Turned>,
+}
+
+/// What one or two controls turn.
+#[derive(Clone, Copy, Debug)]
+struct Turned {
+    controls: [Option<usize>; 2],
+    unknowns: [Unknown; 2],
+    /// Index of the joint that is turned by both.
+    joint: usize,
+    /// At bind pose, in world space: the eye's centre, or the middle between the eyes.
+    origin: Vec3,
+    /// How far the controls can turn away from straight ahead.
+    reach_rad: f32,
+}
+
+/// A line of sight in world space; the direction is a unit vector.
+#[derive(Clone, Copy, Debug)]
+struct Sight {
+    origin: Vec3,
+    direction: Vec3,
+}
+
+impl Gaze {
+    /// The eyes of this pack, by the names of their controls (`eye.left.ud`, `eye.left.lr` and those of the right eye), and its head
+    /// (`head.turn`, `head.bow`). Some of them may be missing; `None` where no control turns an eye's joint.
+    pub fn new(pack: &Pack) -> Option<Self> {
+        let mut eyes: Vec<Turned> = EYES.iter().filter_map(|names| Turned::of(pack, *names)).collect();
+        let middle = eyes.iter().map(|eye| eye.origin).sum::<Vec3>() / eyes.len().max(1) as f32;
+        let mut head = Turned::of(pack, HEAD).map(|head| Turned { origin: middle, ..head });
+        let (mut state, mut values) = (FaceState::new(pack), pack.controls.defaults());
+        for turned in eyes.iter_mut().chain(&mut head) {
+            turned.reach_rad = turned.reach(pack, &mut state, &mut values).ok()?;
+        }
+        (!eyes.is_empty()).then_some(Self { state, values, eyes, head })
+    }
+
+    /// Values of the eyes' controls, as pairs of control and value, at which each eye looks at `target` (in world space)
+    /// while all other controls are as in `values`. `out` is cleared first; it stays empty for a target that is not finite.
+    ///
+    /// Where the target is out of an eye's reach, the eye turns toward it as far as it can: along the way from straight ahead to
+    /// the target, and then to the nearest direction within the ranges. Behind the eyes both take the direction from the middle
+    /// between them, so that they do not part or cross.
+    ///
+    /// # Errors
+    /// As [`FaceState::pose`].
+    pub fn look_at(
+        &mut self,
+        pack: &Pack,
+        values: &[f32],
+        target: Vec3,
+        out: &mut Vec<(usize, f32)>,
+    ) -> Result<(), FaceError> {
+        out.clear();
+        let Self { state, values: tried, eyes, .. } = self;
+        take(tried, values)?;
+        if !target.is_finite() {
+            return Ok(());
+        }
+        eyes.iter().for_each(|eye| eye.put(tried, eye.unknowns.map(|unknown| unknown.start)));
+        state.pose(pack, tried)?;
+        let count = eyes.len().max(1) as f32;
+        let sights = || eyes.iter().map(|eye| eye.sight(state));
+        let middle = sights().map(|sight| sight.origin).sum::<Vec3>() / count;
+        let ahead = sights().map(|sight| sight.direction).sum::<Vec3>();
+        let is_behind = ahead.dot(target - middle) <= 0.0;
+        for eye in eyes.iter() {
+            state.pose(pack, tried)?;
+            let rest = eye.sight(state);
+            let from = if is_behind { middle } else { rest.origin };
+            let Some(wanted) = (target - from).try_normalize() else { continue };
+            let aim = eye.within_reach(rest.direction, wanted, 1.0);
+            let found = solve::least(eye.unknowns, |at| {
+                eye.put(tried, at);
+                state.pose(pack, tried)?;
+                Ok::<_, FaceError>(turn(eye.sight(state).direction, aim))
+            })?;
+            eye.put(tried, found);
+            eye.report(found, out);
+        }
+        Ok(())
+    }
+
+    /// Values of `head.turn` and `head.bow`, as pairs of control and value, at which the face has gone `share` of the way from
+    /// straight ahead, where both are at their defaults, to facing `target` (in world space), while all other controls are as in `values`. `out` is
+    /// cleared first; it stays empty for a target that is not finite and for a face without these controls.
+    ///
+    /// The face looks from the middle between the eyes, which moves as the head turns. The eyes are to be found afterwards, with the
+    /// values of the head that is shown.
+    ///
+    /// # Errors
+    /// As [`FaceState::pose`].
+    pub fn face_toward(
+        &mut self,
+        pack: &Pack,
+        values: &[f32],
+        target: Vec3,
+        share: f32,
+        out: &mut Vec<(usize, f32)>,
+    ) -> Result<(), FaceError> {
+        out.clear();
+        let Self { state, values: tried, head, .. } = self;
+        take(tried, values)?;
+        let Some(head) = head.filter(|_| target.is_finite() && share.is_finite()) else { return Ok(()) };
+        head.put(tried, head.unknowns.map(|unknown| unknown.start));
+        state.pose(pack, tried)?;
+        let rest = head.sight(state).direction;
+        let found = solve::least(head.unknowns, |at| {
+            head.put(tried, at);
+            state.pose(pack, tried)?;
+            let sight = head.sight(state);
+            let wanted = (target - sight.origin).try_normalize().unwrap_or(rest);
+            Ok::<_, FaceError>(turn(sight.direction, head.within_reach(rest, wanted, share)))
+        })?;
+        head.report(found, out);
+        Ok(())
+    }
+}
+
+impl Turned {
+    fn of(pack: &Pack, names: [&str; 2]) -> Option<Self> {
+        let table = pack.controls.controls();
+        let turning = |name: &str| {
+            let control = pack.controls.index(name)?;
+            match &table.get(control)?.drives {
+                Drive::Joint { joint, kind: JointMotion::Rotation, .. } => {
+                    Some((control, pack.rig.joint(joint)?.index()))
+                }
+                _ => None,
+            }
+        };
+        let found = names.map(turning);
+        // Parents come first: where each control has a joint of its own, the last one is turned by both.
+        let joint = found.iter().flatten().map(|(_, joint)| *joint).max()?;
+        let controls = found.map(|found| found.map(|(control, _)| control));
+        let unknown = |control: usize| {
+            let Control { min, max, default, .. } = table.get(control)?;
+            Some(Unknown { min: *min, max: *max, start: *default })
+        };
+        let unknowns = controls.map(|control| control.and_then(unknown).unwrap_or_default());
+        let origin = pack.rig.world_from_bind().get(joint)?.translation.into();
+        Some(Self { controls, unknowns, joint, origin, reach_rad: 0.0 })
+    }
+
+    /// The largest angle from straight ahead, which is at an end of both ranges.
+    fn reach(&self, pack: &Pack, state: &mut FaceState, values: &mut [f32]) -> Result<f32, FaceError> {
+        let [first, second] = self.unknowns;
+        let rest = [first.start, second.start];
+        self.put(values, rest);
+        state.pose(pack, values)?;
+        let ahead = self.sight(state).direction;
+        let mut reach = 0.0f32;
+        for corner in [first.min, first.max].into_iter().flat_map(|x| [[x, second.min], [x, second.max]]) {
+            self.put(values, corner);
+            state.pose(pack, values)?;
+            reach = reach.max(turn(ahead, self.sight(state).direction).length());
+        }
+        self.put(values, rest);
+        Ok(reach.min(WIDEST_RAD))
+    }
+
+    fn put(&self, values: &mut [f32], at: [f32; 2]) {
+        for (control, value) in self.controls.iter().zip(at) {
+            if let Some(slot) = control.and_then(|control| values.get_mut(control)) {
+                *slot = value;
+            }
+        }
+    }
+
+    fn report(&self, at: [f32; 2], out: &mut Vec<(usize, f32)>) {
+        let both = self.controls.iter().zip(at);
+        out.extend(both.filter_map(|(control, value)| Some(((*control)?, value))));
+    }
+
+    fn sight(&self, state: &FaceState) -> Sight {
+        let bones = state.rig_pose().posed_from_bind();
+        let posed_from_bind = bones.get(self.joint).copied().unwrap_or(Affine3A::IDENTITY);
+        Sight {
+            origin: posed_from_bind.transform_point3(self.origin),
+            direction: posed_from_bind.transform_vector3(Vec3::Z).normalize_or(Vec3::Z),
+        }
+    }
+
+    /// The direction that lies `share` of the way from `ahead` to `wanted`, or as far on that way as the controls reach. Without
+    /// the limit the nearest direction within the ranges would lie at the top or bottom for what is far to the side.
+    fn within_reach(&self, ahead: Vec3, wanted: Vec3, share: f32) -> Vec3 {
+        let way = turn(ahead, wanted);
+        let angle = way.length();
+        let Some(axis) = way.try_normalize() else { return ahead };
+        let turned = (share * angle).clamp(-self.reach_rad, self.reach_rad);
+        glam::Quat::from_axis_angle(axis, turned) * ahead
+    }
+}
+
+/// Control values to start from.
+fn take(tried: &mut [f32], values: &[f32]) -> Result<(), FaceError> {
+    if tried.len() != values.len() {
+        return Err(FaceError::ValueCount { expected: tried.len(), found: values.len() });
+    }
+    tried.copy_from_slice(values);
+    Ok(())
+}
+
+/// The shortest turn from one unit vector to another: its axis, as long as its angle in radians.
+fn turn(from: Vec3, to: Vec3) -> Vec3 {
+    let cross = from.cross(to);
+    cross.normalize_or_zero() * cross.length().atan2(from.dot(to))
+}
