@@ -85,6 +85,14 @@ impl Camera {
         self.world_from_camera.translation.into()
     }
 
+    /// The direction in which a point of the picture lies, from the eye: `at` is from −1 to 1, +x right, +y up. One step along it leads
+    /// to depth 1 in front of the camera.
+    pub fn toward(&self, at: Vec2) -> Vec3 {
+        let aside = (at - self.valid_shift()) / self.zoom();
+        let direction = Vec3::new(aside.x * valid_aspect(self.aspect), aside.y, -1.0);
+        self.world_from_camera.transform_vector3(direction)
+    }
+
     /// The matrix that takes points of the world to clip space. A field of view outside 0…180° and an aspect or a
     /// near plane that is not positive are replaced by the nearest usable number.
     pub fn clip_from_world(&self) -> Mat4 {
@@ -198,6 +206,9 @@ mod tests {
         for point in [Vec3::ZERO, Vec3::new(3.0, -2.0, 5.0), Vec3::new(-4.0, 8.0, -20.0)] {
             let there = camera.clip_from_world().project_point3(point);
             assert!((camera.world_from_clip().project_point3(there) - point).length() < 1e-3);
+            let toward = camera.toward(Vec2::new(there.x, there.y));
+            let depth = -camera.world_from_camera.inverse().transform_point3(point).z;
+            assert!((camera.eye() + toward * depth - point).length() < 1e-3);
         }
     }
 

@@ -24,7 +24,7 @@ impl App {
                 self.face.defaults();
             }
             KeyAction::Hair { backward } => self.next_hair(backward),
-            KeyAction::Gaze => {}
+            KeyAction::Gaze => self.toggle_gaze(),
             KeyAction::Play => {
                 if self.face.playback.playing {
                     self.act(event_loop, Action::Pause);
@@ -68,7 +68,7 @@ impl App {
             Action::SetControl { control, value, .. } => self.face.set_control(control, value),
             Action::ResetControl(control) => self.face.reset_control(control),
             Action::ResetAll => self.face.defaults(),
-            Action::Hover(_) => {}
+            Action::Hover(control) => self.pointing.hovered = control,
             Action::GoTo(pose) => self.face.go_to(pose),
             Action::Play(clip) => self.play(clip),
             Action::Pause => self.face.pause(),

@@ -2,7 +2,7 @@ use crate::face_args::FaceChoice;
 use crate::files::Files;
 use crate::store::{self, Store};
 use anyhow::Result;
-use avatar_pack::{FaceState, Pack, Textures};
+use avatar_pack::{FaceState, Pack, Textures, load_poses};
 use pose_anim::{Clip, Key, Player, Pose, Track};
 use pose_book::{BookError, ClipBook, PoseBook};
 use std::sync::Arc;
@@ -153,6 +153,19 @@ impl Face {
             }
         }
         self.player.press(pose);
+    }
+
+    /// Takes single controls to values that somebody else finds out again and again; those that are nearly there are left alone.
+    pub(super) fn lead(&mut self, values: &[(usize, f32)], secs: f32, off: f32) {
+        let is_off = |(control, value): &&(usize, f32)| (self.goal[*control] - value).abs() > off;
+        let values: Vec<(usize, f32)> = values.iter().filter(is_off).copied().collect();
+        if values.is_empty() {
+            return;
+        }
+        self.start = None;
+        self.active_pose = None;
+        values.iter().for_each(|(control, value)| self.goal[*control] = *value);
+        self.player.press(&Pose::new("led", values).lasting(secs));
     }
 
     /// Goes to one of the poses.
@@ -325,11 +338,20 @@ impl Face {
     /// # Errors
     /// The first mistake in them; the old ones stay.
     pub(super) fn reload_poses(&mut self) -> Result<bool> {
-        let Some(text) = self.store.read(store::POSES)? else { return Ok(false) };
-        if text == self.poses.text() {
-            return Ok(false);
+        match self.store.read(store::POSES)? {
+            Some(text) if text == self.poses.text() => return Ok(false),
+            Some(text) => {
+                self.poses.replace(&text).map_err(|error| self.store.placed(store::POSES, &error))?;
+            }
+            // Without a file of its own a face has the usual poses.
+            None => {
+                let usual = load_poses(&self.files, &self.pack.controls)?;
+                if usual == self.pack.poses {
+                    return Ok(false);
+                }
+                self.poses = PoseBook::of_set(&usual, &self.pack.controls)?;
+            }
         }
-        self.poses.replace(&text).map_err(|error| self.store.placed(store::POSES, &error))?;
         self.pack.poses = self.poses.poses().clone();
         self.active_pose = None;
         Ok(true)
@@ -341,7 +363,7 @@ impl Face {
     /// The first mistake in them; the old ones stay.
     pub(super) fn reload_clips(&mut self) -> Result<bool> {
         let unsaved = self.has_unsaved_clips();
-        let Some(text) = self.store.read(store::CLIPS)? else { return Ok(false) };
+        let text = self.store.read(store::CLIPS)?.unwrap_or_default();
         if unsaved || text == self.clips.text() {
             return Ok(false);
         }

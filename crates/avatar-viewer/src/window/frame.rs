@@ -102,7 +102,10 @@ impl App {
         for action in actions {
             self.act(event_loop, action);
         }
+        let free = painted.as_ref().map(|painted| painted.free);
+        self.look(free);
         self.face.pose()?;
+        self.point(free, is_at_rest);
         self.draw(painted.as_ref(), is_at_rest, background)?;
 
         let swings = self.frames.swing.is_some();
@@ -153,6 +156,7 @@ impl App {
         let loading = self.loading.as_ref().zip(loading.as_deref());
         let model = Model {
             values: &face.goal,
+            highlighted: &self.pointing.highlighted,
             thumbnails: &thumbnails,
             active_pose: face.active_pose,
             can_save: if face.store.path(crate::store::POSES).is_some() {

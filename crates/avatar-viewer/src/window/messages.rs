@@ -37,7 +37,7 @@ impl Messages {
     /// Tells of an error, also where the program was started from.
     pub(super) fn error(&mut self, about: About, title: impl Into<String>, error: &anyhow::Error) {
         let (title, text) = (title.into(), format!("{error:#}"));
-        eprintln!("error: {text}: {title}");
+        eprintln!("error: {text}: {}", as_clause(&title));
         self.tell(about, Severity::Error, title, text);
     }
 
@@ -76,4 +76,10 @@ impl Messages {
             dismissible: true,
         })
     }
+}
+
+/// A sentence as a part of another one.
+fn as_clause(sentence: &str) -> String {
+    let mut letters = sentence.trim_end_matches('.').chars();
+    letters.next().map(char::to_lowercase).into_iter().flatten().chain(letters).collect()
 }

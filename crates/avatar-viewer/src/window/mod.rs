@@ -16,6 +16,7 @@ pub(crate) mod keys;
 mod loading;
 mod messages;
 mod overlay;
+mod point;
 mod stage;
 mod watch;
 
@@ -34,6 +35,7 @@ use keys::Keys;
 use loading::Loading;
 use messages::{About, Messages};
 use overlay::Overlay;
+use point::Pointing;
 use stage::Stage;
 use std::path::Path;
 use std::sync::Arc;
@@ -82,8 +84,10 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let face = Face::new(files, pack, textures, Some(start))?;
     // Watches as long as it lives.
     let watcher = watch(&face.files, &face.store, proxy.clone());
+    let pointing = Pointing::new(&face.pack, proxy.clone(), false);
     let mut app = App {
         proxy,
+        pointing,
         size: PhysicalSize::new(size[0], size[1]),
         with_panel: !args.no_panel,
         look: args.look,
@@ -132,6 +136,7 @@ struct App {
     overlay: Option<Overlay>,
     stage: Option<Stage>,
     frames: Frames,
+    pointing: Pointing,
     loading: Option<Loading>,
     watcher: Option<notify::RecommendedWatcher>,
     /// When each of the files is read again, unless it changes once more before.
@@ -160,7 +165,10 @@ impl ApplicationHandler<Wake> for App {
                     }
                 }
             }
-            Wake::Ready => self.take_loaded(),
+            Wake::Ready => {
+                self.pointing.take();
+                self.take_loaded();
+            }
             Wake::Chosen(path) => self.open(&path),
             Wake::Accessibility(event) => {
                 if let Some(overlay) = &mut self.overlay {
@@ -337,6 +345,10 @@ impl App {
     fn pointer(&mut self, position: PhysicalPosition<f64>) {
         let (dx, dy) = ((position.x - self.pointer.x) as f32, (position.y - self.pointer.y) as f32);
         self.pointer = position;
+        self.pointing.moved();
+        if self.pointing.follows {
+            self.redraw();
+        }
         match self.dragging {
             Some(Drag::Orbit) => self.camera.drag(dx, dy),
             Some(Drag::Pan) => {
@@ -388,6 +400,7 @@ impl App {
             stage.set_avatar(&face.pack, &face.textures, self.look)?;
         }
         self.face = face;
+        self.pointing = Pointing::new(&self.face.pack, self.proxy.clone(), self.pointing.follows);
         self.camera = Camera::START;
         self.frames.forget_miniatures();
         self.watcher = watch(&self.face.files, &self.face.store, self.proxy.clone());

@@ -11,7 +11,10 @@ use tempfile::TempDir;
 
 /// The program under test.
 pub fn viewer() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_avatar-viewer"))
+    let mut command = Command::new(env!("CARGO_BIN_EXE_avatar-viewer"));
+    // Not what whoever runs the tests keeps for themselves.
+    command.env("XDG_CONFIG_HOME", concat!(env!("CARGO_TARGET_TMPDIR"), "/nobodys-settings"));
+    command
 }
 
 /// What a run came to.

@@ -41,7 +41,17 @@ pub struct Desk {
 static TURN: Mutex<()> = Mutex::new(());
 
 impl Desk {
+    /// Opens a window that shows nothing but the face.
     pub fn open(arguments: &[&str]) -> Self {
+        Self::start(viewer().args(arguments).arg("--no-panel"))
+    }
+
+    /// Opens a window with its panel, of a user who keeps settings in this folder.
+    pub fn with_panel(arguments: &[&str], settings: &Path) -> Self {
+        Self::start(viewer().args(arguments).env("XDG_CONFIG_HOME", settings))
+    }
+
+    fn start(command: &mut Command) -> Self {
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let mut server = Command::new("Xvfb");
         // Without -noreset the display starts anew whenever its last client leaves, under the feet of the next one.
@@ -53,8 +63,7 @@ impl Desk {
         BufReader::new(stdout).read_line(&mut number).expect("the display's number");
         let display = format!(":{}", number.trim());
 
-        let mut command = viewer();
-        command.args(arguments).env("DISPLAY", &display);
+        command.env("DISPLAY", &display);
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         let stderr = NamedTempFile::new().expect("a temporary file");
         command.stderr(stderr.reopen().expect("a handle"));
@@ -81,6 +90,20 @@ impl Desk {
     pub fn do_xdotool(&self, arguments: &[&str]) {
         let status = Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).status();
         assert!(status.expect("xdotool starts").success(), "xdotool {arguments:?}");
+    }
+
+    /// Moves the pointer to a place in the window.
+    pub fn point(&self, x: i32, y: i32) {
+        self.do_xdotool(&["mousemove", "--window", &self.window.to_string(), &x.to_string(), &y.to_string()]);
+    }
+
+    pub fn click(&self, x: i32, y: i32) {
+        self.point(x, y);
+        self.do_xdotool(&["click", "1"]);
+    }
+
+    pub fn write(&self, text: &str) {
+        self.do_xdotool(&["type", text]);
     }
 
     pub fn key(&self, key: &str) {
