@@ -30,17 +30,10 @@ impl<W: Write + Seek> Film<W> {
     /// Begins a film of frames of one size. The sink is written from where it stands.
     ///
     /// # Errors
-    /// A size or a rate that the format cannot hold (GIF: at most 50 frames per second; MP4: at most 3840x2160), or a
-    /// sink that cannot be written.
+    /// As [`Format::check`], or a sink that cannot be written.
     pub fn new(format: Format, sink: W, width: u32, height: u32, rate: Rate) -> Result<Self, FilmError> {
-        let largest = format.largest();
-        let size = || FilmError::Size { format, width, height, largest };
-        if width.min(height) == 0 || width.max(height) > largest.0 || width.min(height) > largest.1 {
-            return Err(size());
-        }
-        if let Some(most) = format.fastest().filter(|most| rate.per_second() > f64::from(*most)) {
-            return Err(FilmError::Rate { format, rate, most });
-        }
+        format.check(width, height, rate)?;
+        let size = || FilmError::Size { format, width, height, largest: format.largest() };
         let pixels = (width as usize).checked_mul(height as usize);
         let frame_bytes = pixels.and_then(|pixels| pixels.checked_mul(4)).ok_or_else(size)?;
         let encoder = match format {

@@ -1,7 +1,7 @@
 //! Avatar packs: rig, meshes, textures, controls and poses from a set of named byte strings.
 //!
 //! ```text
-//!  Source ──▶ Pack  { rig, parts, palette, controls, poses, materials, hair } geometry and motion
+//!  Source ──▶ Pack  { rig, parts, palette, controls, poses, clips, materials, hair } geometry and motion
 //!         └─▶ Textures { skin, eyes, teeth … }                    pictures, missing ones with a warning
 //!
 //!  Pack + Textures + Hair ──Pack::groom──▶ Groom: the hair, planted
@@ -10,7 +10,7 @@
 //!
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and an index
 //! buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally `controls.toml`,
-//! `poses.toml`, `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
+//! `poses.toml`, `clips.toml`, `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
 //! bytes in the program.
 //!
 //! ```

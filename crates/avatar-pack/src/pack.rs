@@ -5,7 +5,7 @@ use avatar_mesh::{
     Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartKind, PartSpec, Winding, raw,
 };
 use glam::Affine3A;
-use pose_anim::{Binding, ControlTable, PoseSet};
+use pose_anim::{Binding, ClipSet, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
 use std::borrow::Cow;
 
@@ -29,11 +29,13 @@ pub struct Pack {
     pub binding: Binding,
     /// The poses, from `poses.toml` or the default set.
     pub poses: PoseSet,
+    /// Clips of controls, from `clips.toml`; none without it.
+    pub clips: ClipSet,
     /// The looks of the parts, from `materials.toml` or the defaults.
     pub materials: Materials,
     /// The hair, from `hair.toml`; `None` where there is none of that name.
     pub hair: Option<Hair>,
-    /// The clips of a file of an interchange format; packs in the raw format have none.
+    /// The clips of a file of an interchange format, which move joints and shapes; packs in the raw format have none.
     pub motion: Option<SceneMotion>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
@@ -87,6 +89,11 @@ impl Pack {
             Some(text) => PoseSet::from_toml(&text, &controls)
                 .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error)))?,
         };
+        let clips = match read_text(source, "clips.toml")? {
+            None => ClipSet::default(),
+            Some(text) => ClipSet::from_toml(&text, &controls)
+                .map_err(|error| at(source, "clips.toml", PackProblem::Toml(error)))?,
+        };
         let materials = load_materials(source)?;
         let hair = load_hair(source)?;
         let shapes = FACE_SHAPES.map(str::to_owned).into();
@@ -98,6 +105,7 @@ impl Pack {
             controls,
             binding,
             poses,
+            clips,
             materials,
             hair,
             motion: None,

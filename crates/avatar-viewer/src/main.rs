@@ -4,14 +4,19 @@
 //! other. Exit status: 0 on success, 2 where the command line has to be corrected, 1 on any other failure.
 
 mod cli;
+mod clips;
 mod face_args;
 mod files;
+mod film;
 mod hair_args;
 mod label;
 mod look_args;
 mod offscreen;
 mod output;
+mod picture_args;
+mod progress;
 mod scene;
+mod script;
 mod usage;
 mod verbs;
 mod window;
