@@ -1,10 +1,12 @@
 use color_quant::NeuQuant;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The most colours of a palette; one further entry is kept for what is transparent.
 const MOST_COLORS: usize = 255;
-/// How many pixels the search for colours looks at, if there are more.
+/// How many pixels the search for colours looks at, about.
 const LOOKS: usize = 20_000;
+/// Bits of each channel by which colours are alike.
+const ALIKE_BITS: u32 = 5;
 
 type Color = [u8; 3];
 
@@ -32,8 +34,11 @@ impl Palette {
     }
 
     fn fitted(pixels: &[Color]) -> Self {
-        let rgba: Vec<u8> = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 255]).collect();
-        let every = (pixels.len() / LOOKS).clamp(1, 30) as i32;
+        let looks = evened(pixels);
+        let rgba: Vec<u8> = looks.iter().flat_map(|[r, g, b]| [*r, *g, *b, 255]).collect();
+        // The search is slow to learn: it has to see few colours again and again.
+        let rgba = rgba.repeat((LOOKS / looks.len().max(1)).max(1));
+        let every = (looks.len() / LOOKS).clamp(1, 30) as i32;
         let nearest = NeuQuant::new(every, MOST_COLORS, &rgba);
         Self { rgb: nearest.color_map_rgb(), entries: HashMap::new(), nearest: Some(nearest) }
     }
@@ -50,4 +55,14 @@ impl Palette {
     pub(crate) fn transparent(&self) -> u8 {
         (self.rgb.len() / 3) as u8
     }
+}
+
+/// Of colours that are alike only about the square root of how many there are: else the skin would leave no entries to the eyes.
+fn evened(pixels: &[Color]) -> Vec<Color> {
+    let mut alike: BTreeMap<Color, Vec<Color>> = BTreeMap::new();
+    for pixel in pixels {
+        alike.entry(pixel.map(|channel| channel >> (8 - ALIKE_BITS))).or_default().push(*pixel);
+    }
+    let some = |colors: Vec<Color>| colors.into_iter().enumerate().filter(|(at, _)| at.isqrt().pow(2) == *at);
+    alike.into_values().flat_map(some).map(|(_, color)| color).collect()
 }

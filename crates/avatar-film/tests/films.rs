@@ -66,6 +66,18 @@ fn gif_keeps_few_colours_exactly_and_many_closely() {
 }
 
 #[test]
+fn gif_keeps_what_is_small_and_of_other_colours() {
+    let green = [60, 200, 90];
+    let mut picture = frames(160, 90, 1, false).remove(0);
+    picture[4000 * 4..4012 * 4].chunks_exact_mut(4).for_each(|pixel| pixel[..3].copy_from_slice(&green));
+    let (found, _) = gif(&film(Format::Gif, std::slice::from_ref(&picture), 160, 90, rate("25")));
+    for pixel in found[0].rgba[4000 * 4..4012 * 4].chunks_exact(4) {
+        let near = pixel.iter().zip(green).all(|(found, wanted)| found.abs_diff(wanted) <= 16);
+        assert!(near, "{pixel:?} for {green:?}");
+    }
+}
+
+#[test]
 fn gif_forgets_what_becomes_transparent() {
     let pictures = frames(33, 17, 9, true);
     let (found, _) = gif(&film(Format::Gif, &pictures, 33, 17, rate("20")));
@@ -174,5 +186,18 @@ fn a_full_disk_is_told_and_nothing_panics() {
                 "{error:?}"
             );
         }
+    }
+}
+
+/// `cargo test -p avatar-film --test films -- --ignored --nocapture` prints what a frame costs.
+#[test]
+#[ignore = "it measures, and checks nothing"]
+fn cost_of_a_frame() {
+    let pictures = frames(640, 360, 12, false);
+    for format in Format::ALL {
+        let begin = std::time::Instant::now();
+        let bytes = film(*format, &pictures, 640, 360, rate("25")).len();
+        let secs = begin.elapsed().as_secs_f64();
+        println!("{format}: {:.1} ms and {} bytes a frame", secs * 1e3 / 12.0, bytes / 12);
     }
 }

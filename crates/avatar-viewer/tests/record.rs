@@ -59,7 +59,8 @@ fn frames_are_pictures_of_the_traced_states() {
     assert!((8..20).contains(&files.len()), "{} frames", files.len());
     for (k, file) in files.iter().enumerate() {
         assert_eq!(file.file_name().expect("a name").to_string_lossy(), format!("{k:04}.png"));
-        let settings = rows[k * 24].iter().flat_map(|(name, value)| ["--set".to_owned(), format!("{name}={value}")]);
+        let settings =
+            rows[k * 24].iter().flat_map(|(name, value)| ["--set".to_owned(), format!("{name}={value}")]);
         let frame = image::open(file).expect("a PNG").into_rgba8();
         assert!(frame == render(&pack, &settings.collect::<Vec<_>>()), "frame {k}");
     }
@@ -155,21 +156,28 @@ fn pictures_say_how_to_draw_them_again() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("face.png");
     let draw = |options: &[String]| {
-        finish(viewer().arg("render").arg(golden_pack()).args(options).args(SIZE).arg("--out").arg(&out)).ok();
+        finish(viewer().arg("render").arg(golden_pack()).args(options).args(SIZE).arg("--out").arg(&out))
+            .ok();
         (image::open(&out).expect("a PNG").into_rgba8(), state(&out))
     };
     let cases: [(&[&str], &str); 4] = [
         (&[], ""),
         (&["--set", "jaw.open=3", "--set", "smile=0"], "jaw.open=3"),
         (&["--pose", "smile:0.5 wink-left", "--set", "smile=0.125"], "pose=smile:0.5 wink-left; smile=0.125"),
-        (&["--set", "head.turn=7", "--rotate", "JawJoint=z:-12,y:5"], "head.turn=7; rotate=JawJoint=z:-12,y:5"),
+        (
+            &["--set", "head.turn=7", "--rotate", "JawJoint=z:-12,y:5"],
+            "head.turn=7; rotate=JawJoint=z:-12,y:5",
+        ),
     ];
     for (options, expected) in cases {
         let options: Vec<_> = options.iter().map(|option| (*option).to_owned()).collect();
         let (picture, state) = draw(&options);
         assert_eq!(state, expected);
         let options = state.split("; ").filter(|entry| !entry.is_empty()).flat_map(|entry| {
-            match ["pose", "clip", "time", "rotate"].iter().find(|name| entry.starts_with(&format!("{name}="))) {
+            match ["pose", "clip", "time", "rotate"]
+                .iter()
+                .find(|name| entry.starts_with(&format!("{name}=")))
+            {
                 Some(name) => [format!("--{name}"), entry[name.len() + 1..].to_owned()],
                 None => ["--set".to_owned(), entry.to_owned()],
             }
@@ -198,7 +206,10 @@ fn wrong_usage() {
     for fps in ["0", "-1", "nan", "241", "1/0"] {
         usage(&["--out", out, "--script", "0 smile", "--fps", fps], "frames per second from 0.01 to 240");
     }
-    usage(&["--out", out, "--script", "0 smile", "--fps", "60"], "GIF: expected at most 50 frames per second");
+    usage(
+        &["--out", out, "--script", "0 smile", "--fps", "60"],
+        "GIF: expected at most 50 frames per second",
+    );
     usage(&["--out", out, "--script", "0 smile", "--duration", "0"], "--duration");
     usage(&["--out", out, "--script", "0 smile", "--duration", "1e9"], "at most 1000000 frames");
     usage(&["--out", out, "--script", "0 smile", "--frame", "beard"], "beard");
@@ -224,7 +235,8 @@ fn failures_leave_nothing_behind() {
     let file = full.join("precious.txt");
     fs::rename(&file, full.join("precious")).expect("renamed");
     finish(&mut record(&full.join("precious"))).fails(1, &["a new or an empty folder, found a file"]);
-    finish(&mut record(&folder.path().join("no/film.gif"))).fails(1, &["no", "expected a folder to write to"]);
+    finish(&mut record(&folder.path().join("no/film.gif")))
+        .fails(1, &["no", "expected a folder to write to"]);
     finish(&mut record(&folder.path().join("no/frames"))).fails(1, &["no", "expected a folder to write to"]);
     for out in ["film.gif", "frames"] {
         let mut command = record(&folder.path().join(out));
@@ -244,7 +256,11 @@ fn an_interrupt_leaves_nothing_behind() {
     for out in ["film.gif", "frames"] {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut command = viewer();
-        command.arg("record").arg(golden_pack()).args(["--script", "0 smile", "--duration", "600"]).args(SIZE);
+        command
+            .arg("record")
+            .arg(golden_pack())
+            .args(["--script", "0 smile", "--duration", "600"])
+            .args(SIZE);
         command.arg("--out").arg(folder.path().join(out)).stderr(std::process::Stdio::piped());
         let mut child = command.spawn().expect("the program starts");
         let is_empty = || fs::read_dir(folder.path()).expect("a folder").next().is_none();
