@@ -188,16 +188,3 @@ fn a_full_disk_is_told_and_nothing_panics() {
         }
     }
 }
-
-/// `cargo test -p avatar-film --test films -- --ignored --nocapture` prints what a frame costs.
-#[test]
-#[ignore = "it measures, and checks nothing"]
-fn cost_of_a_frame() {
-    let pictures = frames(640, 360, 12, false);
-    for format in Format::ALL {
-        let begin = std::time::Instant::now();
-        let bytes = film(*format, &pictures, 640, 360, rate("25")).len();
-        let secs = begin.elapsed().as_secs_f64();
-        println!("{format}: {:.1} ms and {} bytes a frame", secs * 1e3 / 12.0, bytes / 12);
-    }
-}
