@@ -153,6 +153,7 @@ fn the_readmes_programs_run_in_projects_of_their_own() {
             "pose-anim",
             "avatar-pack",
             "avatar-exchange",
+            "avatar-film",
             "avatar-render"
         ]
     );

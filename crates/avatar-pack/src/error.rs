@@ -44,7 +44,7 @@ pub enum PackProblem {
         /// Offset of the first bad byte.
         offset: usize,
     },
-    /// `controls.toml` or `poses.toml` is not as its format demands.
+    /// `controls.toml`, `poses.toml` or `clips.toml` is not as its format demands.
     #[error("{0}")]
     Toml(TomlError),
     /// `materials.toml` is not as its format demands.

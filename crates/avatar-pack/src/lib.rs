@@ -1,7 +1,7 @@
 //! Avatar packs: rig, meshes, textures, controls and poses from a set of named byte strings.
 //!
 //! ```text
-//!  Source ──▶ Pack  { rig, parts, palette, controls, poses, materials, hair } geometry and motion
+//!  Source ──▶ Pack  { rig, parts, palette, controls, poses, clips, materials, hair } geometry and motion
 //!         └─▶ Textures { skin, eyes, teeth … }                    pictures, missing ones with a warning
 //!
 //!  Pack + Textures + Hair ──Pack::groom──▶ Groom: the hair, planted

@@ -1,16 +1,16 @@
 use crate::face_args::FaceArgs;
 use crate::hair_args::HairArgs;
 use crate::look_args::LookArgs;
-use crate::scene::{BACKGROUND, SAMPLES, View};
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use std::fmt;
+use crate::picture_args::PictureArgs;
+use avatar_film::Rate;
+use clap::{ArgGroup, Args, Parser, Subcommand};
 use std::path::PathBuf;
 use std::str::FromStr;
 
 /// Shows a rigged face in a window, and does the same without one.
 ///
 /// PACK is a folder in the raw format: Transformations.xml, a vertex and an index buffer for each of the seven parts,
-/// textures, and optionally controls.toml, poses.toml, materials.toml and hair.toml; or a file of an interchange format
+/// textures, and optionally controls.toml, poses.toml, clips.toml, materials.toml and hair.toml; or a file of an interchange format
 /// (.glb, .gltf, .vrm, .obj, .fbx, .dae, .md5mesh, .bvh; docs/formats.md). Without PACK the built-in avatar is used.
 /// Without a verb a window opens; a folder whose name is that of a verb is given as ./NAME.
 ///
@@ -44,6 +44,8 @@ pub(crate) struct WindowArgs {
 pub(crate) enum Verb {
     /// Renders one picture without a window
     Render(RenderArgs),
+    /// Records a film of poses being pressed, or of a clip: frame k shows the face at k / fps seconds
+    Record(RecordArgs),
     /// Renders all poses, labelled, from the front and three-quarter
     Sheet(SheetArgs),
     /// Prints joint matrices and blend weights as JSON
@@ -80,30 +82,43 @@ pub(crate) struct RenderArgs {
     pub(crate) face: FaceArgs,
     #[command(flatten)]
     pub(crate) look: LookArgs,
-    /// The picture, a PNG
+    /// The picture, a PNG, with the face's state in its text "Mimik"
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
     /// Size in pixels
     #[arg(long, default_value = "1280x720", value_name = "WIDTHxHEIGHT")]
     pub(crate) size: Size,
-    /// Where the camera stands; `left` looks at the character's left side
-    #[arg(long, value_enum, default_value = "front")]
-    pub(crate) view: ViewName,
-    /// Camera's angle around the vertical axis in degrees: 90 stands at the character's left [default: the view's]
-    #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
-    pub(crate) yaw: Option<f32>,
-    /// Camera's angle above the horizon in degrees [default: 0]
-    #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
-    pub(crate) pitch: Option<f32>,
-    /// Name of the part that fills the picture, where it is at rest [default: the whole head]
-    #[arg(long, value_name = "PART")]
-    pub(crate) frame: Option<String>,
-    /// Samples per pixel, 1 or 4
-    #[arg(long, default_value_t = SAMPLES, value_parser = samples)]
-    pub(crate) samples: u32,
-    /// `#RRGGBB` in sRGB, or `transparent`
-    #[arg(long, default_value_t = Background(BACKGROUND), value_name = "COLOUR")]
-    pub(crate) background: Background,
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(group(ArgGroup::new("motion").required(true).args(["script", "clip"])))]
+pub(crate) struct RecordArgs {
+    #[command(flatten)]
+    pub(crate) pack: PackArg,
+    /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5 wink-left"
+    #[arg(long, allow_hyphen_values = true)]
+    pub(crate) script: Option<String>,
+    /// Clip of the avatar's file or clips.toml, as `info` lists them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) clip: Option<String>,
+    /// Frames per second, up to 240 (GIF: 50): 30, 12.5 or 30000/1001
+    #[arg(long, default_value = "30", allow_negative_numbers = true, value_name = "RATE")]
+    pub(crate) fps: Rate,
+    /// Seconds [default: until the script's last motion has come to rest, or the clip's end]
+    #[arg(long, value_parser = positive, allow_negative_numbers = true, value_name = "SECONDS")]
+    pub(crate) duration: Option<f64>,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
+    /// The film; its end says the format: .gif, .png (animated) or .mp4. A name without one is a folder of pictures
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Size in pixels
+    #[arg(long, default_value = "640x360", value_name = "WIDTHxHEIGHT")]
+    pub(crate) size: Size,
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
 }
 
 #[derive(Debug, Args)]
@@ -226,71 +241,6 @@ impl FromStr for Size {
             .ok_or_else(|| format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}, as in 1280x720"))?;
         Ok(Self { width, height })
     }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ViewName {
-    Front,
-    Left,
-    Right,
-    ThreeQuarter,
-    Back,
-}
-
-impl ViewName {
-    /// Where the camera stands.
-    pub(crate) fn view(self) -> View {
-        let around = |yaw_degrees| View { yaw_degrees, ..View::FRONT };
-        match self {
-            Self::Front => View::FRONT,
-            Self::Left => around(90.0),
-            Self::Right => around(-90.0),
-            Self::ThreeQuarter => View::THREE_QUARTER,
-            Self::Back => around(180.0),
-        }
-    }
-}
-
-/// A background in sRGB with straight alpha.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Background(pub(crate) [u8; 4]);
-
-impl FromStr for Background {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text.eq_ignore_ascii_case("transparent") {
-            return Ok(Self([0; 4]));
-        }
-        let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
-        // Not from_str_radix alone: it takes a sign.
-        let digits = digits.filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()));
-        let number = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
-        let number = number.ok_or("expected #RRGGBB or transparent")?;
-        let [_, red, green, blue] = number.to_be_bytes();
-        Ok(Self([red, green, blue, 255]))
-    }
-}
-
-impl fmt::Display for Background {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            [.., 0] => write!(f, "transparent"),
-            [red, green, blue, _] => write!(f, "#{red:02x}{green:02x}{blue:02x}"),
-        }
-    }
-}
-
-fn samples(text: &str) -> Result<u32, String> {
-    match text {
-        "1" => Ok(1),
-        "4" => Ok(4),
-        _ => Err("expected 1 or 4".to_owned()),
-    }
-}
-
-fn finite(text: &str) -> Result<f32, String> {
-    text.parse().ok().filter(|x: &f32| x.is_finite()).ok_or_else(|| "expected a finite number".to_owned())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

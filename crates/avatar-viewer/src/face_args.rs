@@ -1,6 +1,7 @@
+use crate::clips;
 use crate::usage::{self, unknown, usage};
 use anyhow::Result;
-use avatar_pack::{FaceState, Pack};
+use avatar_pack::{FaceState, MotionAt, Pack};
 use clap::{ArgMatches, Args};
 use glam::Affine3A;
 use pose_anim::{Control, Drive};
@@ -19,7 +20,7 @@ pub(crate) struct FaceArgs {
     /// Set this joint's local transform to a product of rotations about its own axes, left to right; may be repeated
     #[arg(long, value_name = "JOINT=AXIS:DEG[,AXIS:DEG...]", allow_hyphen_values = true)]
     rotate: Vec<Rotation>,
-    /// Clip of the avatar's file to start from, as `info` lists them; what --set and --rotate concern is theirs
+    /// Clip of the avatar's file or clips.toml to start from, as `info` lists them; what --set and --rotate concern is theirs
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
     /// Seconds from the clip's beginning
@@ -47,6 +48,8 @@ impl FromStr for Setting {
 /// `JOINT=AXIS:DEG[,AXIS:DEG…]`
 #[derive(Clone, Debug)]
 struct Rotation {
+    /// As it was given.
+    text: String,
     joint: String,
     factors: Vec<Elementary>,
 }
@@ -68,7 +71,7 @@ impl FromStr for Rotation {
             Ok(Elementary::rotation(axis, number(degrees)?.to_radians()))
         };
         let factors = factors.split(',').map(factor).collect::<Result<_, _>>()?;
-        Ok(Self { joint: joint.trim().to_owned(), factors })
+        Ok(Self { text: text.to_owned(), joint: joint.trim().to_owned(), factors })
     }
 }
 
@@ -78,7 +81,7 @@ fn number(text: &str) -> Result<f32, String> {
 }
 
 /// A face state that is known to fit a pack.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct FaceChoice {
     /// Control values of the pose, before couplings.
     values: Vec<f32>,
@@ -86,12 +89,37 @@ pub(crate) struct FaceChoice {
     locals: Vec<(JointId, Affine3A)>,
     /// Weights of shapes that a clip sets, by their places in the pack.
     weights: Vec<(usize, f32)>,
+    /// What the values come from, in words of the command line; nothing if from nowhere.
+    start: Vec<String>,
+    /// The rotations among `locals`, in those words.
+    rotations: Vec<String>,
 }
 
 impl FaceChoice {
     /// A pose's values on top of the defaults, and nothing else.
     pub(crate) fn of_values(values: Vec<f32>) -> Self {
-        Self { values, settings: Vec::new(), locals: Vec::new(), weights: Vec::new() }
+        Self { values, ..Self::default() }
+    }
+
+    /// The same, with what a clip of a file sets.
+    pub(crate) fn with_motion(self, set: MotionAt) -> Self {
+        Self { locals: set.locals, weights: set.weights, ..self }
+    }
+
+    /// The choice as a line of `pose=NAME`, `clip=NAME`, `time=SECONDS`, `CONTROL=VALUE` and `rotate=JOINT=…`, apart by semicolons: what the
+    /// options of these names (and `--set`) take. A face at rest is an empty line.
+    pub(crate) fn describe(&self, pack: &Pack) -> String {
+        let defaults = pack.controls.defaults();
+        let base = if self.start.is_empty() { &defaults } else { &self.values };
+        let mut entries = self.start.clone();
+        let values = self.start_values();
+        for ((control, value), base) in pack.controls.controls().iter().zip(&values).zip(base) {
+            if value != base {
+                entries.push(format!("{}={value}", control.name));
+            }
+        }
+        entries.extend(self.rotations.iter().map(|rotation| format!("rotate={rotation}")));
+        entries.join("; ")
     }
 
     /// Control values with the single settings in place: where a window's motion starts.
@@ -125,6 +153,7 @@ impl FaceArgs {
         }
         let positions = |option: &str| matches.indices_of(option).into_iter().flatten();
         let mut choice = FaceChoice::of_values(values);
+        choice.start.extend(self.pose.iter().map(|pose| format!("pose={pose}")));
         let mut driven_later = Vec::new();
         for (setting, position) in self.set.iter().zip(positions("set")) {
             let (control, value) = self.setting(pack, setting)?;
@@ -139,6 +168,7 @@ impl FaceArgs {
             })?;
             if !driven_later.iter().any(|&(driven, later)| driven == Some(joint) && later > position) {
                 choice.locals.push((joint, product(&rotation.factors)));
+                choice.rotations.push(rotation.text.clone());
             }
         }
         Ok(choice)
@@ -147,9 +177,8 @@ impl FaceArgs {
     /// Takes over what the clip sets, but for what single controls do.
     fn start_from_clip(&self, pack: &Pack, choice: &mut FaceChoice) -> Result<()> {
         let Some(clip) = &self.clip else { return Ok(()) };
-        let none = || unknown("clip", clip, std::iter::empty());
-        let motion = pack.motion.as_ref().ok_or_else(none)?;
-        let at = motion.at(clip, self.time).map_err(|error| usage(error.to_string()))?;
+        let at = clips::find(pack, clip)?.at(pack, self.time.into(), &mut choice.values)?;
+        choice.start = vec![format!("clip={clip}"), format!("time={}", self.time)];
         let set = |control: &Control| {
             choice.settings.iter().any(|(index, _)| pack.controls.index(&control.name) == Some(*index))
         };

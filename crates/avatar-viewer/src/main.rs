@@ -5,15 +5,20 @@
 
 mod cli;
 mod config;
+mod clips;
 mod face_args;
 mod files;
+mod film;
 mod hair_args;
 mod label;
 mod look_args;
 mod offscreen;
 mod output;
+mod picture_args;
+mod progress;
 mod scene;
 mod store;
+mod script;
 mod usage;
 mod verbs;
 mod window;

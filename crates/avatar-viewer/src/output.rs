@@ -1,7 +1,8 @@
 use anyhow::{Context, Result, bail};
 use std::fs::Permissions;
-use std::io::{BufWriter, ErrorKind, StdoutLock, Write};
+use std::io::{BufWriter, ErrorKind, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
+use tempfile::{NamedTempFile, TempDir};
 
 /// A file to be written, whole or not at all. Checked before the work, so that a slip in a name costs nothing.
 #[derive(Debug)]
@@ -47,10 +48,16 @@ impl OutputFile {
 
     /// Writes the file.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
-        let what = || format!("{}: expected a file that can be written", self.path.display());
-        let Kind::File(permissions) = &self.kind else {
-            return std::fs::write(&self.path, bytes).with_context(what);
-        };
+        if matches!(self.kind, Kind::Device) {
+            return std::fs::write(&self.path, bytes).with_context(|| self.expected());
+        }
+        let mut draft = self.draft()?;
+        draft.write_all(bytes).with_context(|| self.expected())?;
+        self.commit(draft)
+    }
+
+    /// An empty file that is to become this one. It vanishes when it is dropped.
+    pub(crate) fn draft(&self) -> Result<NamedTempFile> {
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
         {
@@ -58,15 +65,100 @@ impl OutputFile {
             // As for any new file: the umask takes away what it must.
             builder.permissions(Permissions::from_mode(0o666));
         }
-        let file = builder.prefix(".avatar-viewer-").tempfile_in(folder_of(&self.path));
-        let mut file = file.map_err(without_path).with_context(what)?;
-        file.write_all(bytes).with_context(what)?;
-        if let Some(permissions) = permissions {
-            file.as_file().set_permissions(permissions.clone()).with_context(what)?;
+        builder.prefix(DRAFT);
+        let file = match self.kind {
+            Kind::File(_) => builder.tempfile_in(folder_of(&self.path)),
+            Kind::Device => builder.tempfile(),
+        };
+        file.map_err(without_path).with_context(|| self.expected())
+    }
+
+    /// Puts a draft that is written in this file's place.
+    pub(crate) fn commit(&self, mut draft: NamedTempFile) -> Result<()> {
+        match &self.kind {
+            Kind::File(permissions) => {
+                if let Some(permissions) = permissions {
+                    let set = draft.as_file().set_permissions(permissions.clone());
+                    set.with_context(|| self.expected())?;
+                }
+                let put = draft.persist(&self.path).map_err(|error| error.error);
+                put.with_context(|| self.expected())?;
+            }
+            Kind::Device => {
+                copy_to(&mut draft, &self.path).with_context(|| self.expected())?;
+            }
         }
-        file.persist(&self.path).map_err(|error| error.error).with_context(what)?;
         Ok(())
     }
+
+    /// The name and what it should be, for errors.
+    pub(crate) fn expected(&self) -> String {
+        format!("{}: expected a file that can be written", self.path.display())
+    }
+}
+
+/// A folder to be made and filled, whole or not at all.
+#[derive(Debug)]
+pub(crate) struct OutputFolder(PathBuf);
+
+impl OutputFolder {
+    /// Checks that there is nothing of that name but an empty folder.
+    pub(crate) fn check(named: &Path) -> Result<Self> {
+        // Without the separator at its end, which would hide the name of what is beside it.
+        let path: PathBuf = named.components().collect();
+        match std::fs::read_dir(&path) {
+            Ok(mut entries) => {
+                if entries.next().is_some() {
+                    bail!("{}: expected a new or an empty folder, found one with files", named.display());
+                }
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            Err(_) if !path.is_dir() => {
+                bail!("{}: expected a new or an empty folder, found a file", named.display())
+            }
+            Err(error) => Err(error).with_context(|| format!("{}: expected a folder", named.display()))?,
+        }
+        let folder = folder_of(&path);
+        if !folder.is_dir() {
+            bail!("{}: expected a folder to write to, found none", folder.display());
+        }
+        Ok(Self(path))
+    }
+
+    /// An empty folder that is to become this one. It vanishes when it is dropped, with all that is in it.
+    pub(crate) fn draft(&self) -> Result<TempDir> {
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(Permissions::from_mode(0o777));
+        }
+        let folder = builder.prefix(DRAFT).tempdir_in(folder_of(&self.0));
+        folder.map_err(without_path).with_context(|| self.expected())
+    }
+
+    /// Puts a draft that is filled in this folder's place.
+    pub(crate) fn commit(&self, draft: TempDir) -> Result<()> {
+        match std::fs::remove_dir(&self.0) {
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+            _ => std::fs::rename(draft.path(), &self.0),
+        }
+        .with_context(|| self.expected())
+    }
+
+    /// The name and what it should be, for errors.
+    pub(crate) fn expected(&self) -> String {
+        format!("{}: expected a folder that can be written", self.0.display())
+    }
+}
+
+/// How names of what is not ready begin.
+const DRAFT: &str = ".avatar-viewer-";
+
+/// Writes what a file holds to a device.
+fn copy_to(file: &mut NamedTempFile, device: &Path) -> std::io::Result<u64> {
+    file.rewind()?;
+    std::io::copy(file, &mut std::fs::OpenOptions::new().write(true).open(device)?)
 }
 
 /// Links that lead to links; more are a circle.

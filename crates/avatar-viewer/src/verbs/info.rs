@@ -102,13 +102,16 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
         let clip = |name: String| ClipReport { seconds: motion.duration_secs(&name).unwrap_or(0.0), name };
         motion.clips().into_iter().map(clip)
     });
+    let of_controls = pack.clips.clips.iter();
+    let of_controls =
+        of_controls.map(|clip| ClipReport { seconds: clip.duration_secs() as f32, name: clip.name.clone() });
     let warnings = pack.warnings.iter().chain(&textures.warnings);
     Report {
         parts: parts.collect(),
         joints: pack.rig.names().to_vec(),
         controls: controls.collect(),
         poses: poses.collect(),
-        clips: clips.collect(),
+        clips: clips.chain(of_controls).collect(),
         import: None,
         warnings: warnings.map(ToString::to_string).collect(),
     }

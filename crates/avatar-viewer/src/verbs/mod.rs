@@ -5,6 +5,7 @@ mod convert;
 mod deform;
 mod info;
 mod keys;
+mod record;
 mod render;
 mod sheet;
 mod strands;
@@ -22,6 +23,7 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
     let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);
     match verb {
         Verb::Render(args) => render::run(&args, matches),
+        Verb::Record(args) => record::run(&args),
         Verb::Sheet(args) => sheet::run(&args),
         Verb::Bones(args) => bones::run(&args, matches),
         Verb::Deform(args) => deform::run(&args, matches),

@@ -1,5 +1,6 @@
 use crate::cli::{SheetArgs, Size};
 use crate::face_args::FaceChoice;
+use crate::film;
 use crate::label;
 use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
@@ -49,5 +50,5 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
         let center = left + cell_width / 2;
         label::draw(&mut sheet, &pose.name, center as f32, baseline as f32, 22.0, LABEL_COLOR)?;
     }
-    out.write(&super::render::png(&sheet)?)
+    out.write(&film::png(&sheet, "")?)
 }

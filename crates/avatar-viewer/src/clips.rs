@@ -1,0 +1,72 @@
+//! Clips by their names: those of a file of an interchange format, and those of a pack's `clips.toml`.
+
+use crate::face_args::FaceChoice;
+use crate::usage::{unknown, usage};
+use anyhow::Result;
+use avatar_pack::{MotionAt, Pack};
+use pose_anim::{Clip, Wrap};
+
+/// A clip that there is.
+pub(crate) enum FoundClip<'a> {
+    /// Of joints and shapes, in a file.
+    File(&'a str),
+    /// Of controls, in a pack.
+    Controls(&'a Clip),
+}
+
+/// Looks a clip up.
+pub(crate) fn find<'a>(pack: &'a Pack, name: &'a str) -> Result<FoundClip<'a>> {
+    if let Some(clip) = pack.clips.get(name) {
+        return Ok(FoundClip::Controls(clip));
+    }
+    match &pack.motion {
+        Some(motion) => {
+            motion.duration_secs(name).map_err(|error| usage(error.to_string()))?;
+            Ok(FoundClip::File(name))
+        }
+        None => Err(unknown("clip", name, pack.clips.clips.iter().map(|clip| clip.name.as_str()))),
+    }
+}
+
+impl FoundClip<'_> {
+    /// Seconds until the clip is at its end; or, where it repeats, at its beginning again.
+    pub(crate) fn duration_secs(&self, pack: &Pack) -> f64 {
+        match self {
+            Self::File(name) => {
+                let secs = pack.motion.as_ref().and_then(|motion| motion.duration_secs(name).ok());
+                secs.map_or(0.0, f64::from)
+            }
+            Self::Controls(clip) if clip.wrap == Wrap::PingPong => 2.0 * clip.duration_secs(),
+            Self::Controls(clip) => clip.duration_secs(),
+        }
+    }
+
+    /// Whether the end is also the beginning.
+    pub(crate) fn repeats(&self) -> bool {
+        matches!(self, Self::Controls(clip) if clip.wrap != Wrap::Once)
+    }
+
+    /// Writes a clip of controls at a time into their values; says what a clip of a file sets.
+    pub(crate) fn at(&self, pack: &Pack, time_secs: f64, values: &mut [f32]) -> Result<MotionAt> {
+        match self {
+            Self::Controls(clip) => {
+                clip.sample(time_secs, values);
+                for (value, control) in values.iter_mut().zip(pack.controls.controls()) {
+                    *value = value.clamp(control.min, control.max);
+                }
+                Ok(MotionAt::default())
+            }
+            Self::File(name) => {
+                let at = pack.motion.as_ref().map(|motion| motion.at(name, time_secs as f32)).transpose();
+                Ok(at.map_err(|error| usage(error.to_string()))?.unwrap_or_default())
+            }
+        }
+    }
+
+    /// The face at a time of the clip, and nothing else.
+    pub(crate) fn face(&self, pack: &Pack, time_secs: f64) -> Result<FaceChoice> {
+        let mut values = pack.controls.defaults();
+        let set = self.at(pack, time_secs, &mut values)?;
+        Ok(FaceChoice::of_values(values).with_motion(set))
+    }
+}

@@ -1,0 +1,173 @@
+//! Pictures and films as files, for verbs and for the window.
+
+use crate::cli::Size;
+use crate::output::{OutputFile, OutputFolder};
+use crate::usage::usage;
+use anyhow::{Context, Error, Result, anyhow, bail};
+use avatar_film::{Film, FilmError, Format, Rate};
+use image::RgbaImage;
+use std::io::BufWriter;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::JoinHandle;
+use tempfile::{NamedTempFile, TempDir};
+
+/// Keyword of the text in a PNG that says what the face does.
+const KEYWORD: &str = "Mimik";
+/// Frames that may wait for the encoder: it works while the next one is drawn, and memory stays bounded.
+const WAITING: usize = 2;
+
+/// A picture as the bytes of a PNG. `state` says what the face does ([`crate::face_args::FaceChoice::describe`]).
+pub(crate) fn png(picture: &RgbaImage, state: &str) -> Result<Vec<u8>> {
+    let software = concat!("Mimik ", env!("CARGO_PKG_VERSION"));
+    let texts = [("Software", software), (KEYWORD, state)];
+    Ok(avatar_film::png(picture.width(), picture.height(), picture.as_raw(), &texts)?)
+}
+
+/// Writes a picture with what the face does in it.
+pub(crate) fn still(out: &OutputFile, picture: &RgbaImage, state: &str) -> Result<()> {
+    out.write(&png(picture, state)?)
+}
+
+/// Where a film goes: checked before the work.
+#[derive(Debug)]
+pub(crate) enum FilmTarget {
+    File(OutputFile, Format),
+    /// Numbered pictures.
+    Folder(OutputFolder),
+}
+
+impl FilmTarget {
+    /// The end of a name says the format; one without an end is a folder.
+    pub(crate) fn check(path: &Path, size: Size, rate: Rate) -> Result<Self> {
+        let name = path.to_string_lossy();
+        if name.ends_with(std::path::is_separator) || path.extension().is_none() {
+            return Ok(Self::Folder(OutputFolder::check(path)?));
+        }
+        let format = Format::of_name(&name).ok_or_else(|| {
+            let endings = Format::ALL.iter().flat_map(|format| format.extensions());
+            let endings = endings.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
+            usage(format!(
+                "--out: expected a name that ends in {endings}, or that of a folder, found {name:?}"
+            ))
+        })?;
+        format.check(size.width, size.height, rate).map_err(|error| usage(error.to_string()))?;
+        Ok(Self::File(OutputFile::check(path)?, format))
+    }
+}
+
+/// What goes to the encoder.
+enum Message {
+    Frame(RgbaImage),
+    /// All frames are there.
+    End,
+}
+
+/// A film that is being written, by a thread of its own. Dropped without [`Self::finish`] it leaves nothing behind.
+pub(crate) struct FilmSink {
+    messages: Option<SyncSender<Message>>,
+    encoder: Option<JoinHandle<Result<()>>>,
+}
+
+impl FilmSink {
+    /// Begins a film of `frames` frames, as far as that is known; names of numbered pictures depend on it.
+    pub(crate) fn create(target: FilmTarget, size: Size, rate: Rate, frames: u64) -> Result<Self> {
+        let (messages, received) = sync_channel(WAITING);
+        // Made here, so that a folder that takes no files is told before anything is drawn.
+        let write: Box<dyn FnOnce() -> Result<()> + Send> = match target {
+            FilmTarget::File(out, format) => {
+                let draft = out.draft()?;
+                Box::new(move || write_film(&received, &out, draft, format, size, rate))
+            }
+            FilmTarget::Folder(out) => {
+                let draft = out.draft()?;
+                Box::new(move || write_folder(&received, &out, draft, frames))
+            }
+        };
+        let encoder = std::thread::Builder::new().name("film".to_owned()).spawn(write);
+        let encoder = encoder.context("a thread that encodes")?;
+        Ok(Self { messages: Some(messages), encoder: Some(encoder) })
+    }
+
+    /// Shows this frame next. Waits where the encoder is behind.
+    pub(crate) fn push(&mut self, frame: RgbaImage) -> Result<()> {
+        self.send(Message::Frame(frame))
+    }
+
+    /// Waits for the encoder, and puts the film in its place.
+    pub(crate) fn finish(mut self) -> Result<()> {
+        self.send(Message::End)?;
+        self.join()
+    }
+
+    fn send(&mut self, message: Message) -> Result<()> {
+        match self.messages.as_ref().map(|messages| messages.send(message)) {
+            Some(Ok(())) => Ok(()),
+            // The encoder has gone: it says why.
+            _ => self.join().and_then(|()| bail!("expected a film that goes on, found one that has ended")),
+        }
+    }
+
+    fn join(&mut self) -> Result<()> {
+        self.messages = None;
+        match self.encoder.take().map(JoinHandle::join) {
+            Some(Ok(result)) => result,
+            Some(Err(_)) => bail!("the encoder has stopped"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Drop for FilmSink {
+    fn drop(&mut self) {
+        // What is half written is removed by the thread, which must not outlive the program's work.
+        let _ = self.join();
+    }
+}
+
+fn write_film(
+    received: &Receiver<Message>,
+    out: &OutputFile,
+    draft: NamedTempFile,
+    format: Format,
+    size: Size,
+    rate: Rate,
+) -> Result<()> {
+    let failed = |error: FilmError| with_place(error, || out.expected());
+    let mut film = Film::new(format, BufWriter::new(draft), size.width, size.height, rate).map_err(failed)?;
+    while let Ok(message) = received.recv() {
+        match message {
+            Message::Frame(frame) => film.push(frame.as_raw()).map_err(failed)?,
+            Message::End => {
+                let file = film.finish().map_err(failed)?;
+                let draft = file.into_inner().map_err(|error| failed(error.into_error().into()))?;
+                return out.commit(draft);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn write_folder(received: &Receiver<Message>, out: &OutputFolder, draft: TempDir, frames: u64) -> Result<()> {
+    let mut number = 0;
+    while let Ok(message) = received.recv() {
+        match message {
+            Message::Frame(frame) => {
+                let file = draft.path().join(avatar_film::frame_name(number, frames));
+                let bytes = avatar_film::png(frame.width(), frame.height(), frame.as_raw(), &[])?;
+                std::fs::write(file, bytes).with_context(|| out.expected())?;
+                number += 1;
+            }
+            Message::End => return out.commit(draft),
+        }
+    }
+    Ok(())
+}
+
+/// What the sink says needs the name of the file; the rest speaks for itself.
+fn with_place(error: FilmError, place: impl FnOnce() -> String) -> Error {
+    match error {
+        FilmError::Io(error) => anyhow!(error).context(place()),
+        other => other.into(),
+    }
+}

@@ -1,0 +1,71 @@
+use crate::cli::RecordArgs;
+use crate::clips;
+use crate::face_args::FaceChoice;
+use crate::film::{FilmSink, FilmTarget};
+use crate::offscreen::Offscreen;
+use crate::progress::Progress;
+use crate::script::Script;
+use crate::usage::usage;
+use anyhow::{Context, Result, bail};
+use avatar_film::Rate;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// More frames than this are a slip of the keyboard, not a wish.
+const MAX_FRAMES: u64 = 1_000_000;
+
+pub(super) fn run(args: &RecordArgs) -> Result<()> {
+    let target = FilmTarget::check(&args.out, args.size, args.fps)?;
+    let files = super::open(&args.pack)?;
+    let pack = files.load_pack()?;
+    let view = args.picture.view(&pack)?;
+    let script = args.script.as_deref().map(|script| Script::parse(script, &pack)).transpose()?;
+    let clip = args.clip.as_deref().map(|clip| clips::find(&pack, clip)).transpose()?;
+    let frames = match (args.duration, &script, &clip) {
+        (Some(secs), ..) => args.fps.frames_before(secs),
+        (None, Some(script), _) => through(args.fps, script.rest_secs(&pack)?),
+        (None, None, Some(clip)) if clip.repeats() => args.fps.frames_before(clip.duration_secs(&pack)),
+        (None, None, Some(clip)) => through(args.fps, clip.duration_secs(&pack)),
+        (None, None, None) => 1,
+    };
+    if frames > MAX_FRAMES {
+        return Err(usage(format!(
+            "expected at most {MAX_FRAMES} frames, found {frames}: see --duration and --fps"
+        )));
+    }
+
+    let textures = files.load_textures();
+    let mut offscreen = Offscreen::open(&pack, &textures, args.picture.samples, args.look)?;
+    let interrupted = watch_interrupts()?;
+    let mut film = FilmSink::create(target, args.size, args.fps, frames)?;
+    let mut motion = script.as_ref().map(|script| script.motion(&pack));
+    let mut progress = Progress::new("frame", frames);
+    for frame in 0..frames {
+        let secs = args.fps.time_secs(frame);
+        let face = match (&mut motion, &clip) {
+            (Some(motion), _) => FaceChoice::of_values(motion.at(secs)?.values().to_vec()),
+            (None, Some(clip)) => clip.face(&pack, secs)?,
+            (None, None) => FaceChoice::of_values(pack.controls.defaults()),
+        };
+        film.push(offscreen.picture(&pack, &face, view, args.size, args.picture.background.0)?)?;
+        if interrupted.load(Ordering::Relaxed) {
+            bail!("interrupted after {} of {frames} frames: nothing was written", frame + 1);
+        }
+        progress.step(frame + 1);
+    }
+    drop(progress);
+    film.finish()
+}
+
+/// Frames from the beginning to the first one that is not before this time.
+fn through(rate: Rate, secs: f64) -> u64 {
+    if secs > 0.0 { rate.frames_before(secs) + 1 } else { 1 }
+}
+
+/// Whether somebody wants the program to end: then what is half written is to go first.
+fn watch_interrupts() -> Result<Arc<AtomicBool>> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).context("watching for interrupts")?;
+    Ok(interrupted)
+}
