@@ -253,7 +253,7 @@ fn keys_name_every_pose_with_a_key() {
 #[test]
 fn help_explains_every_verb() {
     let help = run(&["--help"]).ok();
-    for verb in ["render", "sheet", "bones", "deform", "trace", "info", "keys"] {
+    for verb in ["render", "record", "sheet", "bones", "deform", "trace", "info", "keys"] {
         assert!(help.contains(verb), "{verb} is not in: {help}");
         run(&[verb, "--help"]).ok();
     }
