@@ -15,7 +15,7 @@ use crate::{FaceError, FaceState, Pack, Textures, Warning};
 use avatar_exchange::Scene;
 use avatar_look::Materials;
 use avatar_mesh::{Bounds, DeformError};
-use pose_anim::{BindError, ClipSet, ControlError};
+use pose_anim::{BindError, ControlError};
 use rig_core::RigError;
 use std::fmt;
 
