@@ -1,7 +1,9 @@
+use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::{Format, TextFile};
 use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning};
 use include_dir::{Dir, include_dir};
+use pose_anim::{ClipSet, PoseSet};
 use std::borrow::Cow;
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
@@ -74,10 +76,22 @@ impl Files {
 
     /// The pack with its warnings, which are not told here.
     pub(crate) fn read_pack(&self) -> Result<Pack> {
-        match self {
-            Self::File(_, import) => Ok(import.pack.clone()),
-            _ => Ok(Pack::load(self)?),
+        let mut pack = match self {
+            Self::Folder(_) => return Ok(Pack::load(self)?),
+            Self::BuiltIn => Pack::load(self)?,
+            Self::File(_, import) => import.pack.clone(),
+        };
+        // Such an avatar has no folder of its own: what its user has made is elsewhere.
+        let mut store = Store::of(self);
+        if let Some(text) = store.read(store::POSES)? {
+            let poses = PoseSet::from_toml(&text, &pack.controls);
+            pack.poses = poses.map_err(|error| store.placed(store::POSES, &error))?;
         }
+        if let Some(text) = store.read(store::CLIPS)? {
+            let clips = ClipSet::from_toml(&text, &pack.controls);
+            pack.clips = clips.map_err(|error| store.placed(store::CLIPS, &error))?;
+        }
+        Ok(pack)
     }
 
     /// The pictures with their warnings, which are not told here.

@@ -1,10 +1,14 @@
 //! Pictures and films as files, for verbs and for the window.
 
 use crate::cli::Size;
+use crate::face_args::FaceChoice;
+use crate::offscreen::Offscreen;
 use crate::output::{OutputFile, OutputFolder};
+use crate::scene::View;
 use crate::usage::usage;
 use anyhow::{Context, Error, Result, anyhow, bail};
 use avatar_film::{Film, FilmError, Format, Rate};
+use avatar_pack::Pack;
 use image::RgbaImage;
 use std::io::BufWriter;
 use std::path::Path;
@@ -54,6 +58,42 @@ impl FilmTarget {
         format.check(size.width, size.height, rate).map_err(|error| usage(error.to_string()))?;
         Ok(Self::File(OutputFile::check(path)?, format))
     }
+}
+
+/// Frames to be drawn, one after the other.
+pub(crate) struct Take<'a> {
+    pub(crate) pack: &'a Pack,
+    pub(crate) size: Size,
+    /// sRGB with straight alpha.
+    pub(crate) background: [u8; 4],
+    pub(crate) rate: Rate,
+    pub(crate) frames: u64,
+}
+
+impl Take<'_> {
+    /// Draws every frame from what `at` says of its time, and calls `shot` with the number of those that are done.
+    ///
+    /// # Errors
+    /// The first of either, of drawing or of encoding.
+    pub(crate) fn shoot(
+        &self,
+        offscreen: &mut Offscreen,
+        film: &mut FilmSink,
+        mut at: impl FnMut(f64) -> Result<(FaceChoice, View)>,
+        mut shot: impl FnMut(u64) -> Result<()>,
+    ) -> Result<()> {
+        for frame in 0..self.frames {
+            let (face, view) = at(self.rate.time_secs(frame))?;
+            film.push(offscreen.picture(self.pack, &face, view, self.size, self.background)?)?;
+            shot(frame + 1)?;
+        }
+        Ok(())
+    }
+}
+
+/// Frames from the beginning to the first one that is not before this time.
+pub(crate) fn through(rate: Rate, secs: f64) -> u64 {
+    if secs > 0.0 { rate.frames_before(secs) + 1 } else { 1 }
 }
 
 /// What goes to the encoder.

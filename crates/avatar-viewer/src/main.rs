@@ -4,8 +4,8 @@
 //! other. Exit status: 0 on success, 2 where the command line has to be corrected, 1 on any other failure.
 
 mod cli;
-mod config;
 mod clips;
+mod config;
 mod face_args;
 mod files;
 mod film;
@@ -17,8 +17,8 @@ mod output;
 mod picture_args;
 mod progress;
 mod scene;
-mod store;
 mod script;
+mod store;
 mod usage;
 mod verbs;
 mod window;

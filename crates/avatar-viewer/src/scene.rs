@@ -35,7 +35,7 @@ pub(crate) struct View {
 }
 
 impl View {
-    pub(crate) const FRONT: Self = 
+    pub(crate) const FRONT: Self =
         Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0, pan: [0.0; 2], part: None };
     pub(crate) const THREE_QUARTER: Self = Self { yaw_degrees: 35.0, ..Self::FRONT };
 }

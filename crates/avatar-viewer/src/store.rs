@@ -50,7 +50,9 @@ impl Store {
             return Ok(());
         }
         let path = self.path(which);
-        let path = path.ok_or_else(|| anyhow!("expected a folder of the user's to write {} to, found none", NAMES[which]))?;
+        let path = path.ok_or_else(|| {
+            anyhow!("expected a folder of the user's to write {} to, found none", NAMES[which])
+        })?;
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)
                 .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
@@ -88,10 +90,4 @@ pub(crate) fn read(path: &Path) -> Result<Option<String>> {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error).with_context(|| format!("{}: expected a readable text", path.display())),
     }
-}
-
-/// What the user keeps for an avatar that has no folder of its own: read in the place of what it comes with.
-pub(crate) fn overlay(files: &Files, name: &str) -> Option<PathBuf> {
-    let which = NAMES.iter().position(|own| *own == name)?;
-    path_of(files, which).filter(|path| !matches!(files, Files::Folder(_)) && path.is_file())
 }

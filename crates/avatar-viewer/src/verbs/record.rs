@@ -1,13 +1,12 @@
 use crate::cli::RecordArgs;
 use crate::clips;
 use crate::face_args::FaceChoice;
-use crate::film::{FilmSink, FilmTarget};
+use crate::film::{FilmSink, FilmTarget, Take, through};
 use crate::offscreen::Offscreen;
 use crate::progress::Progress;
 use crate::script::Script;
 use crate::usage::usage;
 use anyhow::{Context, Result, bail};
-use avatar_film::Rate;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -40,26 +39,25 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
     let mut film = FilmSink::create(target, args.size, args.fps, frames)?;
     let mut motion = script.as_ref().map(|script| script.motion(&pack));
     let mut progress = Progress::new("frame", frames);
-    for frame in 0..frames {
-        let secs = args.fps.time_secs(frame);
+    let (pack, background) = (&pack, args.picture.background.0);
+    let take = Take { pack, size: args.size, background, rate: args.fps, frames };
+    let at = |secs| {
         let face = match (&mut motion, &clip) {
             (Some(motion), _) => FaceChoice::of_values(motion.at(secs)?.values().to_vec()),
-            (None, Some(clip)) => clip.face(&pack, secs)?,
+            (None, Some(clip)) => clip.face(pack, secs)?,
             (None, None) => FaceChoice::of_values(pack.controls.defaults()),
         };
-        film.push(offscreen.picture(&pack, &face, view, args.size, args.picture.background.0)?)?;
+        Ok((face, view))
+    };
+    take.shoot(&mut offscreen, &mut film, at, |done| {
         if interrupted.load(Ordering::Relaxed) {
-            bail!("interrupted after {} of {frames} frames: nothing was written", frame + 1);
+            bail!("interrupted after {done} of {frames} frames: nothing was written");
         }
-        progress.step(frame + 1);
-    }
+        progress.step(done);
+        Ok(())
+    })?;
     drop(progress);
     film.finish()
-}
-
-/// Frames from the beginning to the first one that is not before this time.
-fn through(rate: Rate, secs: f64) -> u64 {
-    if secs > 0.0 { rate.frames_before(secs) + 1 } else { 1 }
 }
 
 /// Whether somebody wants the program to end: then what is half written is to go first.

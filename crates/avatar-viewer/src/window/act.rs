@@ -4,6 +4,9 @@ use super::App;
 use super::keys::Action as KeyAction;
 use super::messages::About;
 use super::stage::Shot;
+use crate::face_args::FaceChoice;
+use crate::film;
+use crate::output::OutputFile;
 use anyhow::Result;
 use avatar_panel::{Action, PoseForm};
 use pose_anim::{Pose, Transition};
@@ -38,7 +41,9 @@ impl App {
             }
             KeyAction::Picture => self.act(event_loop, Action::Picture),
             KeyAction::Open => self.act(event_loop, Action::OpenFile),
-            KeyAction::Undo { again } => self.act(event_loop, if again { Action::Redo } else { Action::Undo }),
+            KeyAction::Undo { again } => {
+                self.act(event_loop, if again { Action::Redo } else { Action::Undo })
+            }
             KeyAction::Help => {
                 // The panel takes its usual keys for this itself.
                 if let Some(overlay) = &mut self.overlay {
@@ -88,7 +93,8 @@ impl App {
             }
             Action::Dismiss(message) => self.messages.dismiss(message),
             Action::Picture => self.save_picture(),
-            Action::Film { .. } | Action::StopFilm => {}
+            Action::Film { format, clip } => self.film(format, clip),
+            Action::StopFilm => self.stop_film(),
             Action::Camera(place) => self.camera.go(place),
             Action::FullScreen => {
                 if let Some(stage) = &self.stage {
@@ -115,7 +121,8 @@ impl App {
             }
             Action::EditPose { index, form } => {
                 let PoseForm { name, key, duration_secs } = form;
-                let done = face.edit_poses(|book, _| book.describe(index, &name, key.as_deref(), duration_secs));
+                let done =
+                    face.edit_poses(|book, _| book.describe(index, &name, key.as_deref(), duration_secs));
                 (About::Poses, done)
             }
             Action::UpdatePose(index) => {
@@ -140,7 +147,9 @@ impl App {
                 };
                 (About::Clips, face.edit_clip(clip, "change the end of the clip", set))
             }
-            Action::InsertKey { clip, control, time_secs } => (About::Clips, face.insert_key(clip, control, time_secs)),
+            Action::InsertKey { clip, control, time_secs } => {
+                (About::Clips, face.insert_key(clip, control, time_secs))
+            }
             Action::MoveKey { clip, control, key, time_secs, value } => {
                 let moved = |clip: &mut pose_anim::Clip| {
                     let track = clip.track_mut(control);
@@ -190,10 +199,9 @@ impl App {
         let shot = Shot { pack, state, view: self.camera.view, background, free: None };
         let picture = stage.picture(&shot, width, height)?;
         let stem = self.face.active_pose.and_then(|pose| pack.poses.poses.get(pose));
-        let stem = stem.map_or("face", |pose| pose.name.as_str()).replace(['/', '\\', ':'], "-");
-        let names = (1..).map(|count| PathBuf::from(format!("{stem}-{count}.png")));
-        let path = names.take(100_000).find(|path| !path.exists()).unwrap_or_default();
-        picture.save(&path)?;
+        let path = free_name(stem.map_or("face", |pose| pose.name.as_str()), "png")?;
+        let values = self.face.player.values().to_vec();
+        film::still(&OutputFile::check(&path)?, &picture, &FaceChoice::of_values(values).describe(pack))?;
         Ok(path)
     }
 }
@@ -206,3 +214,15 @@ fn described(present: &Pose, form: &PoseForm) -> Pose {
     pose.duration_secs = form.duration_secs;
     pose
 }
+
+/// A name in the folder that the program was started in that nothing has yet.
+pub(super) fn free_name(stem: &str, ending: &str) -> Result<PathBuf> {
+    let stem = stem.replace(['/', '\\', ':'], "-");
+    let dot = if ending.is_empty() { "" } else { "." };
+    let mut names = (1..=MOST_NAMES).map(|count| PathBuf::from(format!("{stem}-{count}{dot}{ending}")));
+    let free = names.find(|path| !path.exists());
+    free.ok_or_else(|| anyhow::anyhow!("expected a free name up to {stem}-{MOST_NAMES}, found none"))
+}
+
+/// More pictures of one name than these are not looked through.
+const MOST_NAMES: u32 = 100_000;

@@ -62,7 +62,12 @@ enum Book {
 }
 
 impl Face {
-    pub(super) fn new(files: Files, pack: Pack, textures: Textures, start: Option<FaceChoice>) -> Result<Self> {
+    pub(super) fn new(
+        files: Files,
+        pack: Pack,
+        textures: Textures,
+        start: Option<FaceChoice>,
+    ) -> Result<Self> {
         let mut player = Player::new(&pack.controls);
         let goal = start.as_ref().map_or_else(|| pack.controls.defaults(), FaceChoice::start_values);
         player.jump_to(&goal)?;
@@ -148,7 +153,9 @@ impl Face {
         self.playback.playing = false;
         self.active_pose = None;
         for &(control, value) in &pose.values {
-            if let (Some(goal), Some(control)) = (self.goal.get_mut(control), self.pack.controls.controls().get(control)) {
+            if let (Some(goal), Some(control)) =
+                (self.goal.get_mut(control), self.pack.controls.controls().get(control))
+            {
                 *goal = value.clamp(control.min, control.max);
             }
         }
@@ -201,7 +208,10 @@ impl Face {
     // Poses and clips.
 
     /// Changes the poses, and their file.
-    pub(super) fn edit_poses(&mut self, edit: impl FnOnce(&mut PoseBook, &Pose) -> Result<(), BookError>) -> Result<()> {
+    pub(super) fn edit_poses(
+        &mut self,
+        edit: impl FnOnce(&mut PoseBook, &Pose) -> Result<(), BookError>,
+    ) -> Result<()> {
         let present = self.present("");
         let before = self.poses.clone();
         edit(&mut self.poses, &present)?;
@@ -215,7 +225,12 @@ impl Face {
     }
 
     /// Changes a clip; it is written to its file when the user says so.
-    pub(super) fn edit_clip(&mut self, index: usize, what: &str, edit: impl FnOnce(&mut Clip) -> Result<()>) -> Result<()> {
+    pub(super) fn edit_clip(
+        &mut self,
+        index: usize,
+        what: &str,
+        edit: impl FnOnce(&mut Clip) -> Result<()>,
+    ) -> Result<()> {
         let Some(mut clip) = self.clips.clips().clips.get(index).cloned() else { return Ok(()) };
         edit(&mut clip)?;
         self.clips.set(index, &clip, what)?;
@@ -279,7 +294,10 @@ impl Face {
                     track.bake(time_secs)?;
                 }
                 None => {
-                    let track = Track::new(control, vec![Key::new(time_secs, value, pose_anim::Easing::MinimumJerk)])?;
+                    let track = Track::new(
+                        control,
+                        vec![Key::new(time_secs, value, pose_anim::Easing::MinimumJerk)],
+                    )?;
                     let tracks = clip.tracks().iter().cloned().chain([track]).collect();
                     let (key, wrap) = (clip.key.clone(), clip.wrap);
                     *clip = Clip::new(clip.name.clone(), tracks)?.wrapped(wrap);
@@ -433,7 +451,8 @@ impl Face {
         let controls = self.pack.controls.controls();
         let moved = |control: &usize| samples.iter().any(|row| row[*control] != samples[0][*control]);
         let tracks = (0..controls.len()).filter(moved).map(|control| {
-            let sample = |(k, row): (usize, &Vec<f32>)| (k as f64 / RECORDED_PER_SEC, f64::from(row[control]));
+            let sample =
+                |(k, row): (usize, &Vec<f32>)| (k as f64 / RECORDED_PER_SEC, f64::from(row[control]));
             Track::from_samples(control, samples.iter().enumerate().map(sample))
         });
         let tracks = tracks.collect::<Result<Vec<_>, _>>()?;

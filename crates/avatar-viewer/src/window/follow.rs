@@ -43,11 +43,12 @@ impl App {
             Ok(materials) if materials == self.face.pack.materials => self.messages.settle(About::Materials),
             Ok(materials) => {
                 self.face.pack.materials = materials;
-                let shown =
-                    self.stage.as_mut().map_or(Ok(()), |stage| stage.set_materials(&self.face.pack));
+                let shown = self.stage.as_mut().map_or(Ok(()), |stage| stage.set_materials(&self.face.pack));
                 match shown {
                     Ok(()) => self.messages.settle(About::Materials),
-                    Err(error) => self.messages.error(About::Materials, "Not all materials are shown.", &error),
+                    Err(error) => {
+                        self.messages.error(About::Materials, "Not all materials are shown.", &error)
+                    }
                 }
                 self.frames.forget_miniatures();
             }

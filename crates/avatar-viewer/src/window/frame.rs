@@ -2,6 +2,7 @@
 
 use super::App;
 use super::camera::PLACES;
+use super::filming::{Filming, formats};
 use super::keys::MOUSE;
 use super::stage::{Shot, Stage};
 use crate::scene::BACKGROUND;
@@ -15,6 +16,8 @@ use winit::event_loop::ActiveEventLoop;
 const MAX_FRAME_SECS: f64 = 0.25;
 /// How long hair swings on after the head has stopped.
 const SWINGS_ON: Duration = Duration::from_millis(1800);
+/// How often progress is shown.
+const SOON: Duration = Duration::from_millis(150);
 /// Frames whose times are kept.
 const HISTORY: usize = 120;
 /// Ground of the light theme.
@@ -58,6 +61,12 @@ impl Frames {
 
     pub(super) fn is_due(&mut self) -> bool {
         self.again.take_if(|again| *again <= Instant::now()).is_some()
+    }
+
+    /// Something beside the face has to be shown, which need not be at once: the panel's own frames are few.
+    pub(super) fn soon(&mut self) {
+        let soon = Instant::now() + SOON;
+        self.again = Some(self.again.map_or(soon, |again| again.min(soon)));
     }
 
     pub(super) fn forget_miniatures(&mut self) {
@@ -129,11 +138,14 @@ impl App {
         let (Some(overlay), Some(stage)) = (&mut self.overlay, &mut self.stage) else { return None };
         let shows_stats = overlay.panel.state().show_stats;
         stage.measure(shows_stats);
-        self.frames.passes = if shows_stats { stage.passes() } else { Vec::new() };
+        if let Some(passes) = stage.passes() {
+            self.frames.passes = passes;
+        }
         let face = &self.face;
         let (adapter, triangles, strands) = stage.numbers(&face.pack);
         let names: Vec<_> = self.keys.rows().collect();
-        let poses = face.pack.poses.iter().filter_map(|pose| Some((pose.key.as_deref()?, pose.name.as_str())));
+        let poses =
+            face.pack.poses.iter().filter_map(|pose| Some((pose.key.as_deref()?, pose.name.as_str())));
         let rows = names.iter().map(|(key, row)| KeyRow { key, meaning: row.meaning, group: row.group });
         let poses = poses.map(|(key, meaning)| KeyRow { key, meaning, group: "Poses" });
         let clips = face.pack.clips.clips.iter();
@@ -146,6 +158,7 @@ impl App {
         let reserved: Vec<&str> = reserved.iter().map(String::as_str).collect();
         let messages: Vec<_> = self.messages.shown().collect();
         let recent: Vec<String> = self.config.recent.iter().map(|path| path.display().to_string()).collect();
+        let formats: Vec<&str> = formats().into_iter().map(|(name, _)| name).collect();
         let thumbnails: Vec<_> = (face.pack.poses.iter())
             .map(|pose| {
                 let shown = self.frames.miniatures.iter().find(|miniature| same_face(&miniature.pose, pose));
@@ -189,6 +202,8 @@ impl App {
             },
             recent: &recent,
             cameras: &PLACES,
+            film_formats: &formats,
+            film: self.filming.as_ref().map(Filming::progress),
             full_screen: stage.window().fullscreen().is_some(),
             ..Model::new(&face.pack.controls, &face.pack.poses)
         };

@@ -118,7 +118,9 @@ impl fmt::Display for KeyName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let is_capital =
             matches!(self.key, Base::Character(one) if one.is_uppercase() && one.to_lowercase().count() == 1);
-        for (is_held, name) in [(self.ctrl, "Ctrl+"), (self.alt, "Alt+"), (self.shift || is_capital, "Shift+")] {
+        for (is_held, name) in
+            [(self.ctrl, "Ctrl+"), (self.alt, "Alt+"), (self.shift || is_capital, "Shift+")]
+        {
             if is_held {
                 f.write_str(name)?;
             }

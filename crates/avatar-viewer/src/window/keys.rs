@@ -65,8 +65,15 @@ const CAMERA: &str = "Camera";
 const FACE: &str = "Face";
 const WINDOW: &str = "Window";
 
-const fn row(id: &'static str, keys: &'static [&'static str], meaning: &'static str, group: &'static str, action: Action) -> Row {
-    let repeats = matches!(action, Action::Orbit(..) | Action::Zoom(_) | Action::Pan(..) | Action::Undo { .. });
+const fn row(
+    id: &'static str,
+    keys: &'static [&'static str],
+    meaning: &'static str,
+    group: &'static str,
+    action: Action,
+) -> Row {
+    let repeats =
+        matches!(action, Action::Orbit(..) | Action::Zoom(_) | Action::Pan(..) | Action::Undo { .. });
     Row { id, keys, meaning, group, action, repeats }
 }
 
@@ -128,7 +135,8 @@ impl Keys {
     /// # Errors
     /// A name that no row has, a key that cannot be, a key twice; with its place.
     pub(crate) fn read(text: &str) -> Result<Self, TomlError> {
-        const EXPECTED: &str = "the name of a key such as \"x\", \"F5\" or \"Ctrl+Left\", or a list of such names";
+        const EXPECTED: &str =
+            "the name of a key such as \"x\", \"F5\" or \"Ctrl+Left\", or a list of such names";
         let document = Document::parse(text)?;
         let mut keys = Self::default();
         let mut set: Vec<usize> = Vec::new();
@@ -175,14 +183,14 @@ impl Keys {
 
     /// Whether the window handles this key itself.
     pub(crate) fn has(&self, key: &Key, modifiers: &Modifiers) -> bool {
-        KeyName::of(key, modifiers).is_some_and(|pressed| self.names.iter().any(|names| names.contains(&pressed)))
+        KeyName::of(key, modifiers)
+            .is_some_and(|pressed| self.names.iter().any(|names| names.contains(&pressed)))
     }
 
     /// The rows with their keys, for people.
     pub(crate) fn rows(&self) -> impl Iterator<Item = (String, &'static Row)> {
-        let text = |names: &Vec<KeyName>| {
-            names.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ")
-        };
+        let text =
+            |names: &Vec<KeyName>| names.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ");
         self.names.iter().map(text).zip(&ROWS).filter(|(keys, _)| !keys.is_empty())
     }
 
@@ -308,7 +316,10 @@ mod tests {
             ("pictur = 'x'", "line 1, column 1"),
             ("\npicture = 3", "line 2, column 11"),
             ("picture = 'Ctrl+'", "expected the name of a key"),
-            ("picture = 'x'\nhair = 'x'", "line 2, column 8: hair: expected a key of its own, found x, which is the key of picture"),
+            (
+                "picture = 'x'\nhair = 'x'",
+                "line 2, column 8: hair: expected a key of its own, found x, which is the key of picture",
+            ),
         ] {
             let error = Keys::read(text).expect_err(text).to_string();
             assert!(error.contains(expected), "{error}");

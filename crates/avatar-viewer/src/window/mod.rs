@@ -9,6 +9,7 @@
 mod act;
 mod camera;
 mod face;
+mod filming;
 mod follow;
 mod frame;
 mod key_name;
@@ -30,6 +31,7 @@ use avatar_pack::{Pack, Textures};
 use camera::Camera;
 use clap::ArgMatches;
 use face::Face;
+use filming::Filming;
 use frame::Frames;
 use keys::Keys;
 use loading::Loading;
@@ -100,6 +102,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         stage: None,
         frames: Frames::default(),
         loading: None,
+        filming: None,
         watcher,
         // Nobody told of changes since the avatar was loaded.
         reload_at: [Some(Instant::now() + SETTLED); Watched::ALL.len()],
@@ -138,6 +141,7 @@ struct App {
     frames: Frames,
     pointing: Pointing,
     loading: Option<Loading>,
+    filming: Option<Filming>,
     watcher: Option<notify::RecommendedWatcher>,
     /// When each of the files is read again, unless it changes once more before.
     reload_at: [Option<Instant>; Watched::ALL.len()],
@@ -168,6 +172,7 @@ impl ApplicationHandler<Wake> for App {
             Wake::Ready => {
                 self.pointing.take();
                 self.take_loaded();
+                self.take_film();
             }
             Wake::Chosen(path) => self.open(&path),
             Wake::Accessibility(event) => {
@@ -374,9 +379,12 @@ impl App {
 
     /// Takes over what was read; a broken file leaves everything as it is.
     fn take_loaded(&mut self) {
-        self.redraw();
         let Some(loading) = &mut self.loading else { return };
-        let Some(loaded) = loading.take() else { return };
+        let loaded = loading.take();
+        if let Some(stage) = &self.stage {
+            stage.window().request_redraw();
+        }
+        let Some(loaded) = loaded else { return };
         let path = loading.path.clone();
         self.loading = None;
         let shown = loaded.and_then(|loaded| self.show(loaded.files, loaded.pack, loaded.textures));

@@ -41,9 +41,17 @@ impl Overlay {
         let ctx = egui::Context::default();
         // The keys of the camera are + and - without Ctrl; those with Ctrl scale the text, as in browsers.
         let scale = Some(window.scale_factor() as f32);
-        let mut input = egui_winit::State::new(ctx.clone(), egui::ViewportId::ROOT, window, scale, window.theme(), None);
+        let mut input =
+            egui_winit::State::new(ctx.clone(), egui::ViewportId::ROOT, window, scale, window.theme(), None);
         input.init_accesskit(event_loop, window, proxy);
-        Self { panel: Panel::new(state), ctx, input, renderer: None, textures: egui::TexturesDelta::default(), marks: Vec::new() }
+        Self {
+            panel: Panel::new(state),
+            ctx,
+            input,
+            renderer: None,
+            textures: egui::TexturesDelta::default(),
+            marks: Vec::new(),
+        }
     }
 
     pub(super) fn event(&mut self, window: &Window, event: &WindowEvent) -> EventResponse {
@@ -79,7 +87,9 @@ impl Overlay {
         let pixels_per_point = output.pixels_per_point;
         let again = output.viewport_output.get(&egui::ViewportId::ROOT);
         let again = again.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
-        let scaled = |rect: egui::Rect| [rect.left(), rect.top(), rect.right(), rect.bottom()].map(|x| x * pixels_per_point);
+        let scaled = |rect: egui::Rect| {
+            [rect.left(), rect.top(), rect.right(), rect.bottom()].map(|x| x * pixels_per_point)
+        };
         self.textures.append(output.textures_delta);
         Painted {
             triangles: self.ctx.tessellate(output.shapes, pixels_per_point),

@@ -88,7 +88,8 @@ impl Pointing {
         if self.deformed.is_empty() {
             let parts = 0..face.pack.parts.len();
             // A part that cannot be deformed has nothing to point at.
-            self.deformed = parts.map(|part| face.state.deform(&face.pack, part).unwrap_or_default()).collect();
+            self.deformed =
+                parts.map(|part| face.state.deform(&face.pack, part).unwrap_or_default()).collect();
         }
     }
 }
@@ -126,7 +127,13 @@ impl App {
         {
             self.pointing.deform(&self.face);
             let Pointing { reach, deformed, .. } = &self.pointing;
-            mark(&camera, size, deformed, reach.iter().flat_map(|reach| reach.moved(control)), &mut overlay.marks);
+            mark(
+                &camera,
+                size,
+                deformed,
+                reach.iter().flat_map(|reach| reach.moved(control)),
+                &mut overlay.marks,
+            );
         }
         if !sees_sliders || !over_picture {
             if !self.pointing.highlighted.is_empty() {
@@ -159,7 +166,8 @@ impl App {
         }
         let Some((camera, size)) = self.present_camera(free) else { return };
         let Some(gaze) = &mut self.pointing.gaze else { return };
-        let at = (Vec2::new(self.pointer.x as f32, self.pointer.y as f32) / size * 2.0 - 1.0) * Vec2::new(1.0, -1.0);
+        let at = (Vec2::new(self.pointer.x as f32, self.pointer.y as f32) / size * 2.0 - 1.0)
+            * Vec2::new(1.0, -1.0);
         let center = self.face.pack.bounds().map_or(Vec3::ZERO, |bounds| bounds.center());
         let depth = -camera.world_from_camera.inverse().transform_point3(center).z;
         let target = camera.eye() + camera.toward(at) * depth * (1.0 - TARGET);

@@ -6,7 +6,7 @@ use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_for_surface_blocking};
 use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, Scene, Targets};
-use glam::Vec2;
+use glam::{Affine3A, Vec2};
 use image::RgbaImage;
 use std::sync::Arc;
 use wgpu::CurrentSurfaceTexture as Acquired;
@@ -34,6 +34,45 @@ pub(super) struct Stage {
     timer: Option<PassTimer>,
     /// Draws small pictures of poses.
     miniatures: Option<Miniatures>,
+    /// The picture without the panel, where surfaces can be copied to: while only the panel changes, the face is not drawn again.
+    kept: Option<Kept>,
+    can_keep: bool,
+    /// Whether the hair moved in the frame before.
+    hair_moved: bool,
+    /// Whether the timer has measured a frame that was not asked for yet.
+    is_measured: bool,
+}
+
+/// A picture of the face, and what it shows.
+struct Kept {
+    texture: wgpu::Texture,
+    bones: Vec<Affine3A>,
+    weights: Vec<f32>,
+    view: View,
+    background: [u8; 4],
+    free: Option<[f32; 4]>,
+    /// Whether it shows what the model, its looks and its hair are now.
+    is_fresh: bool,
+}
+
+impl Kept {
+    fn shows(&self, shot: &Shot<'_>) -> bool {
+        self.is_fresh
+            && self.view == shot.view
+            && self.background == shot.background
+            && self.free == shot.free
+            && self.weights == shot.state.weights()
+            && self.bones == shot.state.bones()
+    }
+
+    fn note(&mut self, shot: &Shot<'_>) {
+        self.bones.clear();
+        self.bones.extend_from_slice(shot.state.bones());
+        self.weights.clear();
+        self.weights.extend_from_slice(shot.state.weights());
+        (self.view, self.background, self.free) = (shot.view, shot.background, shot.free);
+        self.is_fresh = true;
+    }
 }
 
 /// A picture beside the window, and a state of the avatar for it.
@@ -103,6 +142,11 @@ impl Stage {
             true => plain,
             false => config.format,
         };
+        let usages = surface.get_capabilities(&gpu.adapter).usages;
+        let can_keep = usages.contains(wgpu::TextureUsages::COPY_DST);
+        if can_keep {
+            config.usage |= wgpu::TextureUsages::COPY_DST;
+        }
         if panel_format != config.format {
             config.view_formats.push(panel_format);
         }
@@ -116,22 +160,25 @@ impl Stage {
         let mut avatar = AvatarState::new(device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         let style = hair.map(|hair| hair.style);
-        let mut stage =
-            Self {
-                window,
-                gpu,
-                surface,
-                config,
-                renderer,
-                targets: None,
-                model,
-                avatar,
-                style,
-                look,
-                panel_format,
-                timer: None,
-                miniatures: None,
-            };
+        let mut stage = Self {
+            window,
+            gpu,
+            surface,
+            config,
+            renderer,
+            targets: None,
+            model,
+            avatar,
+            style,
+            look,
+            panel_format,
+            timer: None,
+            miniatures: None,
+            kept: None,
+            can_keep,
+            hair_moved: false,
+            is_measured: false,
+        };
         stage.resize(size)?;
         Ok(stage)
     }
@@ -152,6 +199,7 @@ impl Stage {
     pub(super) fn resize(&mut self, size: PhysicalSize<u32>) -> Result<()> {
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         self.targets = None;
+        self.kept = None;
         if size.width == 0 || size.height == 0 {
             return Ok(());
         }
@@ -178,6 +226,7 @@ impl Stage {
         self.style = hair.map(|hair| hair.style);
         self.look = look;
         self.miniatures = None;
+        self.is_stale();
         Ok(())
     }
 
@@ -206,11 +255,13 @@ impl Stage {
         }
     }
 
-    /// Milliseconds of the passes of the frame before; waits for the frame to end.
-    pub(super) fn passes(&self) -> Vec<(&'static str, f32)> {
-        let Some(timer) = &self.timer else { return Vec::new() };
-        let times = timer.read(&self.gpu.device).unwrap_or_default();
-        times.into_iter().map(|(pass, ns)| (pass, (ns / 1e6) as f32)).collect()
+    /// Milliseconds of the passes of the last frame in which the face was drawn, if nobody asked before; waits for that frame to end.
+    pub(super) fn passes(&mut self) -> Option<Vec<(&'static str, f32)>> {
+        if !std::mem::take(&mut self.is_measured) {
+            return None;
+        }
+        let times = self.timer.as_ref()?.read(&self.gpu.device).unwrap_or_default();
+        Some(times.into_iter().map(|(pass, ns)| (pass, (ns / 1e6) as f32)).collect())
     }
 
     /// The picture in the window without the panel, whatever its size.
@@ -230,7 +281,12 @@ impl Stage {
     ///
     /// # Errors
     /// The device cannot draw it.
-    pub(super) fn miniature(&mut self, pack: &Pack, values: &[f32], background: [u8; 4]) -> Result<RgbaImage> {
+    pub(super) fn miniature(
+        &mut self,
+        pack: &Pack,
+        values: &[f32],
+        background: [u8; 4],
+    ) -> Result<RgbaImage> {
         let miniatures = match self.miniatures.take() {
             Some(miniatures) => miniatures,
             None => {
@@ -255,6 +311,7 @@ impl Stage {
     /// # Errors
     /// A model with fewer parts than the pack has.
     pub(super) fn set_materials(&mut self, pack: &Pack) -> Result<()> {
+        self.is_stale();
         scene::set_materials(pack, &self.model, &self.gpu.queue)
     }
 
@@ -268,12 +325,25 @@ impl Stage {
         self.avatar = AvatarState::new(&self.gpu.device, &self.model);
         self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
         self.miniatures = None;
+        self.is_stale();
         Ok(())
     }
 
     /// Lets as much time pass for the hair; seconds that are no number leave it still.
     pub(super) fn advance_hair(&mut self, seconds: f32) {
+        // What was in motion hangs still in the first frame without any.
+        if seconds.is_finite() || self.hair_moved {
+            self.is_stale();
+        }
+        self.hair_moved = seconds.is_finite();
         self.avatar.advance_hair(&self.gpu.queue, seconds);
+    }
+
+    /// The picture that is kept no longer shows what there is.
+    fn is_stale(&mut self) {
+        if let Some(kept) = &mut self.kept {
+            kept.is_fresh = false;
+        }
     }
 
     /// Whether there is hair that swings on after the head has stopped.
@@ -312,14 +382,36 @@ impl Stage {
         };
         let Some(targets) = &self.targets else { return Ok(()) };
         let (width, height) = (self.config.width, self.config.height);
-        self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
-        let scene = shot.scene(width, height, &self.look);
         let label = Some("frame");
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
-        let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let avatars = [(&self.model, &self.avatar)];
-        let timer = self.timer.as_ref();
-        self.renderer.draw_timed(&mut encoder, &target, targets, &self.gpu.queue, &scene, &avatars, timer)?;
+        let keeps = panel.is_some() && self.can_keep;
+        if keeps && self.kept.is_none() {
+            self.kept = Some(kept(&self.gpu.device, &self.config, shot));
+        }
+        let kept = self.kept.as_mut().filter(|_| keeps);
+        if !kept.as_ref().is_some_and(|kept| kept.shows(shot)) {
+            self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
+            let scene = shot.scene(width, height, &self.look);
+            let texture = kept.as_ref().map_or(&frame.texture, |kept| &kept.texture);
+            let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
+            let avatars = [(&self.model, &self.avatar)];
+            let timer = self.timer.as_ref();
+            self.renderer.draw_timed(
+                &mut encoder,
+                &target,
+                targets,
+                &self.gpu.queue,
+                &scene,
+                &avatars,
+                timer,
+            )?;
+            self.is_measured = timer.is_some();
+        }
+        if let Some(kept) = self.kept.as_mut().filter(|_| keeps) {
+            kept.note(shot);
+            let (from, to) = (kept.texture.as_image_copy(), frame.texture.as_image_copy());
+            encoder.copy_texture_to_texture(from, to, kept.texture.size());
+        }
         if let Some((overlay, painted)) = panel {
             overlay.draw(&self.gpu, &mut encoder, &frame.texture, self.panel_format, painted);
         }
@@ -333,4 +425,21 @@ impl Stage {
             }
         }
     }
+}
+
+/// A picture to keep, with nothing on it yet.
+fn kept(device: &wgpu::Device, config: &wgpu::SurfaceConfiguration, shot: &Shot<'_>) -> Kept {
+    let size = wgpu::Extent3d { width: config.width, height: config.height, depth_or_array_layers: 1 };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("kept picture"),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: config.format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let (view, background, free) = (shot.view, shot.background, shot.free);
+    Kept { texture, bones: Vec::new(), weights: Vec::new(), view, background, free, is_fresh: false }
 }

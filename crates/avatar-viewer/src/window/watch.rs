@@ -51,10 +51,15 @@ impl Watched {
 
 /// Tells the window when files of the avatar change that it follows. Folders are watched instead of files: many editors put a new
 /// file in the place of the old one. Where watching does not work the window works all the same, after a warning.
-pub(super) fn watch(files: &Files, store: &Store, window: EventLoopProxy<Wake>) -> Option<RecommendedWatcher> {
+pub(super) fn watch(
+    files: &Files,
+    store: &Store,
+    window: EventLoopProxy<Wake>,
+) -> Option<RecommendedWatcher> {
     let paths: Vec<(Watched, PathBuf)> =
         Watched::ALL.into_iter().filter_map(|file| Some((file, file.path(files, store)?))).collect();
-    let mut folders: Vec<PathBuf> = paths.iter().filter_map(|(_, path)| Some(path.parent()?.to_owned())).collect();
+    let mut folders: Vec<PathBuf> =
+        paths.iter().filter_map(|(_, path)| Some(path.parent()?.to_owned())).collect();
     folders.sort();
     folders.dedup();
     // The user's own folder may not be there yet; what this program writes there it knows.
@@ -81,7 +86,8 @@ pub(super) fn watch(files: &Files, store: &Store, window: EventLoopProxy<Wake>) 
     });
     watcher
         .inspect_err(|error| {
-            let folders = folders.iter().map(|folder| folder.display().to_string()).collect::<Vec<_>>().join(" and ");
+            let folders =
+                folders.iter().map(|folder| folder.display().to_string()).collect::<Vec<_>>().join(" and ");
             eprintln!("warning: {folders}: expected to be told of changes of files, found: {error}");
         })
         .ok()

@@ -1,0 +1,211 @@
+//! A film of what the window shows, made beside it on a device of its own.
+
+use super::App;
+use super::messages::About;
+use super::watch::Wake;
+use crate::cli::Size;
+use crate::clips::{self, FoundClip};
+use crate::face_args::FaceChoice;
+use crate::film::{FilmSink, FilmTarget, Take, through};
+use crate::look_args::LookArgs;
+use crate::offscreen::Offscreen;
+use crate::scene::{SAMPLES, View};
+use anyhow::{Result, bail};
+use avatar_film::{Format, Rate};
+use avatar_pack::{Pack, Textures};
+use avatar_panel::FilmProgress;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::Instant;
+use winit::event_loop::EventLoopProxy;
+
+/// Frames per second of films from the window; the verb `record` takes any.
+const FPS: u32 = 30;
+/// Seconds in which the camera goes once around a face that does nothing.
+const TURN_SECS: f64 = 4.0;
+/// Films of larger windows are that large.
+const LARGEST_SIDE: u32 = 1920;
+
+/// A film that is being made.
+pub(super) struct Filming {
+    path: PathBuf,
+    frames: u64,
+    done: u64,
+    started: Instant,
+    stop: Arc<AtomicBool>,
+    news: Receiver<News>,
+}
+
+enum News {
+    Done(u64),
+    End(Result<()>),
+}
+
+/// What is filmed.
+struct Subject {
+    pack: Pack,
+    textures: Textures,
+    look: LookArgs,
+    /// Name of the clip; without one the present face is looked at from all around.
+    clip: Option<String>,
+    values: Vec<f32>,
+    view: View,
+    size: Size,
+    background: [u8; 4],
+}
+
+/// Formats of films, for people, with the ends of their names.
+pub(super) fn formats() -> Vec<(&'static str, &'static str)> {
+    let named = Format::ALL.iter().filter_map(|format| {
+        let ending = *format.extensions().first()?;
+        Some((if ending == "png" { "animated PNG" } else { ending }, ending))
+    });
+    named.chain([("PNG frames", "")]).collect()
+}
+
+impl Filming {
+    fn start(subject: Subject, path: PathBuf, window: EventLoopProxy<Wake>) -> Result<Self> {
+        let rate = Rate::new(FPS, 1)?;
+        let target = FilmTarget::check(&path, subject.size, rate)?;
+        let frames = match &subject.clip {
+            Some(name) => {
+                let clip = clips::find(&subject.pack, name)?;
+                length(&clip, &subject.pack, rate)
+            }
+            None => rate.frames_before(TURN_SECS),
+        };
+        let (sender, news) = channel();
+        let stop = Arc::new(AtomicBool::new(false));
+        let stopped = Arc::clone(&stop);
+        std::thread::spawn(move || {
+            let tell = |news| {
+                let _ = sender.send(news);
+                let _ = window.send_event(Wake::Ready);
+            };
+            let shot = |done| {
+                if stopped.load(Ordering::Relaxed) {
+                    bail!("stopped after {done} of {frames} frames: nothing was written");
+                }
+                tell(News::Done(done));
+                Ok(())
+            };
+            tell(News::End(subject.shoot(target, rate, frames, shot)));
+        });
+        Ok(Self { path, frames, done: 0, started: Instant::now(), stop, news })
+    }
+
+    /// For the panel.
+    pub(super) fn progress(&self) -> FilmProgress {
+        let secs = self.started.elapsed().as_secs_f64();
+        let left = secs / self.done.max(1) as f64 * self.frames.saturating_sub(self.done) as f64;
+        FilmProgress {
+            done: self.done as usize,
+            of: self.frames as usize,
+            // What the first frames take says little.
+            remaining_secs: (secs > 1.0 && self.done > 1).then_some(left.ceil() as u64),
+        }
+    }
+
+    /// Whether it is over, and how.
+    fn take(&mut self) -> Option<Result<()>> {
+        loop {
+            match self.news.try_recv() {
+                Ok(News::Done(done)) => self.done = done,
+                Ok(News::End(result)) => return Some(result),
+                Err(TryRecvError::Empty) => return None,
+                Err(TryRecvError::Disconnected) => {
+                    return Some(Err(anyhow::anyhow!("the film has ended early")));
+                }
+            }
+        }
+    }
+}
+
+fn length(clip: &FoundClip<'_>, pack: &Pack, rate: Rate) -> u64 {
+    let secs = clip.duration_secs(pack);
+    if clip.repeats() { rate.frames_before(secs).max(1) } else { through(rate, secs) }
+}
+
+impl Subject {
+    fn shoot(
+        self,
+        target: FilmTarget,
+        rate: Rate,
+        frames: u64,
+        shot: impl FnMut(u64) -> Result<()>,
+    ) -> Result<()> {
+        let Self { pack, textures, look, clip, values, view, size, background } = self;
+        let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, look)?;
+        let mut film = FilmSink::create(target, size, rate, frames)?;
+        let clip = clip.as_deref().map(|name| clips::find(&pack, name)).transpose()?;
+        let at = |secs: f64| match &clip {
+            Some(clip) => Ok((clip.face(&pack, secs)?, view)),
+            None => {
+                let yaw_degrees = view.yaw_degrees + (secs / TURN_SECS * 360.0) as f32;
+                Ok((FaceChoice::of_values(values.clone()), View { yaw_degrees, ..view }))
+            }
+        };
+        let take = Take { pack: &pack, size, background, rate, frames };
+        take.shoot(&mut offscreen, &mut film, at, shot)?;
+        film.finish()
+    }
+}
+
+impl App {
+    /// Begins a film of a clip, or of the present face from all around.
+    pub(super) fn film(&mut self, format: usize, clip: Option<usize>) {
+        if self.filming.is_some() {
+            return;
+        }
+        match self.try_film(format, clip) {
+            Ok(filming) => {
+                self.messages.settle(About::Film);
+                self.filming = Some(filming);
+            }
+            Err(error) => self.messages.error(About::Film, "The film was not begun.", &error),
+        }
+    }
+
+    fn try_film(&self, format: usize, clip: Option<usize>) -> Result<Filming> {
+        let formats = formats();
+        let Some((_, ending)) = formats.get(format) else { bail!("expected a format that there is") };
+        let Some(stage) = &self.stage else { bail!("expected a window, found none") };
+        let (width, height) = stage.size();
+        let size = Size { width: width.min(LARGEST_SIDE), height: height.min(LARGEST_SIDE) };
+        let clip = clip.and_then(|clip| self.face.pack.clips.clips.get(clip)).map(|clip| clip.name.clone());
+        let stem = clip.clone().unwrap_or_else(|| "around".to_owned());
+        let subject = Subject {
+            pack: self.face.pack.clone(),
+            textures: self.face.textures.clone(),
+            look: self.look,
+            clip,
+            values: self.face.goal.clone(),
+            view: self.camera.view,
+            size,
+            background: self.background(),
+        };
+        Filming::start(subject, super::act::free_name(&stem, ending)?, self.proxy.clone())
+    }
+
+    pub(super) fn stop_film(&mut self) {
+        if let Some(filming) = &self.filming {
+            filming.stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Takes over how far the film is.
+    pub(super) fn take_film(&mut self) {
+        let Some(filming) = &mut self.filming else { return };
+        self.frames.soon();
+        let Some(result) = filming.take() else { return };
+        let (path, stopped) = (filming.path.clone(), filming.stop.load(Ordering::Relaxed));
+        self.filming = None;
+        match result {
+            Ok(()) => self.messages.news(About::Film, format!("Saved {}.", path.display()), ""),
+            Err(_) if stopped => self.messages.news(About::Film, "The film was stopped.", ""),
+            Err(error) => self.messages.error(About::Film, "The film was not made.", &error),
+        }
+    }
+}
