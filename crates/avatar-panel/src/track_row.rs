@@ -29,23 +29,23 @@ pub(crate) fn show(
     let Some(control) = model.controls.controls().get(track.control()) else { return };
     let builder =
         UiBuilder::new().scope_id(ui.scope_id().with(("track", clip, track.control()))).max_rect(rect);
-    ui.scope_builder(builder, |ui| {
-        let place = Rect::from_x_y_ranges(scale.x, rect.y_range());
-        let chosen = timeline.control == Some(track.control());
-        name(timeline, ui, Rect::from_min_size(rect.min, vec2(names, rect.height())), control, track, chosen);
-        let ground = ui.interact(place, ui.scope_id().with("ground"), Sense::CLICK);
-        paint(ui, place, scale, control, track, chosen);
-        if ground.clicked() {
-            (timeline.control, timeline.key) = (Some(track.control()), None);
-        }
-        if ground.double_clicked()
-            && let Some(at) = ground.interact_pointer_pos()
-        {
-            let time_secs = scale.snapped(scale.secs_at(at.x));
-            actions.push(Action::InsertKey { clip, control: track.control(), time_secs });
-        }
-        keys(timeline, ui, place, scale, clip, control, track, actions);
-    });
+    // The row has its place already: a scope would set the next one's back.
+    let ui = &mut ui.new_child(builder);
+    let place = Rect::from_x_y_ranges(scale.x, rect.y_range());
+    let chosen = timeline.control == Some(track.control());
+    name(timeline, ui, Rect::from_min_size(rect.min, vec2(names, rect.height())), control, track, chosen);
+    let ground = ui.interact(place, ui.scope_id().with("ground"), Sense::CLICK);
+    paint(ui, place, scale, control, track, chosen);
+    if ground.clicked() {
+        (timeline.control, timeline.key) = (Some(track.control()), None);
+    }
+    if ground.double_clicked()
+        && let Some(at) = ground.interact_pointer_pos()
+    {
+        let time_secs = scale.snapped(scale.secs_at(at.x));
+        actions.push(Action::InsertKey { clip, control: track.control(), time_secs });
+    }
+    keys(timeline, ui, place, scale, clip, control, track, actions);
 }
 
 fn name(timeline: &mut Timeline, ui: &Ui, rect: Rect, control: &Control, track: &Track, chosen: bool) {

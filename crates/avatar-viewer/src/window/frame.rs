@@ -103,7 +103,7 @@ impl App {
         }
         let is_at_rest = !self.face.moves();
         let background = self.background();
-        self.draw_miniature(is_at_rest, background)?;
+        let has_more = self.draw_miniature(is_at_rest, background)?;
 
         let mut actions = Vec::new();
         let painted = self.lay_out(&mut actions);
@@ -125,7 +125,6 @@ impl App {
         }
         let again = painted.map_or(Duration::MAX, |painted| painted.again);
         self.frames.again = (again > Duration::ZERO).then(|| Instant::now().checked_add(again)).flatten();
-        let has_more = self.overlay.is_some() && is_at_rest && self.missing_miniature(background).is_some();
         // Nothing moves: no frame until something happens.
         if self.face.moves() || swings || has_acted || again.is_zero() || has_more {
             self.redraw();
@@ -236,29 +235,21 @@ impl App {
         stage.draw(&shot, self.overlay.as_mut().zip(painted))
     }
 
-    /// The first pose without a picture.
-    fn missing_miniature(&self, background: [u8; 4]) -> Option<usize> {
-        let has = |pose: &Pose| {
-            let mut shown = self.frames.miniatures.iter();
-            shown.any(|miniature| miniature.background == background && same_face(&miniature.pose, pose))
-        };
-        self.face.pack.poses.iter().position(|pose| !has(pose))
-    }
-
-    /// Draws the small picture of one pose that has none, while nothing moves and the poses are seen.
-    fn draw_miniature(&mut self, is_at_rest: bool, background: [u8; 4]) -> Result<()> {
-        let (Some(overlay), Some(stage)) = (&self.overlay, &mut self.stage) else { return Ok(()) };
+    /// Draws the small picture of one pose that has none, while nothing moves and the poses are seen. Returns whether it did:
+    /// then there may be more.
+    fn draw_miniature(&mut self, is_at_rest: bool, background: [u8; 4]) -> Result<bool> {
+        let (Some(overlay), Some(stage)) = (&self.overlay, &mut self.stage) else { return Ok(false) };
         let state = overlay.panel.state();
         let are_seen = state.tab == avatar_panel::Tab::Poses && !state.folded;
         if !is_at_rest || !are_seen {
-            return Ok(());
+            return Ok(false);
         }
         let poses = &self.face.pack.poses;
         self.frames.miniatures.retain(|miniature| {
             miniature.background == background && poses.iter().any(|pose| same_face(&miniature.pose, pose))
         });
         let has = |pose: &Pose| self.frames.miniatures.iter().any(|own| same_face(&own.pose, pose));
-        let Some(pose) = poses.iter().find(|pose| !has(pose)) else { return Ok(()) };
+        let Some(pose) = poses.iter().find(|pose| !has(pose)) else { return Ok(false) };
         let mut values = self.face.pack.controls.defaults();
         pose.values.iter().for_each(|(control, value)| values[*control] = *value);
         let picture = stage.miniature(&self.face.pack, &values, background)?;
@@ -266,7 +257,7 @@ impl App {
         let image = egui::ColorImage::from_rgba_unmultiplied(size, picture.as_raw());
         let texture = overlay.ctx.load_texture(&pose.name, image, egui::TextureOptions::LINEAR);
         self.frames.miniatures.push(Miniature { pose: pose.clone(), background, texture });
-        Ok(())
+        Ok(true)
     }
 }
 

@@ -1,4 +1,5 @@
 use avatar_panel::{Message, Severity};
+use std::time::{Duration, Instant};
 
 /// What the user has to know, until it is dismissed or its cause has gone.
 #[derive(Debug, Default)]
@@ -13,7 +14,12 @@ struct Told {
     severity: Severity,
     title: String,
     text: String,
+    /// When it goes by itself.
+    until: Option<Instant>,
 }
+
+/// How long news stay.
+const NEWS: Duration = Duration::from_secs(6);
 
 /// What a message is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,13 +59,26 @@ impl Messages {
 
     fn tell(&mut self, about: About, severity: Severity, title: String, text: String) {
         self.settle(about);
-        self.all.insert(0, Told { about, severity, title, text });
+        let until = (severity == Severity::Info).then(|| Instant::now() + NEWS);
+        self.all.insert(0, Told { about, severity, title, text, until });
         self.all.truncate(KEPT);
     }
 
     /// The cause has gone.
     pub(super) fn settle(&mut self, about: About) {
         self.all.retain(|told| told.about != about);
+    }
+
+    /// When the next one goes by itself.
+    pub(super) fn next(&self) -> Option<Instant> {
+        self.all.iter().filter_map(|told| told.until).min()
+    }
+
+    /// Takes those away that go by themselves; whether there were any.
+    pub(super) fn expire(&mut self) -> bool {
+        let (before, now) = (self.all.len(), Instant::now());
+        self.all.retain(|told| told.until.is_none_or(|until| now < until));
+        self.all.len() < before
     }
 
     pub(super) fn dismiss(&mut self, index: usize) {

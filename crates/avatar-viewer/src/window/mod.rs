@@ -186,7 +186,11 @@ impl ApplicationHandler<Wake> for App {
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         self.follow();
-        let next = self.reload_at.iter().flatten().copied().chain(self.frames.next()).min();
+        if self.messages.expire() {
+            self.redraw();
+        }
+        let files = self.reload_at.iter().flatten().copied();
+        let next = files.chain(self.frames.next()).chain(self.messages.next()).min();
         event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
 
