@@ -3,7 +3,7 @@
 use super::App;
 use super::keys::Action as KeyAction;
 use super::messages::About;
-use super::stage::Shot;
+use super::shot::Shot;
 use crate::face_args::FaceChoice;
 use crate::film;
 use crate::output::OutputFile;

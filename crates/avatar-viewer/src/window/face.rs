@@ -1,23 +1,14 @@
+use super::playing::{RECORDED_PER_SEC, Recording};
 use crate::face_args::FaceChoice;
 use crate::files::Files;
 use crate::store::{self, Store};
 use anyhow::Result;
-use avatar_pack::{FaceState, Pack, Textures, load_poses};
-use pose_anim::{Clip, Key, Player, Pose, Track};
-use pose_book::{BookError, ClipBook, PoseBook};
-use std::sync::Arc;
+use avatar_pack::{FaceState, Pack, Textures};
+use pose_anim::{Player, Pose};
+use pose_book::{ClipBook, PoseBook};
 
 /// Seconds in which a face follows a slider.
 const SLIDER_SECS: f32 = 0.12;
-/// Seconds in which a face follows the playhead that is dragged.
-const SCRUB_SECS: f32 = 0.08;
-/// A recording is reduced to keys that stray by at most this share of a control's range.
-const RECORDED_TOLERANCE: f64 = 0.005;
-/// A recording takes the face's values this often.
-const RECORDED_PER_SEC: f64 = 60.0;
-/// Longer recordings end by themselves.
-const LONGEST_RECORDING_SECS: f64 = 600.0;
-
 /// An avatar and what it does: where its controls are, where they are heading, what plays, and its poses and clips.
 pub(super) struct Face {
     pub(super) files: Files,
@@ -26,7 +17,7 @@ pub(super) struct Face {
     pub(super) player: Player,
     pub(super) state: FaceState,
     /// The face of the command line, with its single joints; until something else is asked for.
-    start: Option<FaceChoice>,
+    pub(super) start: Option<FaceChoice>,
     /// Where every control is heading: what sliders show.
     pub(super) goal: Vec<f32>,
     /// The pose that was asked for last, if nothing else was since.
@@ -35,9 +26,9 @@ pub(super) struct Face {
     pub(super) clips: ClipBook,
     pub(super) store: Store,
     pub(super) playback: Playback,
-    recording: Option<Recording>,
+    pub(super) recording: Option<Recording>,
     /// Which book was changed last, for undo.
-    last: Book,
+    pub(super) last: Book,
 }
 
 /// What plays.
@@ -49,14 +40,9 @@ pub(super) struct Playback {
     pub(super) playing: bool,
 }
 
-struct Recording {
-    secs: f64,
-    /// Values of all controls, one row per sample.
-    samples: Vec<Vec<f32>>,
-}
-
+/// Which text an edit is in.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Book {
+pub(super) enum Book {
     Poses,
     Clips,
 }
@@ -203,276 +189,5 @@ impl Face {
     /// The pose that the face has or heads for, with all its controls.
     pub(super) fn present(&self, name: &str) -> Pose {
         Pose::from_values(name, &self.goal)
-    }
-
-    // Poses and clips.
-
-    /// Changes the poses, and their file.
-    pub(super) fn edit_poses(
-        &mut self,
-        edit: impl FnOnce(&mut PoseBook, &Pose) -> Result<(), BookError>,
-    ) -> Result<()> {
-        let present = self.present("");
-        let before = self.poses.clone();
-        edit(&mut self.poses, &present)?;
-        self.last = Book::Poses;
-        if let Err(error) = self.store.write(store::POSES, self.poses.text()) {
-            self.poses = before;
-            return Err(error);
-        }
-        self.pack.poses = self.poses.poses().clone();
-        Ok(())
-    }
-
-    /// Changes a clip; it is written to its file when the user says so.
-    pub(super) fn edit_clip(
-        &mut self,
-        index: usize,
-        what: &str,
-        edit: impl FnOnce(&mut Clip) -> Result<()>,
-    ) -> Result<()> {
-        let Some(mut clip) = self.clips.clips().clips.get(index).cloned() else { return Ok(()) };
-        edit(&mut clip)?;
-        self.clips.set(index, &clip, what)?;
-        self.last = Book::Clips;
-        self.clips_changed();
-        // What is shown follows what is edited.
-        if !self.playback.playing && self.playback.clip == Some(index) {
-            self.scrub(index, self.playback.time_secs);
-        }
-        Ok(())
-    }
-
-    /// A new clip: the present face, held for a second.
-    pub(super) fn new_clip(&mut self) -> Result<()> {
-        let name = self.free_name("clip");
-        let clip = Clip::new(name, Vec::new())?;
-        self.add_clip(&clip)
-    }
-
-    fn add_clip(&mut self, clip: &Clip) -> Result<()> {
-        let index = self.clips.add(clip)?;
-        self.last = Book::Clips;
-        self.clips_changed();
-        self.playback = Playback { clip: Some(index), ..Playback::default() };
-        Ok(())
-    }
-
-    pub(super) fn delete_clip(&mut self, index: usize) -> Result<()> {
-        self.clips.remove(index)?;
-        self.last = Book::Clips;
-        self.clips_changed();
-        self.playback = Playback::default();
-        Ok(())
-    }
-
-    fn clips_changed(&mut self) {
-        self.pack.clips = self.clips.clips().clone();
-    }
-
-    /// Whether the clips' file says something else.
-    pub(super) fn has_unsaved_clips(&self) -> bool {
-        self.clips.text() != self.store.text(store::CLIPS)
-    }
-
-    pub(super) fn save_clips(&mut self) -> Result<()> {
-        self.store.write(store::CLIPS, self.clips.text())
-    }
-
-    fn free_name(&self, stem: &str) -> String {
-        let clips = self.clips.clips();
-        let mut names = std::iter::once(stem.to_owned()).chain((2..).map(|count| format!("{stem} {count}")));
-        names.find(|name| clips.get(name).is_none()).unwrap_or_default()
-    }
-
-    /// Adds a key to a clip at a time: the in-between, or the present value where the control has no track yet.
-    pub(super) fn insert_key(&mut self, index: usize, control: usize, time_secs: f64) -> Result<()> {
-        let value = f64::from(self.goal.get(control).copied().unwrap_or_default());
-        self.edit_clip(index, "insert a key", |clip| {
-            match clip.track_mut(control) {
-                Some(track) => {
-                    track.bake(time_secs)?;
-                }
-                None => {
-                    let track = Track::new(
-                        control,
-                        vec![Key::new(time_secs, value, pose_anim::Easing::MinimumJerk)],
-                    )?;
-                    let tracks = clip.tracks().iter().cloned().chain([track]).collect();
-                    let (key, wrap) = (clip.key.clone(), clip.wrap);
-                    *clip = Clip::new(clip.name.clone(), tracks)?.wrapped(wrap);
-                    clip.key = key;
-                }
-            }
-            Ok(())
-        })
-    }
-
-    /// Takes a key away; with the last one goes the track.
-    pub(super) fn delete_key(&mut self, index: usize, control: usize, key: usize) -> Result<()> {
-        self.edit_clip(index, "delete a key", |clip| {
-            if let Some(track) = clip.track_mut(control)
-                && track.keys().len() > 1
-            {
-                track.remove_key(key)?;
-                return Ok(());
-            }
-            let tracks = clip.tracks().iter().filter(|track| track.control() != control).cloned().collect();
-            let (key, wrap) = (clip.key.clone(), clip.wrap);
-            *clip = Clip::new(clip.name.clone(), tracks)?.wrapped(wrap);
-            clip.key = key;
-            Ok(())
-        })
-    }
-
-    /// What an undo takes back, or a redo does again: of the book that was changed last.
-    pub(super) fn can_undo(&self, again: bool) -> Option<&str> {
-        match (self.last, again) {
-            (Book::Poses, false) => self.poses.can_undo(),
-            (Book::Poses, true) => self.poses.can_redo(),
-            (Book::Clips, false) => self.clips.can_undo(),
-            (Book::Clips, true) => self.clips.can_redo(),
-        }
-    }
-
-    pub(super) fn undo(&mut self, again: bool) -> Result<()> {
-        match (self.last, again) {
-            (Book::Poses, _) => self.edit_poses(|book, _| {
-                let _ = if again { book.redo() } else { book.undo() };
-                Ok(())
-            }),
-            (Book::Clips, _) => {
-                let _ = if again { self.clips.redo() } else { self.clips.undo() };
-                self.clips_changed();
-                let clips = self.clips.clips().clips.len();
-                self.playback.clip = self.playback.clip.filter(|index| *index < clips);
-                Ok(())
-            }
-        }
-    }
-
-    /// Reads the poses again, which somebody else may have written.
-    ///
-    /// # Errors
-    /// The first mistake in them; the old ones stay.
-    pub(super) fn reload_poses(&mut self) -> Result<bool> {
-        match self.store.read(store::POSES)? {
-            Some(text) if text == self.poses.text() => return Ok(false),
-            Some(text) => {
-                self.poses.replace(&text).map_err(|error| self.store.placed(store::POSES, &error))?;
-            }
-            // Without a file of its own a face has the usual poses.
-            None => {
-                let usual = load_poses(&self.files, &self.pack.controls)?;
-                if usual == self.pack.poses {
-                    return Ok(false);
-                }
-                self.poses = PoseBook::of_set(&usual, &self.pack.controls)?;
-            }
-        }
-        self.pack.poses = self.poses.poses().clone();
-        self.active_pose = None;
-        Ok(true)
-    }
-
-    /// Reads the clips again, unless there are changes that are not saved.
-    ///
-    /// # Errors
-    /// The first mistake in them; the old ones stay.
-    pub(super) fn reload_clips(&mut self) -> Result<bool> {
-        let unsaved = self.has_unsaved_clips();
-        let text = self.store.read(store::CLIPS)?.unwrap_or_default();
-        if unsaved || text == self.clips.text() {
-            return Ok(false);
-        }
-        self.clips.replace(&text).map_err(|error| self.store.placed(store::CLIPS, &error))?;
-        self.clips_changed();
-        self.playback = Playback::default();
-        Ok(true)
-    }
-
-    // Playing and recording.
-
-    /// Plays a clip from where the playhead stands, or from its start.
-    pub(super) fn play(&mut self, index: usize) -> Result<()> {
-        let Some(clip) = self.clips.clips().clips.get(index) else { return Ok(()) };
-        let ended = clip.wrap == pose_anim::Wrap::Once && self.playback.time_secs >= clip.duration_secs();
-        let from_secs = match self.playback.clip == Some(index) && !ended {
-            true => self.playback.time_secs,
-            false => 0.0,
-        };
-        let rest = clip.starting_at(from_secs)?;
-        // Where the face is at the clip's place already, it need not be led there.
-        let is_there = rest.tracks().iter().all(|track| {
-            let here = self.player.values().get(track.control()).copied().unwrap_or_default();
-            (f64::from(here) - track.at(0.0).value).abs() < 1e-3
-        });
-        self.start = None;
-        self.active_pose = None;
-        self.player.play(&Arc::new(rest), is_there.then_some(0.0));
-        self.playback = Playback { clip: Some(index), time_secs: from_secs, playing: true };
-        Ok(())
-    }
-
-    /// Halts what plays.
-    pub(super) fn pause(&mut self) {
-        if self.playback.playing {
-            self.playback.playing = false;
-            self.player.stop();
-            self.goal.copy_from_slice(self.player.values());
-        }
-    }
-
-    /// Shows a clip at a time.
-    pub(super) fn scrub(&mut self, index: usize, time_secs: f64) {
-        let Some(clip) = self.clips.clips().clips.get(index) else { return };
-        let values = clip.tracks().iter().map(|track| (track.control(), track.at(time_secs).value as f32));
-        let pose = Pose::new("playhead", values.collect()).lasting(SCRUB_SECS);
-        self.press(&pose);
-        self.playback = Playback { clip: Some(index), time_secs, playing: false };
-    }
-
-    pub(super) fn recorded_secs(&self) -> Option<f64> {
-        Some(self.recording.as_ref()?.secs)
-    }
-
-    pub(super) fn start_recording(&mut self) {
-        self.recording = Some(Recording { secs: 0.0, samples: vec![self.player.values().to_vec()] });
-    }
-
-    /// Whether a recording has become too long.
-    pub(super) fn recording_is_full(&self) -> bool {
-        self.recording.as_ref().is_some_and(|recording| recording.secs > LONGEST_RECORDING_SECS)
-    }
-
-    /// Makes a clip of what was recorded: of those controls that moved, with as few keys as say it.
-    pub(super) fn stop_recording(&mut self) -> Result<()> {
-        let Some(Recording { samples, .. }) = self.recording.take() else { return Ok(()) };
-        let controls = self.pack.controls.controls();
-        let moved = |control: &usize| samples.iter().any(|row| row[*control] != samples[0][*control]);
-        let tracks = (0..controls.len()).filter(moved).map(|control| {
-            let sample =
-                |(k, row): (usize, &Vec<f32>)| (k as f64 / RECORDED_PER_SEC, f64::from(row[control]));
-            Track::from_samples(control, samples.iter().enumerate().map(sample))
-        });
-        let tracks = tracks.collect::<Result<Vec<_>, _>>()?;
-        if tracks.is_empty() {
-            anyhow::bail!("expected a face that moves while it is recorded, found one at rest");
-        }
-        let range = |control: usize| f64::from(controls[control].max - controls[control].min);
-        let (mut clip, _) = Clip::new(self.free_name("recording"), tracks)?
-            .reduced(|control| range(control) * RECORDED_TOLERANCE)?;
-        // A cubic may swing a little beyond its keys, and a file takes no key beyond its control's range.
-        for control in 0..controls.len() {
-            let Some(track) = clip.track_mut(control) else { continue };
-            let (min, max) = (f64::from(controls[control].min), f64::from(controls[control].max));
-            for index in 0..track.keys().len() {
-                let key = track.keys()[index];
-                if key.value.clamp(min, max) != key.value {
-                    track.move_key(index, key.time_secs, key.value.clamp(min, max))?;
-                }
-            }
-        }
-        self.add_clip(&clip)
     }
 }

@@ -1,4 +1,10 @@
-use super::watch::Wake;
+use super::App;
+use super::camera::Camera;
+use super::face::Face;
+use super::messages::About;
+use super::point::Pointing;
+use super::watch::{Wake, watch};
+use crate::face_args::FaceChoice;
 use crate::files::Files;
 use anyhow::Result;
 use avatar_pack::{Pack, Textures};
@@ -87,4 +93,56 @@ pub(super) fn ask(window: EventLoopProxy<Wake>) {
         let path = if is_pack { path.parent().unwrap_or(path) } else { path };
         let _ = window.send_event(Wake::Chosen(path.to_owned()));
     });
+}
+
+impl App {
+    /// Reads another avatar beside the running picture.
+    pub(super) fn open(&mut self, path: &Path) {
+        self.loading = Some(Loading::start(path, self.proxy.clone()));
+        self.redraw();
+    }
+
+    /// Takes over what was read; a broken file leaves everything as it is.
+    pub(super) fn take_loaded(&mut self) {
+        let Some(loading) = &mut self.loading else { return };
+        let loaded = loading.take();
+        if let Some(stage) = &self.stage {
+            stage.window().request_redraw();
+        }
+        let Some(loaded) = loaded else { return };
+        let path = loading.path.clone();
+        self.loading = None;
+        let shown = loaded.and_then(|loaded| self.show(loaded.files, loaded.pack, loaded.textures));
+        match shown {
+            Ok(()) => {
+                self.messages.settle(About::Opening);
+                self.config.opened(&path);
+                self.remember();
+            }
+            Err(error) => {
+                let title = format!("{} was not opened.", path.display());
+                self.messages.error(About::Opening, title, &error);
+            }
+        }
+    }
+
+    fn show(&mut self, files: Files, pack: Pack, textures: Textures) -> Result<()> {
+        let start = FaceChoice::of_values(pack.controls.defaults());
+        let face = Face::new(files, pack, textures, Some(start))?;
+        if let Some(stage) = &mut self.stage {
+            stage.set_avatar(&face.pack, &face.textures, self.look)?;
+        }
+        self.face = face;
+        self.pointing = Pointing::new(&self.face.pack, self.proxy.clone(), self.pointing.follows);
+        self.camera = Camera::START;
+        self.frames.forget_miniatures();
+        self.watcher = watch(&self.face.files, &self.face.store, self.proxy.clone());
+        for about in [About::Poses, About::Clips, About::Materials, About::Hair] {
+            self.messages.settle(about);
+        }
+        if let Some(stage) = &self.stage {
+            stage.window().set_title(&self.title());
+        }
+        Ok(())
+    }
 }

@@ -7,45 +7,47 @@
 //! ```
 
 mod act;
+mod books;
 mod camera;
 mod face;
 mod filming;
 mod follow;
 mod frame;
+mod input;
 mod key_name;
 pub(crate) mod keys;
 mod loading;
 mod messages;
 mod overlay;
+mod playing;
 mod point;
+mod shot;
 mod stage;
 mod watch;
 
 use crate::cli::WindowArgs;
 use crate::config::{self, Config};
-use crate::face_args::FaceChoice;
 use crate::files::Files;
 use crate::look_args::LookArgs;
 use anyhow::{Context, Result, anyhow};
-use avatar_pack::{Pack, Textures};
 use camera::Camera;
 use clap::ArgMatches;
 use face::Face;
 use filming::Filming;
 use frame::Frames;
+use input::Drag;
 use keys::Keys;
 use loading::Loading;
 use messages::{About, Messages};
 use overlay::Overlay;
 use point::Pointing;
 use stage::Stage;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use watch::{Wake, Watched, watch};
 use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
-use winit::event::{ElementState, KeyEvent, Modifiers, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::event::{Modifiers, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
@@ -153,12 +155,6 @@ struct App {
     failure: Option<anyhow::Error>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Drag {
-    Orbit,
-    Pan,
-}
-
 impl ApplicationHandler<Wake> for App {
     fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
         match wake {
@@ -233,23 +229,12 @@ impl ApplicationHandler<Wake> for App {
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => self.redraw(),
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers,
-            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
-                if !is_panels {
-                    self.key(event_loop, &event);
-                }
+            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !is_panels => {
+                self.key(event_loop, &event);
             }
             WindowEvent::MouseInput { state, button, .. } => self.button(state, button),
             WindowEvent::CursorMoved { position, .. } => self.pointer(position),
-            WindowEvent::MouseWheel { delta, .. } => {
-                if !self.overlay.as_ref().is_some_and(Overlay::takes_pointer) {
-                    let notches = match delta {
-                        MouseScrollDelta::LineDelta(_, lines) => lines,
-                        MouseScrollDelta::PixelDelta(pixels) => pixels.y as f32 / 40.0,
-                    };
-                    self.camera.wheel(notches);
-                    self.redraw();
-                }
-            }
+            WindowEvent::MouseWheel { delta, .. } => self.wheel(delta),
             WindowEvent::DroppedFile(path) => self.open(&path),
             WindowEvent::RedrawRequested => {
                 if let Err(error) = self.frame(event_loop) {
@@ -315,118 +300,14 @@ impl App {
         }
     }
 
-    fn key(&mut self, event_loop: &ActiveEventLoop, event: &KeyEvent) {
-        if event.state != ElementState::Pressed {
-            return;
-        }
-        if self.keys.has(&event.logical_key, &self.modifiers) {
-            if let Some(action) = self.keys.action(&event.logical_key, &self.modifiers, event.repeat) {
-                self.act_on_key(event_loop, action);
-            }
-            return;
-        }
-        // A key that is held down repeats itself; a pose is pressed once. Ctrl is no part of a pose's key.
-        let state = self.modifiers.state();
-        if event.repeat || state.control_key() || state.alt_key() || state.super_key() {
-            return;
-        }
-        if let Some(pose) = keys::pose(&self.face.pack, &event.logical_key, event.physical_key) {
-            self.catch_up();
-            self.face.go_to(pose);
-            self.redraw();
-        } else if let Some(clip) = keys::clip(&self.face.pack, &event.logical_key) {
-            self.catch_up();
-            self.play(clip);
-        }
-    }
-
-    fn button(&mut self, state: ElementState, button: MouseButton) {
-        let drag = match button {
-            MouseButton::Left if self.modifiers.state().shift_key() => Drag::Pan,
-            MouseButton::Left => Drag::Orbit,
-            MouseButton::Right | MouseButton::Middle => Drag::Pan,
-            _ => return,
-        };
-        let is_ours = !self.overlay.as_ref().is_some_and(Overlay::takes_pointer);
-        self.dragging = (state == ElementState::Pressed && is_ours).then_some(drag);
-    }
-
-    fn pointer(&mut self, position: PhysicalPosition<f64>) {
-        let (dx, dy) = ((position.x - self.pointer.x) as f32, (position.y - self.pointer.y) as f32);
-        self.pointer = position;
-        self.pointing.moved();
-        if self.pointing.follows {
-            self.redraw();
-        }
-        match self.dragging {
-            Some(Drag::Orbit) => self.camera.drag(dx, dy),
-            Some(Drag::Pan) => {
-                let height = self.stage.as_ref().map_or(1.0, |stage| stage.size().1.max(1) as f32);
-                self.camera.pan(dx / height, -dy / height);
-            }
-            None => return,
-        }
-        self.redraw();
-    }
-
     /// Brings the motion to this moment, so that a press acts at the time of the press.
     fn catch_up(&mut self) {
         let secs = self.frames.catch_up(Instant::now());
         self.face.advance(secs);
     }
 
-    /// Reads another avatar beside the running picture.
-    fn open(&mut self, path: &Path) {
-        self.loading = Some(Loading::start(path, self.proxy.clone()));
-        self.redraw();
-    }
-
-    /// Takes over what was read; a broken file leaves everything as it is.
-    fn take_loaded(&mut self) {
-        let Some(loading) = &mut self.loading else { return };
-        let loaded = loading.take();
-        if let Some(stage) = &self.stage {
-            stage.window().request_redraw();
-        }
-        let Some(loaded) = loaded else { return };
-        let path = loading.path.clone();
-        self.loading = None;
-        let shown = loaded.and_then(|loaded| self.show(loaded.files, loaded.pack, loaded.textures));
-        match shown {
-            Ok(()) => {
-                self.messages.settle(About::Opening);
-                self.config.opened(&path);
-                self.remember();
-            }
-            Err(error) => {
-                let title = format!("{} was not opened.", path.display());
-                self.messages.error(About::Opening, title, &error);
-            }
-        }
-    }
-
-    fn show(&mut self, files: Files, pack: Pack, textures: Textures) -> Result<()> {
-        let start = FaceChoice::of_values(pack.controls.defaults());
-        let face = Face::new(files, pack, textures, Some(start))?;
-        if let Some(stage) = &mut self.stage {
-            stage.set_avatar(&face.pack, &face.textures, self.look)?;
-        }
-        self.face = face;
-        self.pointing = Pointing::new(&self.face.pack, self.proxy.clone(), self.pointing.follows);
-        self.camera = Camera::START;
-        self.frames.forget_miniatures();
-        self.watcher = watch(&self.face.files, &self.face.store, self.proxy.clone());
-        for about in [About::Poses, About::Clips, About::Materials, About::Hair] {
-            self.messages.settle(about);
-        }
-        if let Some(stage) = &self.stage {
-            stage.window().set_title(&self.title());
-        }
-        Ok(())
-    }
-
     /// Stores what is remembered from run to run.
-    fn remember(&mut self) {
+    pub(super) fn remember(&mut self) {
         let Some(overlay) = &self.overlay else { return };
         self.config.panel = overlay.panel.state();
         if let Some(stage) = &self.stage

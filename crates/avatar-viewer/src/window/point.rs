@@ -3,7 +3,7 @@
 
 use super::App;
 use super::face::Face;
-use super::stage::Shot;
+use super::shot::Shot;
 use super::watch::Wake;
 use avatar_mesh::Deformed;
 use avatar_pack::{Gaze, Pack, Reach};
