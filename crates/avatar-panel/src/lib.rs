@@ -70,6 +70,8 @@ mod view;
 mod widgets;
 
 pub use action::Action;
+/// The version of egui that the interface speaks.
+pub use egui;
 pub use model::{FilmProgress, KeyRow, Loading, Message, Model, Playback, Severity, Stats};
 pub use panel::Panel;
 pub use pose_form::PoseForm;

@@ -237,7 +237,11 @@ impl ApplicationHandler<Wake> for App {
             WindowEvent::MouseWheel { delta, .. } => self.wheel(delta),
             WindowEvent::DroppedFile(path) => self.open(&path),
             WindowEvent::RedrawRequested => {
-                if let Err(error) = self.frame(event_loop) {
+                let drawn = self.frame(event_loop);
+                // A device may be lost in the middle of a frame; the next one finds out.
+                if drawn.is_err() && self.stage.as_ref().is_some_and(Stage::is_lost) {
+                    self.redraw();
+                } else if let Err(error) = drawn {
                     self.fail(event_loop, error);
                 }
             }
