@@ -32,13 +32,17 @@ mod face;
 mod hair;
 mod import;
 mod pack;
+mod raw;
 mod source;
 mod textures;
 
 pub use error::{PackError, PackProblem, Warning};
 pub use export::export;
 pub use face::{FaceError, FaceState};
-pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet};
+pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet, Sliders};
+#[cfg(feature = "vrm")]
+pub use import::gaze_values;
 pub use pack::{Pack, PaletteBone, Part, load_hair, load_materials};
+pub use raw::{RawError, RawFiles, raw_files};
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

@@ -69,6 +69,61 @@ impl OutputFile {
     }
 }
 
+/// A folder to be written with all of its files, or not at all. Checked before the work.
+#[derive(Debug)]
+pub(crate) struct OutputFolder {
+    path: PathBuf,
+    /// Whether there is an empty folder to be replaced.
+    is_there: bool,
+}
+
+impl OutputFolder {
+    /// Checks that a folder can be made there, or that there is an empty one.
+    pub(crate) fn check(named: &Path) -> Result<Self> {
+        let shown = named.display();
+        let (path, is_there) = match std::fs::read_dir(named) {
+            Ok(mut entries) => {
+                if entries.next().is_some() {
+                    bail!("{shown}: expected an empty folder or none, found one with files");
+                }
+                let path = named.canonicalize();
+                (path.with_context(|| format!("{shown}: expected a folder that can be written"))?, true)
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => (named.components().collect(), false),
+            Err(error) => bail!("{shown}: expected an empty folder or none, found: {error}"),
+        };
+        let folder = folder_of(&path);
+        if !folder.is_dir() {
+            bail!("{}: expected a folder to write to, found none", folder.display());
+        }
+        Ok(Self { path, is_there })
+    }
+
+    /// Writes the folder with these files.
+    pub(crate) fn write(&self, files: &[(String, Vec<u8>)]) -> Result<()> {
+        let what = || format!("{}: expected a folder that can be written", self.path.display());
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(Permissions::from_mode(0o777));
+        }
+        let folder = builder.prefix(".avatar-viewer-").tempdir_in(folder_of(&self.path));
+        let folder = folder.map_err(without_path).with_context(what)?;
+        for (name, bytes) in files {
+            std::fs::write(folder.path().join(name), bytes).map_err(without_path).with_context(what)?;
+        }
+        if self.is_there {
+            // Fails where files came into it meanwhile.
+            std::fs::remove_dir(&self.path).with_context(what)?;
+        }
+        std::fs::rename(folder.path(), &self.path).with_context(what)?;
+        // It is no temporary folder any more.
+        let _ = folder.keep();
+        Ok(())
+    }
+}
+
 /// Links that lead to links; more are a circle.
 const MAX_LINKS: usize = 40;
 
