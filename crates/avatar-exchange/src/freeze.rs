@@ -217,6 +217,11 @@ fn check_drivers(raw: &RawScene) -> Result<(), ImportError> {
             let expected = format!("{weights} shapes, one for each weight of its node");
             return Err(ImportError::new(place(), expected, shapes.to_string()));
         }
+        let (values, names) = (drivers.rest.len(), drivers.drivers.len());
+        if values != names || drivers.rest.iter().any(|value| !value.is_finite()) {
+            let expected = format!("{names} finite values, one for each driver");
+            return Err(ImportError::new(place(), expected, format!("{:?}", drivers.rest)));
+        }
         if let Err(error) = ShapeDrivers::new(&drivers.drivers, &drivers.shapes, &drivers.rules) {
             return Err(ImportError::new(place(), "rules that can be followed", error.to_string()));
         }

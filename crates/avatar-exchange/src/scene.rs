@@ -45,6 +45,8 @@ pub struct NodeDrivers {
     pub node: usize,
     /// Names of the drivers: a slider for each.
     pub drivers: Vec<String>,
+    /// Values of the drivers at rest, one for each: where they bring about the node's weights.
+    pub rest: Vec<f32>,
     /// Names of the shapes, one for each weight of the node.
     pub shapes: Vec<String>,
     /// What the shapes that do not simply have the weight of the driver of their name follow.

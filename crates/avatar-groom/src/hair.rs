@@ -60,6 +60,18 @@ impl Hair {
         style_toml::read(text)
     }
 
+    /// A text that [`Hair::from_toml`] reads as exactly this hair.
+    ///
+    /// ```
+    /// use avatar_groom::{Hair, Style};
+    /// let bob = Hair { style: Style::BOB, density: 0.3, seed: 7 };
+    /// assert_eq!(Hair::from_toml(&bob.to_toml())?, bob);
+    /// # Ok::<(), avatar_groom::TomlError>(())
+    /// ```
+    pub fn to_toml(&self) -> String {
+        style_toml::write(self)
+    }
+
     /// Strands over a square of the skin's height, as [`crate::Groom::new`] takes them.
     pub fn strands(&self) -> f32 {
         Self::USUAL_STRANDS * self.density

@@ -66,6 +66,17 @@ pub(crate) fn read(source: &str) -> Result<Hair, TomlError> {
     Ok(hair)
 }
 
+/// All values of all regions, so that the text does not depend on what presets become.
+pub(crate) fn write(hair: &Hair) -> String {
+    let mut style = hair.style;
+    let mut out = format!("density = {:?}\nseed = {}\n", hair.density, hair.seed);
+    for (name, region) in REGIONS {
+        out += &format!("\n[{name}]\n");
+        out.extend(FIELDS.iter().map(|field| field.line(region(&mut style))));
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

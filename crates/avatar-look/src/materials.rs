@@ -1,5 +1,5 @@
-use crate::materials_toml;
 use crate::{LookError, Material};
+use crate::{materials_fields, materials_toml};
 use avatar_mesh::{FACE_PARTS, PartKind};
 
 /// The kinds of parts, by the names of their tables.
@@ -88,6 +88,17 @@ impl Materials {
         match FACE_PARTS.iter().position(is_meant) {
             Some(index) => self.parts[index],
             None => self.kinds[kind_index(kind)],
+        }
+    }
+
+    /// Gives one of [`FACE_PARTS`] looks of its own, with numbers taken into the ranges of `materials.toml`; other names change
+    /// nothing. The skin's are also those of its kind.
+    pub fn set(&mut self, part_name: &str, material: Material) {
+        let Some(index) = FACE_PARTS.iter().position(|part| part.name == part_name) else { return };
+        let material = materials_fields::in_range(material);
+        self.parts[index] = material;
+        if let Some(kind) = KINDS.iter().position(|(name, _)| *name == part_name) {
+            self.kinds[kind] = material;
         }
     }
 

@@ -1,7 +1,7 @@
 //! What a `materials.toml` may hold, stated once for the reader and the writer.
 
 use crate::Material;
-use placed_toml::Field;
+use placed_toml::{Field, Slot};
 
 const fn one(name: &'static str, max: f32, slot: fn(&mut Material) -> &mut f32) -> Field<Material> {
     Field::one(name, 0.0, max, slot)
@@ -45,3 +45,15 @@ pub(crate) const IRIS_FIELDS: [Field<Material>; 7] = [
     one("limbal_width", 1.0, |m| &mut m.iris.limbal_width),
     one("limbal_darkness", 1.0, |m| &mut m.iris.limbal_darkness),
 ];
+
+/// The material with each number between the least and the largest that a file may hold; what is no number becomes the least.
+pub(crate) fn in_range(mut material: Material) -> Material {
+    for field in FIELDS.iter().chain(&IRIS_FIELDS) {
+        let within = |value: &mut f32| *value = value.max(field.min).min(field.max);
+        match field.slot {
+            Slot::One(slot) => within(slot(&mut material)),
+            Slot::Three(slot) => slot(&mut material).iter_mut().for_each(within),
+        }
+    }
+    material
+}

@@ -17,7 +17,7 @@ use std::io::Cursor;
 /// * Each joint is a node with its bind matrix, and each part a node at the root with a mesh.
 /// * All parts share one skin, the pack's palette; vertices of a rigid part have all their weight on its one bone. So no
 ///   vertex is moved into another space and rounded there: a reader that does as glTF 2.0 says has the avatar's own numbers.
-/// * Shapes are morph targets, their weights at rest the controls' defaults.
+/// * Shapes are morph targets, their weights at rest what the controls' defaults make of them; of [`Pack::sliders`] that is all that is left.
 /// * Each pose is a clip with one key at 0 s: where its controls and the couplings take joints and shapes from the defaults.
 /// * Parts whose triangles contradict their normals are turned around, as for drawing.
 /// * Looks are glTF's metallic-roughness model: colour, relief, occlusion, roughness from gloss. Textures are PNG.
@@ -54,6 +54,9 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut note =
         |text: &str| scene.notes.push(Note { place: "the avatar".to_owned(), text: text.to_owned() });
     note("controls, couplings and times of poses are left out");
+    if pack.sliders.is_some() {
+        note("sliders are left out: in-between shapes have weights of their own");
+    }
     if pack.hair.is_some() {
         note("hair is left out");
     }
@@ -130,7 +133,14 @@ fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
     let mut effective = vec![0.0; values.len()];
     pack.binding.couple(values, &mut effective);
     let (mut locals, mut weights) = (pack.rig.locals(), vec![0.0; pack.shapes.len()]);
-    pack.binding.apply(&effective, &mut locals, &mut weights).ok()?;
+    match &pack.sliders {
+        None => pack.binding.apply(&effective, &mut locals, &mut weights).ok()?,
+        Some(sliders) => {
+            let mut values = vec![0.0; sliders.names.len()];
+            pack.binding.apply(&effective, &mut locals, &mut values).ok()?;
+            sliders.drivers.run(&values, &mut weights).ok()?;
+        }
+    }
     Some((locals.as_slice().to_vec(), weights))
 }
 

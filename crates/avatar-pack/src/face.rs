@@ -20,6 +20,9 @@ pub enum FaceError {
     /// The state belongs to another pack.
     #[error(transparent)]
     Length(#[from] LengthMismatch),
+    /// The state belongs to another pack.
+    #[error(transparent)]
+    Sliders(#[from] avatar_mesh::drivers::LengthError),
     /// The controls do not fit the rig.
     #[error(transparent)]
     Apply(#[from] pose_anim::ApplyError),
@@ -31,6 +34,8 @@ pub enum FaceError {
 pub struct FaceState {
     effective: Vec<f32>,
     locals: Locals,
+    /// Values of the pack's sliders; empty where shapes have none.
+    sliders: Vec<f32>,
     pose: RigPose,
     bones: Vec<Affine3A>,
     weights: Vec<f32>,
@@ -46,6 +51,7 @@ impl FaceState {
         Self {
             effective: pack.controls.defaults(),
             locals: pack.rig.locals(),
+            sliders: vec![0.0; pack.sliders.as_ref().map_or(0, |sliders| sliders.names.len())],
             pose: pack.rig.pose(),
             bones: pack.palette.iter().map(rest).collect(),
             weights: vec![0.0; pack.shapes.len()],
@@ -78,7 +84,13 @@ impl FaceState {
         }
         pack.binding.couple(values, &mut self.effective);
         adjust(&mut self.effective);
-        pack.binding.apply(&self.effective, &mut self.locals, &mut self.weights)?;
+        match &pack.sliders {
+            None => pack.binding.apply(&self.effective, &mut self.locals, &mut self.weights)?,
+            Some(sliders) => {
+                pack.binding.apply(&self.effective, &mut self.locals, &mut self.sliders)?;
+                sliders.drivers.run(&self.sliders, &mut self.weights)?;
+            }
+        }
         for &(joint, local) in locals {
             self.locals.set(joint, local)?;
         }

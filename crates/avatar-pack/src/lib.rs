@@ -36,6 +36,7 @@ mod hair;
 mod import;
 mod pack;
 mod pick;
+mod raw;
 mod reach;
 mod source;
 mod textures;
@@ -44,9 +45,14 @@ pub use error::{PackError, PackProblem, Warning};
 pub use export::export;
 pub use face::{FaceError, FaceState};
 pub use gaze::Gaze;
-pub use import::{Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet};
+#[cfg(feature = "vrm")]
+pub use import::gaze_values;
+pub use import::{
+    Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet, Sliders,
+};
 pub use pack::{Pack, PaletteBone, Part, load_clips, load_hair, load_materials, load_poses};
 pub use pick::Hit;
+pub use raw::{RawError, RawFiles, raw_files};
 pub use reach::Reach;
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

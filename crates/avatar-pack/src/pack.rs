@@ -1,4 +1,4 @@
-use crate::{PackError, PackProblem, SceneMotion, Source, Warning};
+use crate::{PackError, PackProblem, SceneMotion, Sliders, Source, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
 use avatar_mesh::{
@@ -23,9 +23,11 @@ pub struct Pack {
     pub palette: Vec<PaletteBone>,
     /// Names of the blend shapes, in the order of the blend weights.
     pub shapes: Vec<String>,
+    /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have none.
+    pub sliders: Option<Sliders>,
     /// The controls, from `controls.toml` or the default table.
     pub controls: ControlTable,
-    /// The controls, bound to this rig and these shapes.
+    /// The controls, bound to this rig and to these sliders, or shapes where there are none.
     pub binding: Binding,
     /// The poses, from `poses.toml` or the default set.
     pub poses: PoseSet,
@@ -118,6 +120,7 @@ impl Pack {
             parts,
             palette,
             shapes,
+            sliders: None,
             controls,
             binding,
             poses,
@@ -132,6 +135,17 @@ impl Pack {
     /// The part of this name.
     pub fn part(&self, name: &str) -> Option<&Part> {
         self.parts.iter().find(|part| part.name == name)
+    }
+
+    /// Whether a shape, by its place in [`Pack::shapes`], moves with controls that drive this name.
+    pub fn follows(&self, shape: usize, driven: &str) -> bool {
+        match &self.sliders {
+            None => self.shapes.get(shape).is_some_and(|name| name == driven),
+            Some(sliders) => {
+                let followed = sliders.of_shapes.get(shape).map_or(&[][..], Vec::as_slice);
+                followed.iter().any(|slider| sliders.names.get(*slider).is_some_and(|name| name == driven))
+            }
+        }
     }
 
     /// The looks of the part of this index; the default ones of skin where there is no such part.

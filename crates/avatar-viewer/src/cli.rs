@@ -52,7 +52,7 @@ pub(crate) enum Verb {
     Bones(BonesArgs),
     /// Writes a part's deformed positions and normals as OBJ
     Deform(DeformArgs),
-    /// Writes the avatar in another format: .glb with rig, shapes and clips, or .obj as it is posed
+    /// Writes the avatar in another format: .glb with rig, shapes and clips, .obj as it is posed, or a folder in the raw format
     Convert(ConvertArgs),
     /// Writes the strands of hair as the GPU grew them, as JSON
     Strands(StrandsArgs),
@@ -166,7 +166,8 @@ pub(crate) struct ConvertArgs {
     pub(crate) pack: PackArg,
     #[command(flatten)]
     pub(crate) face: FaceArgs,
-    /// The file to write; its end says the format
+    /// The file to write, whose end says the format; a name without an end, or with a separator at its end, is that of a
+    /// folder
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
 }

@@ -191,7 +191,7 @@ impl FaceArgs {
         };
         let is_shape_set = |shape: usize| {
             driven.iter().any(|control| match &control.drives {
-                Drive::Shape { shape: name } => pack.shapes.get(shape) == Some(name),
+                Drive::Shape { shape: name } => pack.follows(shape, name),
                 Drive::Joint { .. } => false,
             })
         };

@@ -146,6 +146,17 @@ impl OutputFolder {
         .with_context(|| self.expected())
     }
 
+    /// Fills the folder with these files and no others.
+    pub(crate) fn write(&self, files: &[(String, Vec<u8>)]) -> Result<()> {
+        let draft = self.draft()?;
+        for (name, bytes) in files {
+            std::fs::write(draft.path().join(name), bytes)
+                .map_err(without_path)
+                .with_context(|| self.expected())?;
+        }
+        self.commit(draft)
+    }
+
     /// The name and what it should be, for errors.
     pub(crate) fn expected(&self) -> String {
         format!("{}: expected a folder that can be written", self.0.display())

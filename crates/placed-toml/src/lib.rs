@@ -51,4 +51,4 @@ pub use error::TomlError;
 pub use field::{Field, Slot, read_field, read_fields};
 pub use nearest::nearest;
 pub use table::{Document, Table};
-pub use text::quote;
+pub use text::{quote, string};

@@ -225,6 +225,28 @@ impl ControlTable {
         Ok(Self::checked(controls, Vec::new()))
     }
 
+    /// A table of these controls, with couplings between them.
+    ///
+    /// # Errors
+    /// As [`ControlTable::new`], and a coupling of controls that there are not, of a control with itself, or by a factor that is not finite;
+    /// its place is then told after those of the controls.
+    pub fn with_couplings(controls: Vec<Control>, couplings: Vec<Coupling>) -> Result<Self, ControlError> {
+        let table = Self::new(controls)?;
+        let count = table.controls.len();
+        let is_sound = |coupling: &Coupling| {
+            let Coupling { from, to, factor } = coupling;
+            from.max(to) < &count && from != to && factor.is_finite()
+        };
+        match couplings.iter().position(|coupling| !is_sound(coupling)) {
+            Some(index) => Err(ControlError {
+                index: count + index,
+                expected: "a coupling of two controls by a finite factor",
+                found: format!("{:?}", couplings[index]),
+            }),
+            None => Ok(Self::checked(table.controls, couplings)),
+        }
+    }
+
     /// Only through here: the reader has checked names, ranges and indices.
     pub(crate) const fn checked(controls: Vec<Control>, couplings: Vec<Coupling>) -> Self {
         Self { controls, couplings }

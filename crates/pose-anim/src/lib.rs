@@ -124,6 +124,7 @@ mod rare;
 mod reach;
 mod reduce;
 mod settle;
+mod toml_write;
 
 pub use bind::Binding;
 pub use clip::{Clip, Key, Track, Transition, Wrap};

@@ -1,7 +1,7 @@
 use crate::history::History;
 use crate::{BookError, arrange, clip_table};
 use pose_anim::{Clip, ClipSet, ControlTable};
-use toml_edit::{DocumentMut, Table};
+use toml_edit::Table;
 
 const ENTRY: &str = "clip";
 
@@ -28,14 +28,7 @@ impl ClipBook {
     /// # Errors
     /// Clips that no text can say: a name twice, a value beyond its control's range.
     pub fn of_set(clips: &ClipSet, controls: &ControlTable) -> Result<Self, BookError> {
-        let mut document = DocumentMut::new();
-        let entry = |clip: &Clip| {
-            let mut table = Table::new();
-            clip_table::set(&mut table, clip, None, controls);
-            table
-        };
-        arrange::put(&mut document, ENTRY, "", clips.clips.iter().map(entry).collect());
-        Self::read(&document.to_string(), controls)
+        Self::read(&clips.to_toml(controls), controls)
     }
 
     /// What the file says now.

@@ -1,7 +1,7 @@
 use crate::history::History;
 use crate::{BookError, arrange, pose_table};
 use pose_anim::{ControlTable, DEFAULT_POSES_TOML, Pose, PoseSet};
-use toml_edit::{DocumentMut, Table};
+use toml_edit::Table;
 
 const ENTRY: &str = "pose";
 
@@ -31,10 +31,7 @@ impl PoseBook {
         if PoseSet::from_toml(DEFAULT_POSES_TOML, controls).is_ok_and(|usual| usual == *poses) {
             return Self::read(DEFAULT_POSES_TOML, controls);
         }
-        let mut document = DocumentMut::new();
-        let entries = poses.iter().map(|pose| pose_table::new(pose, controls)).collect();
-        arrange::put(&mut document, ENTRY, "", entries);
-        Self::read(&document.to_string(), controls)
+        Self::read(&poses.to_toml(controls), controls)
     }
 
     /// What the file says now.

@@ -83,15 +83,16 @@ impl<'a> Blend<'a> {
         let in_betweens =
             names.len() != drivers.len() || full_weights.iter().any(|(_, weight)| *weight != 1.0);
         let node = node.element.typed_id as usize;
+        let channels = channels.iter().map(|channel| (channel.element.element_id, channel.weight as f32));
+        let channels: Vec<(u32, f32)> = channels.collect();
+        let rest =
+            channels.iter().map(|(_, weight)| if weight.is_finite() { *weight } else { 0.0 }).collect();
         Some(Self {
             node,
-            channels: channels
-                .iter()
-                .map(|channel| (channel.element.element_id, channel.weight as f32))
-                .collect(),
+            channels,
             kinks,
             program,
-            drivers: NodeDrivers { node, drivers, shapes: names, rules },
+            drivers: NodeDrivers { node, drivers, rest, shapes: names, rules },
             in_betweens,
             targets,
         })

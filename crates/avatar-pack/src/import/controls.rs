@@ -1,11 +1,14 @@
 use super::names::{Role, ShapeSet, face_control};
-use super::parts::ShapeNames;
 use super::rig::Joints;
+use super::sliders::Wanted;
 use super::{ImportFailure, ImportReport};
 use avatar_exchange::Scene;
 use glam::Vec3;
 use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, Pose, PoseSet};
 use std::collections::HashSet;
+
+/// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its hinge.
+const JUT: Vec3 = Vec3::new(0.0, 0.811_534_35, 0.584_304_75);
 
 /// The controls of the nine-joint face that a role has: name, axis in world space at rest, range in degrees. The
 /// character looks along +Z and its left is +X.
@@ -16,7 +19,7 @@ fn face_controls(role: Role) -> &'static [(&'static str, Vec3, f32, f32)] {
             ("head.bow", Vec3::X, -40.0, 40.0),
             ("head.bend", Vec3::NEG_Z, -40.0, 40.0),
         ],
-        Role::Jaw => &[("jaw.open", Vec3::X, 0.0, 20.0), ("jaw.jut", Vec3::Y, -8.0, 8.0)],
+        Role::Jaw => &[("jaw.open", Vec3::X, 0.0, 20.0), ("jaw.jut", JUT, -8.0, 8.0)],
         Role::LeftEye => &[("eye.left.ud", Vec3::NEG_X, -25.0, 25.0), ("eye.left.lr", Vec3::Y, -30.0, 30.0)],
         Role::RightEye => {
             &[("eye.right.ud", Vec3::NEG_X, -25.0, 25.0), ("eye.right.lr", Vec3::Y, -30.0, 30.0)]
@@ -28,10 +31,32 @@ fn face_controls(role: Role) -> &'static [(&'static str, Vec3, f32, f32)] {
     }
 }
 
+/// How far eyes turn where a file says so, in degrees, none below 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct EyeRanges {
+    pub(super) to_nose: f32,
+    pub(super) from_nose: f32,
+    pub(super) down: f32,
+    pub(super) up: f32,
+}
+
+impl EyeRanges {
+    /// The range of a control, if it is one of an eye.
+    fn of(self, control: &str) -> Option<(f32, f32)> {
+        match control {
+            "eye.left.ud" | "eye.right.ud" => Some((-self.down, self.up)),
+            "eye.left.lr" => Some((-self.to_nose, self.from_nose)),
+            "eye.right.lr" => Some((-self.from_nose, self.to_nose)),
+            _ => None,
+        }
+    }
+}
+
 pub(super) fn controls(
     scene: &Scene,
     joints: &Joints,
-    shapes: &ShapeNames,
+    eyes: Option<EyeRanges>,
+    sliders: &Wanted,
     report: &mut ImportReport,
 ) -> Result<ControlTable, ImportFailure> {
     let mut table = Table::default();
@@ -40,10 +65,11 @@ pub(super) fn controls(
         for (name, axis, min, max) in face_controls(*role) {
             let axis = (node_from_world * *axis).normalize_or(*axis);
             let joint = joints.names[*node].clone();
-            table.add(name, Drive::Joint { joint, axis, kind: JointMotion::Rotation }, *min, *max, 0.0);
+            let (min, max) = eyes.and_then(|eyes| eyes.of(name)).unwrap_or((*min, *max));
+            table.add(name, Drive::Joint { joint, axis, kind: JointMotion::Rotation }, min, max, 0.0);
         }
     }
-    shape_controls(shapes, report, &mut table);
+    shape_controls(sliders, report, &mut table);
     for &node in scene.order() {
         let has_role = joints.roles.iter().any(|(_, other)| *other == node);
         if has_role || !joints.moves[node] {
@@ -59,11 +85,11 @@ pub(super) fn controls(
     Ok(ControlTable::new(table.controls)?)
 }
 
-/// One control for all shapes of a name.
-fn shape_controls(shapes: &ShapeNames, report: &mut ImportReport, table: &mut Table) {
+/// One control for all shapes, or sliders of shapes, of a name.
+fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table) {
     let mut counts = ShapeSet::ALL.map(|set| (set, 0));
     let mut seen = HashSet::new();
-    for (shape, weight) in shapes.names.iter().zip(&shapes.weights) {
+    for (shape, (min, max, rest)) in sliders.names.iter().zip(&sliders.ranges) {
         if !seen.insert(shape) {
             continue;
         }
@@ -73,9 +99,8 @@ fn shape_controls(shapes: &ShapeNames, report: &mut ImportReport, table: &mut Ta
             }
             None => report.other_shapes.push(shape.clone()),
         }
-        let weight = if weight.is_finite() { *weight } else { 0.0 };
         let name = face_control(shape).filter(|name| !table.names.contains(*name)).unwrap_or(shape);
-        table.add(name, Drive::Shape { shape: shape.clone() }, weight.min(0.0), weight.max(1.0), weight);
+        table.add(name, Drive::Shape { shape: shape.clone() }, *min, *max, *rest);
     }
     report.shape_sets.extend(counts.into_iter().filter(|(_, count)| *count > 0));
 }

@@ -5,15 +5,21 @@ mod motion;
 mod names;
 mod parts;
 mod rig;
+mod sliders;
 #[cfg(feature = "vrm")]
 mod vrm;
 
 pub use motion::{MotionAt, MotionError, SceneMotion};
+pub(crate) use names::face_control;
 pub use names::{Role, ShapeSet};
+pub use sliders::Sliders;
+#[cfg(feature = "vrm")]
+pub use vrm::gaze_values;
 
 use crate::{FaceError, FaceState, Pack, Textures, Warning};
 use avatar_exchange::Scene;
 use avatar_look::Materials;
+use avatar_mesh::drivers::DriversError;
 use avatar_mesh::{Bounds, DeformError};
 use pose_anim::{BindError, ControlError};
 use rig_core::RigError;
@@ -57,6 +63,9 @@ pub enum ImportFailure {
     /// Controls that do not fit the rig.
     #[error(transparent)]
     Bind(#[from] BindError),
+    /// Rules of shapes that cannot be followed.
+    #[error(transparent)]
+    Drivers(#[from] DriversError),
     /// The rest pose could not be taken.
     #[error(transparent)]
     Face(#[from] FaceError),
@@ -77,11 +86,15 @@ impl Import {
     /// # Errors
     /// Numbers that are no rig.
     pub fn from_scene(scene: Scene) -> Result<Self, ImportFailure> {
-        Self::with_roles(scene, &[])
+        Self::with_roles(scene, &[], None)
     }
 
-    /// As [`Import::from_scene`], where what some nodes do is known.
-    fn with_roles(scene: Scene, known: &[(Role, usize)]) -> Result<Self, ImportFailure> {
+    /// As [`Import::from_scene`], where what some nodes do is known, and perhaps how far eyes turn.
+    fn with_roles(
+        scene: Scene,
+        known: &[(Role, usize)],
+        eyes: Option<controls::EyeRanges>,
+    ) -> Result<Self, ImportFailure> {
         let mut report = ImportReport {
             notes: scene.notes.iter().map(ToString::to_string).collect(),
             ..Default::default()
@@ -91,8 +104,9 @@ impl Import {
         }
         let joints = rig::Joints::of(&scene, known, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
-        let controls = controls::controls(&scene, &joints, &shapes, &mut report)?;
-        let names: Vec<&str> = shapes.names.iter().map(String::as_str).collect();
+        let sliders = sliders::Wanted::of(&scene, &shapes)?;
+        let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
+        let names: Vec<&str> = sliders.names.iter().map(String::as_str).collect();
         let binding = controls.bind(&joints.rig, &names)?;
         let (parts, textures) = parts::parts(&scene, &shapes, &mut report);
         let poses = controls::poses(&controls);
@@ -101,6 +115,7 @@ impl Import {
             rig: joints.rig,
             parts,
             shapes: shapes.names,
+            sliders: sliders.sliders,
             controls,
             binding,
             poses,

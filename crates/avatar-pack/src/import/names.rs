@@ -160,7 +160,7 @@ impl ShapeSet {
 }
 
 /// The control of the nine-joint face that means the same as a shape.
-pub(super) fn face_control(shape: &str) -> Option<&'static str> {
+pub(crate) fn face_control(shape: &str) -> Option<&'static str> {
     match plain(shape.rsplit(['.', ':']).next().unwrap_or(shape)).as_str() {
         "ssmile" | "smile" | "mouthsmile" => Some("smile"),
         "frown" | "mouthfrown" => Some("frown"),

@@ -1,11 +1,13 @@
+use super::controls::EyeRanges;
 use super::{Import, ImportFailure, Role};
 use crate::Pack;
-use avatar_exchange::vrm::{Vrm, VrmModel, expression_weights};
+use avatar_exchange::vrm::{Gaze, LookAt, LookAtKind, RangeMap, Vrm, VrmModel, expression_weights};
 use pose_anim::{Drive, Pose};
 
 impl Import {
     /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word, and a pose for each
-    /// expression, which puts the shapes of all others to rest.
+    /// expression, which puts the shapes of all others to rest. Where the file lets eye bones look, the controls of the eyes
+    /// go as far as it says ([`gaze_values`]); where it lets expressions look, these are poses as all others.
     ///
     /// # Errors
     /// As [`Import::from_scene`].
@@ -19,7 +21,8 @@ impl Import {
         ];
         let known: Vec<_> =
             bones.into_iter().filter_map(|(role, bone)| Some((role, vrm.bone(bone)?))).collect();
-        let mut import = Self::with_roles(scene, &known)?;
+        let turning = vrm.look_at.filter(|look_at| look_at.kind == LookAtKind::Bone);
+        let mut import = Self::with_roles(scene, &known, turning.map(|look_at| eye_ranges(&look_at)))?;
         let poses: Vec<Pose> =
             vrm.expressions.iter().map(|expression| pose(&import.pack, &vrm, &expression.name)).collect();
         for pose in poses {
@@ -27,6 +30,28 @@ impl Import {
             import.pack.poses.poses.push(pose);
         }
         Ok(import)
+    }
+}
+
+/// The values of the controls of the eyes for a gaze as the head sees it, through the file's ranges: `eye.left.lr` and so on, in
+/// degrees. For look-at by bones; for that by expressions there is [`LookAt::expressions`].
+pub fn gaze_values(look_at: &LookAt, gaze: Gaze) -> [(&'static str, f32); 4] {
+    let turn = look_at.eyes(gaze);
+    [
+        ("eye.left.ud", -turn.left.pitch_deg),
+        ("eye.left.lr", turn.left.yaw_deg),
+        ("eye.right.ud", -turn.right.pitch_deg),
+        ("eye.right.lr", turn.right.yaw_deg),
+    ]
+}
+
+fn eye_ranges(look_at: &LookAt) -> EyeRanges {
+    let most = |range: RangeMap| range.map(f32::MAX).max(0.0);
+    EyeRanges {
+        to_nose: most(look_at.horizontal_inner),
+        from_nose: most(look_at.horizontal_outer),
+        down: most(look_at.vertical_down),
+        up: most(look_at.vertical_up),
     }
 }
 

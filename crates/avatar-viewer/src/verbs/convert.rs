@@ -1,6 +1,6 @@
 use crate::cli::ConvertArgs;
 use crate::files::Files;
-use crate::output::OutputFile;
+use crate::output::{OutputFile, OutputFolder};
 use crate::usage::usage;
 use anyhow::{Result, anyhow};
 use avatar_exchange::glb;
@@ -14,16 +14,22 @@ use std::path::Path;
 enum Target {
     Glb,
     Obj,
+    /// A pack in the raw format.
+    Folder,
 }
 
 impl Target {
     fn of(path: &Path) -> Result<Self> {
+        let named_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
+        if named_as_folder || path.extension().is_none() || path.is_dir() {
+            return Ok(Self::Folder);
+        }
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("glb") => Ok(Self::Glb),
             Some("obj") => Ok(Self::Obj),
             _ => Err(usage(format!(
-                "--out: expected a name that ends in .glb or .obj, found {:?}",
+                "--out: expected a name that ends in .glb or .obj, or (with a separator at its end) that of a new folder, found {:?}",
                 path.display().to_string()
             ))),
         }
@@ -31,20 +37,32 @@ impl Target {
 }
 
 pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
-    let target = Target::of(&args.out)?;
-    let out = OutputFile::check(&args.out)?;
-    let files = super::open(&args.pack)?;
-    let pack = files.load_pack()?;
-    let face = args.face.resolve(&pack, matches)?;
-    let bytes = match target {
-        Target::Glb => glb(&files, &pack)?,
-        Target::Obj => {
-            let mut state = FaceState::new(&pack);
-            face.apply(&pack, &mut state)?;
-            world_obj(&pack, &state)?.into_bytes()
+    match Target::of(&args.out)? {
+        Target::Folder => {
+            let out = OutputFolder::check(&args.out)?;
+            let files = super::open(&args.pack)?;
+            let pack = files.load_pack()?;
+            args.face.resolve(&pack, matches)?;
+            let raw = avatar_pack::raw_files(&pack, &files.load_textures());
+            let raw = raw.map_err(|error| anyhow!("{}: {error}", files.name()))?;
+            raw.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+            out.write(&raw.files)
         }
-    };
-    out.write(&bytes)
+        Target::Glb => {
+            let out = OutputFile::check(&args.out)?;
+            let files = super::open(&args.pack)?;
+            let pack = files.load_pack()?;
+            args.face.resolve(&pack, matches)?;
+            out.write(&glb(&files, &pack)?)
+        }
+        Target::Obj => {
+            let out = OutputFile::check(&args.out)?;
+            let pack = super::open(&args.pack)?.load_pack()?;
+            let mut state = FaceState::new(&pack);
+            args.face.resolve(&pack, matches)?.apply(&pack, &mut state)?;
+            out.write(world_obj(&pack, &state)?.as_bytes())
+        }
+    }
 }
 
 /// A file's scene as it is; of a pack rig, parts, shapes, and its poses as clips.

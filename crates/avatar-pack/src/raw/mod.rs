@@ -1,0 +1,204 @@
+//! An avatar in the raw format: the way back from [`Pack::load`].
+
+mod joints;
+mod looks;
+mod merge;
+mod parts;
+mod shapes;
+
+use crate::{MemorySource, Pack, PackError, Textures};
+use avatar_mesh::raw::{write_triangles, write_vertices};
+use avatar_mesh::{FACE_BONES, FACE_PARTS, FACE_SHAPES};
+use pose_anim::{Clip, ClipSet, ControlError, ControlTable, Coupling, Drive, Pose, PoseSet, Track};
+use rig_core::RigError;
+
+/// The files of a pack in the raw format.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RawFiles {
+    /// Names without folder, and bytes.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// What the avatar has and the files do not, and what has another name there.
+    pub notes: Vec<String>,
+}
+
+/// What of an avatar the raw format cannot hold.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RawError {
+    /// Nothing to draw.
+    #[error("expected a mesh, found none")]
+    NoMesh,
+    /// More joints that move vertices than there are bones.
+    #[error("expected at most {} joints that move vertices (the raw format has no more), found {}: {}", FACE_BONES.len(), found.len(), found.join(", "))]
+    TooManyJoints {
+        /// All of them.
+        found: Vec<String>,
+    },
+    /// More shapes that can move than there are places.
+    #[error("expected at most {} shapes (the raw format has no more), found {}: {}", FACE_SHAPES.len(), found.len(), found.join(", "))]
+    TooManyShapes {
+        /// All of them.
+        found: Vec<String>,
+    },
+    /// Shapes that are not simply moved by one number each.
+    #[error("expected shapes that have a weight each (the raw format has no others), found in-between shapes of: {}", sliders.join(", "))]
+    InBetween {
+        /// The sliders of the avatar.
+        sliders: Vec<String>,
+    },
+    /// A joint that turns in a space that is not scaled alike along all axes.
+    #[error(
+        "joint {joint:?}: expected one scale along all axes and no mirror (the raw format has rigid joints only), found another matrix"
+    )]
+    Uneven {
+        /// The joint.
+        joint: String,
+    },
+    /// Joints that no `Transformations.xml` can hold.
+    #[error("Transformations.xml: {0}")]
+    Rig(#[from] RigError),
+    /// Controls that would contradict each other.
+    #[error("controls.toml: {0}")]
+    Control(#[from] ControlError),
+    /// A picture that PNG cannot hold.
+    #[error("{file}: expected a picture that PNG can hold, found: {problem}")]
+    Picture {
+        /// The file.
+        file: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Files that would not load again, such as names that text files cannot hold.
+    #[error("what would be written could not be read: {0}")]
+    Load(#[from] PackError),
+}
+
+/// Makes the files of a pack in the raw format, which [`Pack::load`] takes. It touches no file itself.
+///
+/// * Joints that are known by their controls (`head.turn` …), and those of the format's own names, take their places among
+///   the nine. A part at a node of its own below one of them follows that. Other joints that move vertices take free places
+///   and their names there; all that move none stay as they are.
+/// * Vertices are those at rest in world space. Bends are the avatar's own where its bind pose is its rest pose.
+/// * Parts of the format's own names, and parts that wholly follow jaw, head or eye, become the rigid parts; everything
+///   else becomes the skin. Parts that are missing have one vertex and no triangle.
+/// * Two shapes that are not the face's own take its free places; their controls keep their names.
+/// * Pictures are PNG, looks `materials.toml`, poses `poses.toml`, clips of controls `clips.toml`.
+///
+/// A pack that was loaded in the raw format comes back bit for bit: joints, vertices, triangles, pixels, texts' meaning.
+///
+/// # Errors
+/// What moves and has no place in the format. What is only looks, or clips of whole joints, is left out with a note.
+pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError> {
+    if pack.parts.iter().all(|part| part.mesh.positions.is_empty()) {
+        return Err(RawError::NoMesh);
+    }
+    let mut notes = Vec::new();
+    if let Some(sliders) = &pack.sliders {
+        return Err(RawError::InBetween { sliders: sliders.names.clone() });
+    }
+    let shapes = shapes::Places::of(pack)?;
+    let bones = joints::Bones::of(pack, &mut notes)?;
+    let meshes = parts::Parts::of(pack, &bones, &shapes, &mut notes);
+    let (controls, kept) = controls(pack, &bones, &shapes, &mut notes)?;
+    let poses = poses(pack, &controls, &kept);
+
+    let mut files = vec![
+        ("Transformations.xml".to_owned(), bones.rig.to_xml()?.into_bytes()),
+        ("controls.toml".to_owned(), controls.to_toml().into_bytes()),
+        ("poses.toml".to_owned(), poses.to_toml(&controls).into_bytes()),
+        ("materials.toml".to_owned(), looks::materials(pack, &meshes).to_toml().into_bytes()),
+    ];
+    let clips = clips(pack, &kept);
+    if !clips.clips.is_empty() {
+        files.push(("clips.toml".to_owned(), clips.to_toml(&controls).into_bytes()));
+    }
+    if let Some(hair) = &pack.hair {
+        files.push(("hair.toml".to_owned(), hair.to_toml().into_bytes()));
+    }
+    for (spec, mesh) in FACE_PARTS.iter().zip(&meshes.meshes) {
+        files.push((format!("{}_VB.raw", spec.stem), write_vertices(mesh)));
+        files.push((format!("{}_IB.raw", spec.stem), write_triangles(mesh)));
+    }
+    looks::pictures(pack, textures, &meshes, &mut files, &mut notes)?;
+    if let Some(motion) = pack.motion.as_ref().filter(|motion| !motion.clips().is_empty()) {
+        notes.push(format!("clips are left out: {}", motion.clips().join(", ")));
+    }
+    // Whatever is promised here is what the reader says.
+    let source = MemorySource { files: files.iter().cloned().collect() };
+    Pack::load(&source)?;
+    Ok(RawFiles { files, notes })
+}
+
+/// The controls with the names that joints and shapes have in the files, and per control of the pack its place there.
+fn controls(
+    pack: &Pack,
+    bones: &joints::Bones,
+    shapes: &shapes::Places,
+    notes: &mut Vec<String>,
+) -> Result<(ControlTable, Vec<Option<usize>>), RawError> {
+    let (mut controls, mut kept, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
+    for control in pack.controls.controls() {
+        let drives = match &control.drives {
+            Drive::Joint { joint, axis, kind } => {
+                let turns = |joint: &usize| bones.instead.get(*joint) == Some(&None);
+                let joint = pack.rig.joint(joint).map(|joint| joint.index()).filter(turns);
+                let name = joint.and_then(|joint| bones.names.get(joint));
+                name.map(|name| Drive::Joint { joint: name.clone(), axis: *axis, kind: *kind })
+            }
+            Drive::Shape { shape } => {
+                shapes.place(shape).map(|place| Drive::Shape { shape: FACE_SHAPES[place].to_owned() })
+            }
+        };
+        kept.push(drives.as_ref().map(|_| controls.len()));
+        match drives {
+            // The pace would otherwise be that of the new names.
+            Some(drives) => controls.push(pose_anim::Control { drives, ..control.clone() }),
+            None => left_out.push(control.name.as_str()),
+        }
+    }
+    if !left_out.is_empty() {
+        notes.push(format!("controls that move nothing are left out: {}", left_out.join(", ")));
+    }
+    let place = |control: usize| kept.get(control).copied().flatten();
+    let couplings = pack.controls.couplings().iter().filter_map(|coupling| {
+        Some(Coupling { from: place(coupling.from)?, to: place(coupling.to)?, ..*coupling })
+    });
+    let couplings = couplings.collect();
+    Ok((ControlTable::with_couplings(controls, couplings)?, kept))
+}
+
+/// The poses, within the ranges of their controls.
+fn poses(pack: &Pack, controls: &ControlTable, kept: &[Option<usize>]) -> PoseSet {
+    let place = |control: usize| kept.get(control).copied().flatten();
+    let mut set = PoseSet::default();
+    for pose in pack.poses.iter() {
+        let mut own: Pose = pose.clone();
+        own.values = (pose.values.iter())
+            .filter_map(|(index, value)| {
+                let index = place(*index)?;
+                let control = controls.controls().get(index)?;
+                Some((index, value.max(control.min).min(control.max)))
+            })
+            .collect();
+        own.timings =
+            pose.timings.iter().filter_map(|(index, timing)| Some((place(*index)?, *timing))).collect();
+        set.poses.push(own);
+    }
+    set
+}
+
+/// The clips, of those controls that there are.
+fn clips(pack: &Pack, kept: &[Option<usize>]) -> ClipSet {
+    let place = |control: usize| kept.get(control).copied().flatten();
+    let mut set = ClipSet::default();
+    for clip in &pack.clips.clips {
+        let track = |track: &Track| Track::new(place(track.control())?, track.keys().to_vec()).ok();
+        // Tracks of a clip are of different controls, here as there.
+        let Ok(mut own) = Clip::new(clip.name.clone(), clip.tracks().iter().filter_map(track).collect())
+        else {
+            continue;
+        };
+        (own.key, own.wrap) = (clip.key.clone(), clip.wrap);
+        set.clips.push(own);
+    }
+    set
+}

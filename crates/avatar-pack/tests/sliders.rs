@@ -1,0 +1,129 @@
+//! In-between shapes of a scene: one control for a slider, weights of all its shapes.
+#![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
+
+use avatar_exchange::{
+    Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, RawScene, Scene, ScenePart,
+};
+use avatar_mesh::drivers::{Input, Rule, ShapeRule};
+use avatar_mesh::{Mesh, Shape};
+use avatar_pack::{FaceState, Import, RawError, Textures, export, raw_files};
+use glam::{Vec2, Vec3};
+
+fn part(name: &str, node: usize, shapes: &[(&str, Vec3)]) -> ScenePart {
+    let shape = |(name, offset): &(&str, Vec3)| Shape::new(*name, vec![*offset; 3]);
+    let mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        normals: vec![Vec3::Z; 3],
+        uvs: vec![Vec2::ZERO; 3],
+        triangles: vec![[0, 1, 2]],
+        shapes: shapes.iter().map(shape).collect(),
+        ..Mesh::default()
+    };
+    ScenePart::rigid(name, node, mesh)
+}
+
+/// Lids that shut in two steps and rest at three quarters of their way; a shape of another node of the same name as a slider; a
+/// corrective shape.
+fn lids() -> RawScene {
+    let node = |name: &str, weights: &[f32]| Node {
+        name: name.to_owned(),
+        weights: weights.into(),
+        ..Node::default()
+    };
+    let follows = |shape: &str, full_weight| ShapeRule {
+        shape: shape.to_owned(),
+        rule: Rule::Follows { input: Input::Driver("shut".to_owned()), full_weight },
+    };
+    let both = ["shut", "smile"].map(|name| Input::Driver(name.to_owned()));
+    RawScene {
+        nodes: vec![node("brow", &[0.0]), node("lids", &[0.5, 0.5, 0.0, 0.0])],
+        parts: vec![
+            part("brow", 0, &[("shut", Vec3::X)]),
+            part(
+                "lids",
+                1,
+                &[("shut@50", Vec3::Z), ("shut", Vec3::Y), ("smile", Vec3::X), ("squint", -Vec3::X)],
+            ),
+        ],
+        drivers: vec![NodeDrivers {
+            node: 1,
+            drivers: vec!["smile".to_owned(), "shut".to_owned()],
+            rest: vec![0.0, 0.75],
+            shapes: ["shut@50", "shut", "smile", "squint"].map(str::to_owned).into(),
+            rules: vec![
+                follows("shut@50", 0.5),
+                follows("shut", 1.0),
+                ShapeRule { shape: "squint".to_owned(), rule: Rule::Product(both.into()) },
+            ],
+        }],
+        clips: vec![Clip {
+            name: "half".to_owned(),
+            channels: vec![Channel {
+                node: 1,
+                target: ChannelTarget::Weights,
+                interpolation: Interpolation::Step,
+                times: vec![0.0],
+                values: vec![1.0, 0.0, 0.0, 0.0],
+            }],
+        }],
+        ..RawScene::default()
+    }
+}
+
+fn avatar() -> Import {
+    Import::from_scene(Scene::from_raw(lids()).expect("a scene")).expect("an avatar")
+}
+
+fn weights(import: &Import, values: &[(&str, f32)]) -> Vec<f32> {
+    let mut all = import.pack.controls.defaults();
+    for (name, value) in values {
+        all[import.pack.controls.index(name).unwrap_or_else(|| panic!("the control {name}"))] = *value;
+    }
+    let mut state = FaceState::new(&import.pack);
+    state.pose(&import.pack, &all).expect("a pose");
+    state.weights().to_vec()
+}
+
+#[test]
+fn a_slider_is_one_control() {
+    let import = avatar();
+    let pack = &import.pack;
+    assert_eq!(pack.shapes, ["shut", "shut@50", "shut", "smile", "squint"]);
+    let of_shapes: Vec<&str> = pack.controls.names().filter(|name| !name.contains('.')).collect();
+    assert_eq!(of_shapes, ["shut", "smile"]);
+    // At rest the file's weights, and the brow's shape with the slider of its name.
+    assert_eq!(weights(&import, &[]), [0.75, 0.5, 0.5, 0.0, 0.0]);
+    assert_eq!(weights(&import, &[("shut", 0.25)]), [0.25, 0.5, 0.0, 0.0, 0.0]);
+    assert_eq!(weights(&import, &[("shut", 1.0), ("smile", 0.5)]), [1.0, 0.0, 1.0, 0.5, 0.5]);
+    let control = pack.controls.index("shut").expect("a control");
+    assert_eq!(pack.controls.controls()[control].default, 0.75);
+    // Offsets by hand: 0.75 of the way is half of each shape.
+    let mut state = FaceState::new(pack);
+    state.pose(pack, &pack.controls.defaults()).expect("a pose");
+    let lids = state.deform(pack, 1).expect("the lids");
+    assert_eq!(lids.positions[0], Vec3::new(0.0, 0.5, 0.5));
+    for (shape, follows) in [(0, true), (1, true), (2, true), (3, false), (4, true)] {
+        assert_eq!(pack.follows(shape, "shut"), follows, "{shape}");
+    }
+}
+
+#[test]
+fn clips_set_the_shapes_themselves() {
+    let import = avatar();
+    let at = import.pack.motion.as_ref().expect("clips").at("half", 0.0).expect("the clip");
+    assert_eq!(at.weights, [(1, 1.0), (2, 0.0)]);
+}
+
+#[test]
+fn files_without_sliders_keep_the_shapes_or_refuse_them() {
+    let import = avatar();
+    let scene = export(&import.pack, &Textures::default());
+    let lids = scene.nodes.iter().find(|node| node.name == "lids").expect("a node");
+    assert!(lids.weights.is_empty(), "a joint");
+    let rest: Vec<_> =
+        scene.nodes.iter().map(|node| node.weights.as_slice()).filter(|w| !w.is_empty()).collect();
+    assert_eq!(rest, [&[0.75][..], &[0.5, 0.5, 0.0, 0.0]]);
+    assert!(scene.notes.iter().any(|note| note.text.contains("sliders are left out")), "{:?}", scene.notes);
+    let refused = raw_files(&import.pack, &import.textures).expect_err("in-betweens");
+    assert_eq!(refused, RawError::InBetween { sliders: ["shut", "smile", "shut"].map(str::to_owned).into() });
+}
