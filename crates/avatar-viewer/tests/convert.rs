@@ -81,11 +81,12 @@ fn nothing_is_written_over_or_left_half() {
     convert(pack.path(), &at("none/face/")).fails(1, &["none", "expected a folder to write to, found none"]);
     convert(pack.path(), &at("face.fbx")).fails(2, &["face.fbx", ".glb or .obj", "folder"]);
     fs::write(at("base.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+    fs::create_dir(at("targets")).expect("a folder");
     for name in ["A", "B", "C"] {
-        fs::write(at(&format!("{name}.target")), "0 1 0 0\n").expect("written");
+        fs::write(at(&format!("targets/{name}.target")), "0 1 0 0\n").expect("written");
     }
     let mut many = viewer();
-    many.arg("convert").arg(at("base.obj")).arg("--with").arg(folder.path()).arg("--out").arg(at("many"));
+    many.arg("convert").arg(at("base.obj")).arg("--with").arg(at("targets")).arg("--out").arg(at("many"));
     finish(&mut many).fails(1, &["base.obj: expected at most 2 shapes", "found 3: A, B, C"]);
     assert!(!at("many").exists());
     assert_eq!(fs::read_to_string(at("full/mine.txt")).expect("still there"), "mine");

@@ -89,9 +89,16 @@ pub(super) fn controls(
 fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table) {
     let mut counts = ShapeSet::ALL.map(|set| (set, 0));
     let mut seen = HashSet::new();
-    for (shape, (min, max, rest)) in sliders.names.iter().zip(&sliders.ranges) {
+    for shape in &sliders.names {
         if !seen.insert(shape) {
             continue;
+        }
+        // Several nodes may have one of this name: the control reaches whatever one of them does.
+        let same = sliders.names.iter().zip(&sliders.ranges).filter(|(other, _)| *other == shape);
+        let (mut min, mut max, mut rest) = (0.0f32, 0.0f32, 0.0f32);
+        for (_, (own_min, own_max, own_rest)) in same {
+            (min, max) = (min.min(*own_min), max.max(*own_max));
+            rest = if own_rest.abs() > rest.abs() { *own_rest } else { rest };
         }
         match ShapeSet::of(shape) {
             Some(set) => {
@@ -100,7 +107,7 @@ fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table
             None => report.other_shapes.push(shape.clone()),
         }
         let name = face_control(shape).filter(|name| !table.names.contains(*name)).unwrap_or(shape);
-        table.add(name, Drive::Shape { shape: shape.clone() }, *min, *max, *rest);
+        table.add(name, Drive::Shape { shape: shape.clone() }, min, max, rest);
     }
     report.shape_sets.extend(counts.into_iter().filter(|(_, count)| *count > 0));
 }
