@@ -70,6 +70,7 @@ impl App {
     pub(super) fn act(&mut self, event_loop: &ActiveEventLoop, action: Action) {
         self.catch_up();
         match action {
+            Action::SetControl { .. } if self.interrupted.is_some() => {}
             Action::SetControl { control, value, .. } => self.face.set_control(control, value),
             Action::ResetControl(control) => self.face.reset_control(control),
             Action::ResetAll => self.face.defaults(),

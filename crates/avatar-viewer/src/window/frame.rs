@@ -112,6 +112,8 @@ impl App {
         for action in actions {
             self.act(event_loop, action);
         }
+        // The slider's last word has been heard.
+        self.interrupted.take_if(|released| *released);
         let free = painted.as_ref().map(|painted| painted.free);
         self.look(free);
         self.face.pose()?;

@@ -31,11 +31,20 @@ impl App {
         }
         if let Some(pose) = keys::pose(&self.face.pack, &event.logical_key, event.physical_key) {
             self.catch_up();
+            self.interrupt();
             self.face.go_to(pose);
             self.redraw();
         } else if let Some(clip) = keys::clip(&self.face.pack, &event.logical_key) {
             self.catch_up();
+            self.interrupt();
             self.play(clip);
+        }
+    }
+
+    /// A slider that is held lets go of the face: the key is the newer wish.
+    fn interrupt(&mut self) {
+        if self.overlay.as_ref().is_some_and(|overlay| overlay.ctx.egui_is_using_pointer()) {
+            self.interrupted = Some(false);
         }
     }
 
@@ -46,6 +55,9 @@ impl App {
             MouseButton::Right | MouseButton::Middle => Drag::Pan,
             _ => return,
         };
+        if state == ElementState::Released && self.interrupted.is_some() {
+            self.interrupted = Some(true);
+        }
         let is_ours = !self.overlay.as_ref().is_some_and(Overlay::takes_pointer);
         self.dragging = (state == ElementState::Pressed && is_ours).then_some(drag);
     }

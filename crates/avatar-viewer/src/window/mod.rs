@@ -111,6 +111,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         modifiers: Modifiers::default(),
         pointer: PhysicalPosition::default(),
         dragging: None,
+        interrupted: None,
         failure: None,
     };
     event_loop.run_app(&mut app).context("the window's event loop")?;
@@ -152,6 +153,8 @@ struct App {
     pointer: PhysicalPosition<f64>,
     /// What the pointer drags.
     dragging: Option<Drag>,
+    /// A pose was pressed while the pointer holds something; and whether it has let go since.
+    interrupted: Option<bool>,
     failure: Option<anyhow::Error>,
 }
 

@@ -25,7 +25,8 @@ impl Shot<'_> {
         let free = (max - min).max(Vec2::ONE);
         let mut scene =
             scene::scene(self.pack, self.view, free.x as u32, free.y as u32, self.background, look.light());
-        if self.free.is_some() {
+        // Not even by rounding: where nothing covers it, the picture is the one of `render`.
+        if (min, max) != (Vec2::ZERO, whole) {
             scene.camera = scene.camera.within(whole, min, max);
         }
         scene

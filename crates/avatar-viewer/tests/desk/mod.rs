@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "every test file uses its own share of these helpers")]
 #![allow(unreachable_pub, reason = "a module of several test programs")]
 
+mod drop;
+
 use crate::common::{self, finish, has_adapter, viewer};
 use image::RgbImage;
 use std::io::{BufRead, BufReader};
@@ -152,6 +154,52 @@ impl Desk {
         connection.flush().expect("sent");
         let rgb = pixels.as_chunks::<4>().0.iter().flat_map(|[blue, green, red, _]| [*red, *green, *blue]);
         RgbImage::from_raw(width.into(), height.into(), rgb.collect()).expect("four bytes a pixel")
+    }
+
+    /// What the window shows once it shows the same for a while.
+    #[track_caller]
+    pub fn settled(&self) -> RgbImage {
+        let start = Instant::now();
+        let mut before = self.picture();
+        let mut since = Instant::now();
+        loop {
+            std::thread::sleep(Duration::from_millis(60));
+            let now = self.picture();
+            if difference(&now, &before) != Some(0) {
+                (before, since) = (now, Instant::now());
+            } else if since.elapsed() > A_WHILE {
+                return now;
+            }
+            assert!(start.elapsed() < PATIENCE, "the window never rests: {}", self.told());
+        }
+    }
+
+    /// Waits until the window shows something else.
+    #[track_caller]
+    pub fn changes_from(&self, before: &RgbImage, what: &str) {
+        let start = Instant::now();
+        while difference(&self.picture(), before) == Some(0) {
+            assert!(start.elapsed() < PATIENCE, "{what}: nothing changes: {}", self.told());
+            std::thread::sleep(Duration::from_millis(30));
+        }
+    }
+
+    /// What the window is called.
+    pub fn name(&self) -> String {
+        self.xdotool(&["getwindowname", &self.window.to_string()]).trim().to_owned()
+    }
+
+    /// Clock ticks that the program has had on a processor.
+    pub fn ticks(&self) -> u64 {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.viewer.0.id())).expect("a process");
+        // The name in brackets may hold blanks.
+        let fields: Vec<&str> = stat.rsplit(')').next().expect("fields").split_whitespace().collect();
+        fields[11].parse::<u64>().expect("a number") + fields[12].parse::<u64>().expect("a number")
+    }
+
+    /// Drops a file or folder on the window.
+    pub fn drop_file(&self, path: &Path) {
+        drop::drop_file(&self.display, self.window, path);
     }
 
     /// What the window shows once it shows `expected`, or at the end of patience.
