@@ -135,6 +135,17 @@ impl App {
         Ok(())
     }
 
+    /// Lets the panel see what has happened so far. It looks at the pointer where it is in the end: who clicks here and then there
+    /// before the next frame would not have clicked here.
+    pub(super) fn react(&mut self, event_loop: &ActiveEventLoop) {
+        let mut actions = Vec::new();
+        self.lay_out(&mut actions);
+        for action in actions {
+            self.act(event_loop, action);
+        }
+        self.redraw();
+    }
+
     /// Lays the panel out and collects what the user wants.
     fn lay_out(&mut self, actions: &mut Vec<avatar_panel::Action>) -> Option<super::overlay::Painted> {
         let (Some(overlay), Some(stage)) = (&mut self.overlay, &mut self.stage) else { return None };

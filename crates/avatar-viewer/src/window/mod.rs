@@ -235,7 +235,10 @@ impl ApplicationHandler<Wake> for App {
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !is_panels => {
                 self.key(event_loop, &event);
             }
-            WindowEvent::MouseInput { state, button, .. } => self.button(state, button),
+            WindowEvent::MouseInput { state, button, .. } => {
+                self.button(state, button);
+                self.react(event_loop);
+            }
             WindowEvent::CursorMoved { position, .. } => self.pointer(position),
             WindowEvent::MouseWheel { delta, .. } => self.wheel(delta),
             WindowEvent::DroppedFile(path) => self.open(&path),

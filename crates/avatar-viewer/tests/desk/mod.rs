@@ -19,6 +19,9 @@ pub const PATIENCE: Duration = Duration::from_secs(60);
 /// Longer than the window waits for a file to settle, and for its frame.
 pub const A_WHILE: Duration = Duration::from_millis(800);
 
+/// A window that shows the same for so long rests: many times what its frame takes.
+const RESTS: Duration = Duration::from_millis(400);
+
 /// A process that does not outlive its test.
 struct Process(Child);
 
@@ -167,7 +170,7 @@ impl Desk {
             let now = self.picture();
             if difference(&now, &before) != Some(0) {
                 (before, since) = (now, Instant::now());
-            } else if since.elapsed() > A_WHILE {
+            } else if since.elapsed() > RESTS {
                 return now;
             }
             assert!(start.elapsed() < PATIENCE, "the window never rests: {}", self.told());
