@@ -36,7 +36,7 @@ pub(super) fn build(file: &str, lines: &Lines) -> Result<ObjFile, ImportError> {
         ..ObjFile::default()
     };
     if lines.faces.is_empty() {
-        return Err(at_line(lines.last_line, "at least one face before the end", "none"));
+        return Err(at_line(lines.last_line.max(1), "at least one face before the end", "none"));
     }
     check_indices(lines)?;
     let (keys, sums) = keys(lines);
