@@ -85,11 +85,13 @@ impl Face {
         ui.horizontal(|ui| {
             const RESET: f32 = 72.0;
             let (height, gap) = (ui.spacing().interact_size.y, ui.spacing().item_spacing.x);
-            let clear = if self.query.is_empty() { 0.0 } else { height + gap };
+            // What is typed now changes the row in the next frame: wider than the room it was given, it would widen the panel for good.
+            let has_cross = !self.query.is_empty();
+            let clear = if has_cross { height + gap } else { 0.0 };
             let width = (ui.available_width() - RESET - gap - clear).max(30.0);
             let field = TextEdit::singleline(&mut self.query).hint_text("Search");
             named(&ui.add_sized([width, height], field), || "Search controls".to_owned());
-            if !self.query.is_empty() && icon_button(ui, Icon::Cross, "Clear the search").clicked() {
+            if has_cross && icon_button(ui, Icon::Cross, "Clear the search").clicked() {
                 self.query.clear();
             }
             let controls = model.controls.controls().iter().zip(model.values);

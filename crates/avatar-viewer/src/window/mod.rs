@@ -236,8 +236,9 @@ impl ApplicationHandler<Wake> for App {
                 self.key(event_loop, &event);
             }
             WindowEvent::MouseInput { state, button, .. } => {
-                self.button(state, button);
+                // Only the panel itself knows how far its edges can be gripped.
                 self.react(event_loop);
+                self.button(state, button);
             }
             WindowEvent::CursorMoved { position, .. } => self.pointer(position),
             WindowEvent::MouseWheel { delta, .. } => self.wheel(delta),

@@ -183,7 +183,7 @@ fn paint_marks(ctx: &egui::Context, marks: &[[f32; 2]]) {
         return;
     }
     let painter = ctx.layer_painter(egui::LayerId::background());
-    let color = ctx.global_style().visuals.selection.bg_fill.gamma_multiply(0.7);
+    let color = ctx.global_style().visuals.hyperlink_color.gamma_multiply(0.85);
     let scale = 1.0 / ctx.pixels_per_point();
     for [x, y] in marks {
         painter.circle_filled(egui::pos2(x * scale, y * scale), MARK, color);
