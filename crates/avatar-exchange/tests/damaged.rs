@@ -231,10 +231,25 @@ fn hierarchies_are_forests() {
     assert!(wrong(&nested).found.contains("recursion"));
 }
 
+/// Valid: the list of nodes of a scene is optional.
+#[test]
+fn scenes_may_be_empty() {
+    let json = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}, {"nodes": [0]}], "nodes": [{"name": "hip"}]}"#;
+    assert_eq!(read(json.as_bytes()).expect("a scene").nodes[0].name, "hip");
+}
+
 #[test]
 fn versions_and_extensions_that_are_required() {
     let error = wrong(r#"{"asset": {"version": "1.0"}}"#);
     assert_eq!((error.place.as_str(), error.found.as_str()), ("asset.version", "'1.0'"));
+    // In glTF 1.0 lists are objects, and some exporters wrote the version as a number.
+    for (version, found) in [(r#""1.0""#, "'1.0'"), ("1", "1"), ("1.1", "1.1")] {
+        let first = format!(
+            r#"{{"accessors": {{"a": {{}}}}, "asset": {{"version": {version}}}, "scenes": {{"s": {{}}}}}}"#
+        );
+        let error = wrong(&first);
+        assert_eq!((error.place.as_str(), error.found.as_str()), ("asset.version", found), "{error}");
+    }
     let error = wrong(r#"{"asset": {"version": "2.1", "minVersion": "2.1"}}"#);
     assert_eq!(error.place, "asset.minVersion");
     let error = wrong(

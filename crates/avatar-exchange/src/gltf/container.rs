@@ -24,7 +24,7 @@ pub fn split(bytes: &[u8]) -> Result<Container<'_>, ImportError> {
     }
     let version = word(bytes, 4)?;
     if version != 2 {
-        return Err(ImportError::new("byte 4", "GLB version 2", version.to_string()));
+        return Err(ImportError::new("byte 4", "GLB version 2, which has glTF 2.0", version.to_string()));
     }
     let length = word(bytes, 8)? as usize;
     let Some(bytes) = bytes.get(..length) else {

@@ -1,6 +1,7 @@
 use crate::ImportError;
+use crate::error::quoted;
 use gltf::json::{Root, deserialize};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// The structures of a JSON text, and how many channels of animations had no node to move.
 pub(super) fn parse(text: &[u8]) -> Result<(Root, usize), ImportError> {
@@ -8,12 +9,14 @@ pub(super) fn parse(text: &[u8]) -> Result<(Root, usize), ImportError> {
         Ok(root) => return Ok((root, 0)),
         Err(error) => error,
     };
-    // A target without a node is valid and means nothing (section 3.11), but the structure insists on one.
-    if first.to_string().contains("missing field `node`")
-        && let Ok(mut value) = deserialize::from_slice::<Value>(text)
-    {
+    if let Ok(mut value) = deserialize::from_slice::<Value>(text) {
+        if let Some(error) = other_version(&value) {
+            return Err(error);
+        }
+        // A target without a node is valid and means nothing (section 3.11), as is a scene without nodes (3.5.1), but the
+        // structures insist on both.
         let dropped = drop_channels_without_node(&mut value);
-        if dropped > 0 {
+        if add_nodes_to_scenes(&mut value) + dropped > 0 {
             let text = serde_json::to_vec(&value).unwrap_or_default();
             return deserialize::from_slice(&text).map(|root| (root, dropped)).map_err(|error| wrong(&error));
         }
@@ -26,6 +29,17 @@ fn wrong(error: &serde_json::Error) -> ImportError {
     ImportError::new(place, "glTF 2.0", error.to_string())
 }
 
+/// Files of glTF 1.0 have objects where 2.0 has lists: their version tells more than the first of these.
+fn other_version(root: &Value) -> Option<ImportError> {
+    let found = match root.get("asset")?.get("version")? {
+        Value::String(version) if version == "2" || version.starts_with("2.") => return None,
+        Value::String(version) => quoted(version),
+        Value::Number(version) => version.to_string(),
+        _ => return None,
+    };
+    Some(ImportError::new("asset.version", "glTF 2.0", found))
+}
+
 fn drop_channels_without_node(root: &mut Value) -> usize {
     let mut dropped = 0;
     for animation in root.get_mut("animations").and_then(Value::as_array_mut).into_iter().flatten() {
@@ -35,4 +49,10 @@ fn drop_channels_without_node(root: &mut Value) -> usize {
         dropped += before - channels.len();
     }
     dropped
+}
+
+fn add_nodes_to_scenes(root: &mut Value) -> usize {
+    let scenes = root.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten();
+    let empty = scenes.filter_map(Value::as_object_mut).filter(|scene| !scene.contains_key("nodes"));
+    empty.map(|scene| scene.insert("nodes".to_owned(), json!([]))).count()
 }

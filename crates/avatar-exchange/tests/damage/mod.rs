@@ -13,13 +13,17 @@ const MAX_TIME: Duration = Duration::from_secs(20);
 pub(crate) type Read = fn(&str, &[u8]) -> Result<Scene, ImportError>;
 
 /// The folder of the Open Asset Import Library's test models, as Debian packages them: `assimp-testmodels`. None where
-/// it is not there, which is told on the terminal past the capturing of tests' output.
+/// it is not there, which is told on the terminal past the capturing of tests' output. Who names a folder in
+/// `MIMIK_ASSIMP_MODELS` wants it read.
 pub(crate) fn models(folder: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("MIMIK_ASSIMP_MODELS").unwrap_or_else(|| "/usr/share/assimp/models".into());
+    let named = std::env::var_os("MIMIK_ASSIMP_MODELS");
+    let must_be_there = named.is_some();
+    let root = named.unwrap_or_else(|| "/usr/share/assimp/models".into());
     let folder = Path::new(&root).join(folder);
     if folder.is_dir() {
         return Some(folder);
     }
+    assert!(!must_be_there, "{} is not there", folder.display());
     let _ = writeln!(std::io::stderr(), "SKIPPED: {} is not there", folder.display());
     None
 }
@@ -43,9 +47,14 @@ pub(crate) fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
 }
 
 /// Reads bytes of any kind: a scene that can be posed at rest and in its clips, or an error with its place, in time.
-pub(crate) fn read_any(read: Read, name: &str, bytes: &[u8]) -> Result<Scene, ImportError> {
+pub(crate) fn read_any(
+    read: impl Fn(&str, &[u8]) -> Result<Scene, ImportError>,
+    name: &str,
+    bytes: &[u8],
+) -> Result<Scene, ImportError> {
     let start = Instant::now();
-    let result = std::panic::catch_unwind(|| {
+    // What a panic leaves behind is not looked at: the test ends.
+    let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
         let result = read(name, bytes);
         if let Ok(scene) = &result {
             let mut poses = vec![scene.rest()];
@@ -60,7 +69,7 @@ pub(crate) fn read_any(read: Read, name: &str, bytes: &[u8]) -> Result<Scene, Im
             }
         }
         result
-    });
+    }));
     let took = start.elapsed();
     assert!(took < MAX_TIME, "{name} took {took:?}");
     let result = result.unwrap_or_else(|_| panic!("{name} panicked"));

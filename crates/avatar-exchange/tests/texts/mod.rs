@@ -23,9 +23,11 @@ pub(crate) fn shared(path: &str) -> Option<PathBuf> {
 
 /// The files with these extensions below the folder of Debian's package assimp-testmodels.
 pub(crate) fn test_models(extensions: &[&str]) -> Vec<PathBuf> {
-    let folder = std::env::var_os("MIMIK_ASSIMP_MODELS").map(PathBuf::from);
-    let folder = folder.unwrap_or_else(|| PathBuf::from("/usr/share/assimp/models"));
+    let named = std::env::var_os("MIMIK_ASSIMP_MODELS").map(PathBuf::from);
+    let must_be_there = named.is_some();
+    let folder = named.unwrap_or_else(|| PathBuf::from("/usr/share/assimp/models"));
     if !folder.exists() {
+        assert!(!must_be_there, "{} is missing", folder.display());
         println!(
             "SKIPPED: {} is missing (package assimp-testmodels, or MIMIK_ASSIMP_MODELS)",
             folder.display()
