@@ -1,4 +1,4 @@
-use crate::{Pack, PaletteBone, Part};
+use crate::{MotionAt, Pack, PaletteBone, Part};
 use avatar_mesh::{DeformError, Deformed};
 use glam::Affine3A;
 use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
@@ -78,12 +78,55 @@ impl FaceState {
         adjust: impl FnOnce(&mut [f32]),
         locals: &[(JointId, Affine3A)],
     ) -> Result<(), FaceError> {
+        self.apply(pack, values, adjust)?;
+        for &(joint, local) in locals {
+            self.locals.set(joint, local)?;
+        }
+        self.update(pack)
+    }
+
+    /// As [`FaceState::pose`], and from there a share of the way to what a clip of the avatar's file sets: 0 is the face of the
+    /// values, 1 the clip's. Joints are turned on the shortest way. Several calls with a rising share lead into the clip smoothly.
+    ///
+    /// # Errors
+    /// As [`FaceState::pose`].
+    pub fn pose_toward(
+        &mut self,
+        pack: &Pack,
+        values: &[f32],
+        clip: &MotionAt,
+        share: f32,
+    ) -> Result<(), FaceError> {
+        let share = if share.is_nan() { 0.0 } else { share.clamp(0.0, 1.0) };
+        self.apply(pack, values, |_| {})?;
+        let joints = self.locals.as_slice().len();
+        for &(joint, local) in &clip.locals {
+            let slot = self.locals.as_mut_slice().get_mut(joint.index());
+            let slot = slot.ok_or(UnknownJoint { index: joint.index(), joints })?;
+            *slot = between(*slot, local, share);
+        }
+        for &(shape, weight) in &clip.weights {
+            if let Some(slot) = self.weights.get_mut(shape) {
+                *slot += (weight - *slot) * share;
+            }
+        }
+        self.update(pack)
+    }
+
+    /// Control values to `L` and weights. Joints without a control come to rest: something else may have moved them before.
+    fn apply(
+        &mut self,
+        pack: &Pack,
+        values: &[f32],
+        adjust: impl FnOnce(&mut [f32]),
+    ) -> Result<(), FaceError> {
         let expected = pack.controls.controls().len();
         if values.len() != expected || self.effective.len() != expected {
             return Err(FaceError::ValueCount { expected, found: values.len() });
         }
         pack.binding.couple(values, &mut self.effective);
         adjust(&mut self.effective);
+        self.locals.as_mut_slice().fill(Affine3A::IDENTITY);
         match &pack.sliders {
             None => pack.binding.apply(&self.effective, &mut self.locals, &mut self.weights)?,
             Some(sliders) => {
@@ -91,9 +134,11 @@ impl FaceState {
                 sliders.drivers.run(&self.sliders, &mut self.weights)?;
             }
         }
-        for &(joint, local) in locals {
-            self.locals.set(joint, local)?;
-        }
+        Ok(())
+    }
+
+    /// `L` to world and bone matrices.
+    fn update(&mut self, pack: &Pack) -> Result<(), FaceError> {
         pack.rig.update(self.locals.as_slice(), &mut self.pose)?;
         let joints = self.pose.world_from_joint();
         for (bone, PaletteBone { joint, joint_from_mesh }) in self.bones.iter_mut().zip(&pack.palette) {
@@ -151,4 +196,22 @@ impl FaceState {
     pub fn effective(&self) -> &[f32] {
         &self.effective
     }
+}
+
+/// A share of the way from one transform to another: translation and scale in a straight line, rotation on the shortest way.
+fn between(from: Affine3A, to: Affine3A, share: f32) -> Affine3A {
+    // The ends are exact; a transform with shear is not what its scale and rotation say.
+    if share <= 0.0 {
+        return from;
+    }
+    if share >= 1.0 {
+        return to;
+    }
+    let (scale_a, turn_a, place_a) = from.to_scale_rotation_translation();
+    let (scale_b, turn_b, place_b) = to.to_scale_rotation_translation();
+    Affine3A::from_scale_rotation_translation(
+        scale_a.lerp(scale_b, share),
+        turn_a.slerp(turn_b, share),
+        place_a.lerp(place_b, share),
+    )
 }

@@ -48,7 +48,8 @@ pub use gaze::Gaze;
 #[cfg(feature = "vrm")]
 pub use import::gaze_values;
 pub use import::{
-    Import, ImportFailure, ImportReport, MotionAt, MotionError, Role, SceneMotion, ShapeSet, Sliders,
+    Import, ImportFailure, ImportReport, MotionAt, MotionError, MotionSampler, Role, SceneMotion, ShapeSet,
+    Sliders,
 };
 pub use pack::{Pack, PaletteBone, Part, load_clips, load_hair, load_materials, load_poses};
 pub use pick::Hit;

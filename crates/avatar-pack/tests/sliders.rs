@@ -6,8 +6,9 @@ use avatar_exchange::{
 };
 use avatar_mesh::drivers::{Input, Rule, ShapeRule};
 use avatar_mesh::{Mesh, Shape};
-use avatar_pack::{FaceState, Import, RawError, Textures, export, raw_files};
-use glam::{Vec2, Vec3};
+use avatar_pack::{FaceState, Import, MotionAt, RawError, Textures, export, raw_files};
+use glam::{Affine3A, Quat, Vec2, Vec3};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 fn part(name: &str, node: usize, shapes: &[(&str, Vec3)]) -> ScenePart {
     let shape = |(name, offset): &(&str, Vec3)| Shape::new(*name, vec![*offset; 3]);
@@ -112,6 +113,45 @@ fn clips_set_the_shapes_themselves() {
     let import = avatar();
     let at = import.pack.motion.as_ref().expect("clips").at("half", 0.0).expect("the clip");
     assert_eq!(at.weights, [(1, 1.0), (2, 0.0)]);
+}
+
+#[test]
+fn a_clip_is_approached_from_the_face_of_the_controls() {
+    let import = avatar();
+    let pack = &import.pack;
+    let motion = pack.motion.as_ref().expect("clips");
+    let mut sampler = motion.sampler(0).expect("the clip");
+    assert!(motion.sampler(1).is_err());
+    let clip = motion.sample(&mut sampler, 0.0).clone();
+    assert_eq!(clip, motion.at("half", 0.0).expect("the clip"));
+    let values = pack.controls.defaults();
+    let mut state = FaceState::new(pack);
+    // The clip sets the second shape to 1 and the third to 0; both rest at 0.5.
+    for (share, expected) in [
+        (0.0, [0.75, 0.5, 0.5, 0.0, 0.0]),
+        (0.25, [0.75, 0.625, 0.375, 0.0, 0.0]),
+        (1.0, [0.75, 1.0, 0.0, 0.0, 0.0]),
+        (f32::NAN, [0.75, 0.5, 0.5, 0.0, 0.0]),
+    ] {
+        state.pose_toward(pack, &values, &clip, share).expect("a pose");
+        assert_eq!(state.weights(), expected, "{share}");
+    }
+    // Half the way of a quarter turn is an eighth, and half of a shift is half of it.
+    let joint = pack.rig.joint("brow").expect("a joint");
+    let turned = Affine3A::from_rotation_translation(Quat::from_rotation_y(FRAC_PI_2), Vec3::X);
+    let turn = MotionAt { locals: vec![(joint, turned)], weights: Vec::new() };
+    state.pose_toward(pack, &values, &turn, 0.5).expect("a pose");
+    let between = Affine3A::from_rotation_translation(Quat::from_rotation_y(FRAC_PI_4), Vec3::X * 0.5);
+    let mut expected = FaceState::new(pack);
+    expected.pose_with(pack, &values, |_| {}, &[(joint, between)]).expect("a pose");
+    for (found, expected) in state.bones().iter().zip(expected.bones()) {
+        assert!(found.abs_diff_eq(*expected, 1e-6), "{found:?} {expected:?}");
+    }
+    // Nothing of it stays.
+    let mut rest = FaceState::new(pack);
+    rest.pose(pack, &values).expect("a pose");
+    state.pose(pack, &values).expect("a pose");
+    assert_eq!(state.bones(), rest.bones());
 }
 
 #[test]

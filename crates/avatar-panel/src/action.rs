@@ -52,7 +52,11 @@ pub enum Action {
 
     /// Plays a clip: from where it was paused, or else from its start.
     Play(usize),
-    /// Halts the clip where it is.
+    /// Plays a clip of [`crate::Model::file_clips`]: from where it was paused, or else from its start.
+    PlayFileClip(usize),
+    /// Lets go of the file's clip: the face goes back to its controls.
+    LeaveFileClip,
+    /// Halts what plays where it is.
     Pause,
     /// Ends the clip and goes to its start.
     Stop,
@@ -131,7 +135,7 @@ pub enum Action {
     Dismiss(usize),
     /// Saves the picture.
     Picture,
-    /// Films the clip that is chosen, or else the present face.
+    /// Films the clip of the file that plays, or the clip that is chosen, or else the present face.
     Film {
         /// Index in [`crate::Model::film_formats`].
         format: usize,

@@ -35,6 +35,7 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, a
     ui.separator();
     if model.clips.is_empty() {
         ui.weak("No clips yet. Record the face's motion, or begin a new clip.");
+        ui.add_space(4.0);
     }
     ScrollArea::vertical().id_salt("clips").auto_shrink(false).show(ui, |ui| {
         for (index, clip) in model.clips.iter().enumerate() {
@@ -55,5 +56,40 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, a
                 actions.push(Action::Play(index));
             }
         }
+        of_file(ui, model, actions);
     });
+}
+
+/// Clips that came with the avatar: a click plays them, another one halts them.
+fn of_file(ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
+    if model.file_clips.is_empty() {
+        return;
+    }
+    if !model.clips.is_empty() {
+        ui.separator();
+    }
+    ui.horizontal(|ui| {
+        ui.weak("In the avatar's file");
+        if model.file_playback.is_some() && icon_button(ui, Icon::Stop, "Back to the sliders").clicked() {
+            actions.push(Action::LeaveFileClip);
+        }
+    });
+    for (index, clip) in model.file_clips.iter().enumerate() {
+        let here = model.file_playback.filter(|playback| playback.clip == index);
+        let playing = here.is_some_and(|playback| playback.playing);
+        let name = RichText::new(clip.name);
+        let name = if playing { name.strong() } else { name };
+        let right = match here {
+            Some(playback) => format!("{:.2} of {:.2} s", playback.time_secs, clip.duration_secs),
+            None => format!("{:.2} s", clip.duration_secs),
+        };
+        let row = Button::selectable(here.is_some(), name).right_text(RichText::new(right).weak());
+        let response = ui.add(row.min_size(egui::vec2(ui.available_width(), 0.0)));
+        crate::widgets::named(&response, || {
+            format!("clip {} of the file{}", clip.name, if playing { ", playing" } else { "" })
+        });
+        if response.clicked() {
+            actions.push(if playing { Action::Pause } else { Action::PlayFileClip(index) });
+        }
+    }
 }

@@ -72,7 +72,9 @@ mod widgets;
 pub use action::Action;
 /// The version of egui that the interface speaks.
 pub use egui;
-pub use model::{FilmProgress, KeyRow, Loading, Message, Model, Playback, Severity, Stats};
+pub use model::{
+    FileClip, FilePlayback, FilmProgress, KeyRow, Loading, Message, Model, Playback, Severity, Stats,
+};
 pub use panel::Panel;
 pub use pose_form::PoseForm;
 pub use state::{PanelState, Tab, Theme};

@@ -29,6 +29,10 @@ pub struct Model<'a> {
     pub clips_changed: bool,
     /// What plays.
     pub playback: Playback,
+    /// Clips of joints and shapes that the avatar's file brings along: they play, and cannot be edited.
+    pub file_clips: &'a [FileClip<'a>],
+    /// Which of them plays or is paused, by its index in [`Model::file_clips`].
+    pub file_playback: Option<FilePlayback>,
 
     /// All keys of the program in the order of their groups, for the help.
     pub keys: &'a [KeyRow<'a>],
@@ -74,6 +78,8 @@ impl<'a> Model<'a> {
                 recording_secs: None,
                 frame_rate: 60.0,
             },
+            file_clips: &[],
+            file_playback: None,
             keys: &[],
             reserved_keys: &[],
             messages: &[],
@@ -107,6 +113,26 @@ impl Default for Playback {
     fn default() -> Self {
         Self { clip: None, time_secs: 0.0, playing: false, recording_secs: None, frame_rate: 60.0 }
     }
+}
+
+/// A clip that the avatar's file brings along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FileClip<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// How long it is.
+    pub duration_secs: f64,
+}
+
+/// Which clip of the file moves the face, and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilePlayback {
+    /// Its index in [`Model::file_clips`].
+    pub clip: usize,
+    /// Seconds from its start.
+    pub time_secs: f64,
+    /// Whether time passes.
+    pub playing: bool,
 }
 
 /// A key of the program.

@@ -2,7 +2,7 @@
 
 mod support;
 
-use avatar_panel::{Action, Tab};
+use avatar_panel::{Action, FileClip, FilePlayback, Tab};
 use egui::{Key, Modifiers, Pos2, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pose_anim::{Easing, Transition, Wrap};
@@ -60,6 +60,32 @@ fn a_clip_plays_pauses_stops_and_repeats() {
     let wrap = Action::SetWrap { clip: 0, wrap: Wrap::Loop };
     assert_eq!(window.state().log, [Action::Play(0), Action::Pause, Action::Stop, wrap]);
     assert!(window.query_by_label("What follows the end: Loop").is_some());
+}
+
+#[test]
+fn clips_of_the_file_play_halt_and_are_left() {
+    let mut world = World::new().nodding();
+    world.file_clips =
+        vec![FileClip { name: "Dance", duration_secs: 3.0 }, FileClip { name: "Wave", duration_secs: 1.5 }];
+    let mut window = window(world);
+    assert!(window.query_by_label("Back to the sliders").is_none());
+    click(&mut window, "clip Wave of the file");
+    window.state_mut().file_playback = Some(FilePlayback { clip: 1, time_secs: 0.25, playing: true });
+    window.run_steps(2);
+    click(&mut window, "clip Wave of the file, playing");
+    window.state_mut().file_playback = Some(FilePlayback { clip: 1, time_secs: 0.5, playing: false });
+    window.run_steps(2);
+    click(&mut window, "clip Wave of the file");
+    click(&mut window, "clip Dance of the file");
+    click(&mut window, "Back to the sliders");
+    let expected = [
+        Action::PlayFileClip(1),
+        Action::Pause,
+        Action::PlayFileClip(1),
+        Action::PlayFileClip(0),
+        Action::LeaveFileClip,
+    ];
+    assert_eq!(window.state().log, expected);
 }
 
 #[test]

@@ -101,6 +101,12 @@ impl FaceChoice {
         Self { values, ..Self::default() }
     }
 
+    /// A clip of a file at a time, only to be described.
+    pub(crate) fn of_clip(pack: &Pack, clip: &str, time_secs: f64) -> Self {
+        let start = vec![format!("clip={clip}"), format!("time={time_secs}")];
+        Self { start, ..Self::of_values(pack.controls.defaults()) }
+    }
+
     /// The same, with what a clip of a file sets.
     pub(crate) fn with_motion(self, set: MotionAt) -> Self {
         Self { locals: set.locals, weights: set.weights, ..self }

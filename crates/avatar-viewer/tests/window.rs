@@ -86,3 +86,29 @@ fn a_real_face_is_posed_by_keys() {
     desk.close_button();
     desk.closes();
 }
+
+#[test]
+fn clips_of_a_file_play_and_a_pose_ends_them() {
+    if !can_run() {
+        return;
+    }
+    let pack = common::copy_of_golden_pack();
+    let pose = "[[pose]]\nname = 'turn'\n[pose.controls]\n'head.turn' = 30\nsmile = 1\n";
+    std::fs::write(pack.path().join("poses.toml"), pose).expect("written");
+    let file = pack.path().join("face.glb");
+    let file = file.to_str().expect("a plain path");
+    // Poses of a pack are clips of its GLB that last no time.
+    common::run(&["convert", pack.path().to_str().expect("a plain path"), "--out", file]).ok();
+    let options = [file, "--size", "320x240", "--quality", "plain"];
+    let mut desk = Desk::open(&options);
+    let at_rest = render(&options);
+    desk.shows(&at_rest, "at first");
+    desk.key("space");
+    let first = render(&[&options[..], &["--clip", "turn"]].concat());
+    assert_ne!(difference(&first, &at_rest), Some(0), "the clip shows");
+    desk.shows(&first, "the first clip");
+    desk.key("BackSpace");
+    desk.shows(&at_rest, "its controls' face");
+    desk.key("Escape");
+    desk.closes();
+}

@@ -112,7 +112,7 @@ fn without_hair_of_its_own_a_pack_begins_with_the_option_or_none() {
     fs::write(pack.path().join("poses.toml"), pose).expect("written");
     let mut desk = Desk::open(&options);
     desk.shows(&of("off"), "at first");
-    let warning = "warning: pose hello: expected a free key, found h, which means: other hair";
+    let warning = "warning: pose hello: expected a free key, found Shift+h, which means: the hair before";
     assert!(desk.told().contains(warning), "{}", desk.told());
     desk.key("h");
     desk.shows(&of("short"), "the first preset, as many as the option says");

@@ -9,7 +9,7 @@ mod sliders;
 #[cfg(feature = "vrm")]
 mod vrm;
 
-pub use motion::{MotionAt, MotionError, SceneMotion};
+pub use motion::{MotionAt, MotionError, MotionSampler, SceneMotion};
 pub(crate) use names::face_control;
 pub use names::{Role, ShapeSet};
 pub use sliders::Sliders;

@@ -1,4 +1,4 @@
-use avatar_exchange::Scene;
+use avatar_exchange::{Scene, ScenePose};
 use glam::{Affine3A, DAffine3};
 use rig_core::JointId;
 
@@ -28,6 +28,14 @@ pub struct MotionAt {
     pub locals: Vec<(JointId, Affine3A)>,
     /// Weights of shapes.
     pub weights: Vec<(usize, f32)>,
+}
+
+/// A clip of a file that is being played; made by [`SceneMotion::sampler`].
+#[derive(Clone, Debug)]
+pub struct MotionSampler {
+    clip: usize,
+    pose: ScenePose,
+    at: MotionAt,
 }
 
 impl SceneMotion {
@@ -69,9 +77,30 @@ impl SceneMotion {
     /// # Errors
     /// A clip that there is not.
     pub fn at(&self, clip: &str, time_secs: f32) -> Result<MotionAt, MotionError> {
-        let index = self.find(clip)?;
-        let Ok(pose) = self.scene.at(index, time_secs) else { return Err(self.missing(clip)) };
-        let mut at = MotionAt::default();
+        let mut sampler = self.sampler(self.find(clip)?)?;
+        self.sample(&mut sampler, time_secs);
+        Ok(sampler.at)
+    }
+
+    /// What a clip is played with: asked for again and again, it allocates nothing after the first time.
+    ///
+    /// # Errors
+    /// A clip that there is not, by its place in [`SceneMotion::clips`].
+    pub fn sampler(&self, clip: usize) -> Result<MotionSampler, MotionError> {
+        match self.scene.clips.get(clip) {
+            Some(_) => Ok(MotionSampler { clip, pose: self.scene.rest(), at: MotionAt::default() }),
+            None => Err(self.missing(&format!("number {clip}"))),
+        }
+    }
+
+    /// What the sampler's clip sets at a time in seconds. A sampler of another avatar gives nothing.
+    pub fn sample<'a>(&self, sampler: &'a mut MotionSampler, time_secs: f32) -> &'a MotionAt {
+        let MotionSampler { clip, pose, at } = sampler;
+        at.locals.clear();
+        at.weights.clear();
+        if self.scene.apply(*clip, time_secs, pose).is_err() {
+            return at;
+        }
         for (node, local) in pose.locals.iter().enumerate() {
             if *local != self.scene.nodes[node].local {
                 let moved = self.node_from_parent[node] * local.affine();
@@ -86,7 +115,7 @@ impl SceneMotion {
                 .filter(|(k, weight)| self.scene.nodes[node].weights.get(*k) != Some(*weight));
             at.weights.extend(moved.map(|(k, weight)| (self.first_shape[node] + k, *weight)));
         }
-        Ok(at)
+        at
     }
 
     fn find(&self, clip: &str) -> Result<usize, MotionError> {

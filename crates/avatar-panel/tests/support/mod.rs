@@ -5,7 +5,8 @@
 pub(crate) mod canvas;
 
 use avatar_panel::{
-    Action, FilmProgress, KeyRow, Loading, Message, Model, Panel, PanelState, Playback, PoseForm, Stats, Tab,
+    Action, FileClip, FilePlayback, FilmProgress, KeyRow, Loading, Message, Model, Panel, PanelState,
+    Playback, PoseForm, Stats, Tab,
 };
 use egui::{Rect, UiBuilder, Vec2};
 use egui_kittest::Harness;
@@ -26,6 +27,8 @@ pub(crate) struct World {
     pub(crate) redo: Option<&'static str>,
     pub(crate) clips: Vec<Clip>,
     pub(crate) playback: Playback,
+    pub(crate) file_clips: Vec<FileClip<'static>>,
+    pub(crate) file_playback: Option<FilePlayback>,
     pub(crate) keys: Vec<KeyRow<'static>>,
     pub(crate) messages: Vec<Message<'static>>,
     pub(crate) loading: Option<Loading<'static>>,
@@ -54,6 +57,8 @@ impl World {
             redo: None,
             clips: Vec::new(),
             playback: Playback { frame_rate: 50.0, ..Playback::default() },
+            file_clips: Vec::new(),
+            file_playback: None,
             keys: vec![
                 KeyRow { key: "F1, ?", meaning: "this help", group: "Window" },
                 KeyRow { key: "F11", meaning: "full screen", group: "Window" },
@@ -107,6 +112,8 @@ impl World {
             clips: &self.clips,
             clips_changed: true,
             playback: self.playback,
+            file_clips: &self.file_clips,
+            file_playback: self.file_playback,
             keys: &self.keys,
             reserved_keys: &["F1"],
             messages: &self.messages,

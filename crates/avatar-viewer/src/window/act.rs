@@ -4,7 +4,6 @@ use super::App;
 use super::keys::Action as KeyAction;
 use super::messages::About;
 use super::shot::Shot;
-use crate::face_args::FaceChoice;
 use crate::film;
 use crate::output::OutputFile;
 use anyhow::Result;
@@ -29,11 +28,17 @@ impl App {
             KeyAction::Hair { backward } => self.next_hair(backward),
             KeyAction::Gaze => self.toggle_gaze(),
             KeyAction::Play => {
-                if self.face.playback.playing {
-                    self.act(event_loop, Action::Pause);
-                } else {
-                    self.play(self.face.playback.clip.unwrap_or(0));
-                }
+                let face = &self.face;
+                let motion = face.motion.as_ref().filter(|motion| motion.is_wanted());
+                let plays = face.playback.playing || motion.is_some_and(|motion| motion.playing);
+                let of_file = motion.map(|motion| motion.clip);
+                let of_file = of_file.or(face.pack.clips.clips.is_empty().then_some(0));
+                let action = match of_file {
+                    _ if plays => Action::Pause,
+                    Some(clip) => Action::PlayFileClip(clip),
+                    None => Action::Play(face.playback.clip.unwrap_or(0)),
+                };
+                self.act(event_loop, action);
             }
             KeyAction::Record => {
                 let is_running = self.face.recorded_secs().is_some();
@@ -77,6 +82,11 @@ impl App {
             Action::Hover(control) => self.pointing.hovered = control,
             Action::GoTo(pose) => self.face.go_to(pose),
             Action::Play(clip) => self.play(clip),
+            Action::PlayFileClip(clip) => {
+                let done = self.face.play_file_clip(clip);
+                self.report(About::Clips, "The clip does not play.", done);
+            }
+            Action::LeaveFileClip => self.face.leave_file_clip(),
             Action::Pause => self.face.pause(),
             Action::Stop => {
                 self.face.pause();
@@ -201,8 +211,7 @@ impl App {
         let picture = stage.picture(&shot, width, height)?;
         let stem = self.face.active_pose.and_then(|pose| pack.poses.poses.get(pose));
         let path = free_name(stem.map_or("face", |pose| pose.name.as_str()), "png")?;
-        let values = self.face.player.values().to_vec();
-        film::still(&OutputFile::check(&path)?, &picture, &FaceChoice::of_values(values).describe(pack))?;
+        film::still(&OutputFile::check(&path)?, &picture, &self.face.choice().describe(pack))?;
         Ok(path)
     }
 }

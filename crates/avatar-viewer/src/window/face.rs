@@ -1,3 +1,4 @@
+use super::motion::Motion;
 use super::playing::{RECORDED_PER_SEC, Recording};
 use crate::face_args::FaceChoice;
 use crate::files::Files;
@@ -26,6 +27,10 @@ pub(super) struct Face {
     pub(super) clips: ClipBook,
     pub(super) store: Store,
     pub(super) playback: Playback,
+    /// A clip of the file that moves the face.
+    pub(super) motion: Option<Motion>,
+    /// Names and lengths in seconds of the file's clips.
+    pub(super) file_clips: Vec<(String, f64)>,
     pub(super) recording: Option<Recording>,
     /// Which book was changed last, for undo.
     pub(super) last: Book,
@@ -60,6 +65,13 @@ impl Face {
         let store = Store::of(&files);
         let poses = PoseBook::of_set(&pack.poses, &pack.controls)?;
         let clips = ClipBook::of_set(&pack.clips, &pack.controls)?;
+        let file_clips = pack.motion.as_ref().map_or_else(Vec::new, |motion| {
+            let named = |name: String| {
+                let secs = motion.duration_secs(&name).map_or(0.0, f64::from);
+                (name, secs)
+            };
+            motion.clips().into_iter().map(named).collect()
+        });
         let mut face = Self {
             player,
             state: FaceState::new(&pack),
@@ -70,6 +82,8 @@ impl Face {
             clips,
             store,
             playback: Playback::default(),
+            motion: None,
+            file_clips,
             recording: None,
             last: Book::Poses,
             files,
@@ -90,6 +104,7 @@ impl Face {
     pub(super) fn advance(&mut self, secs: f64) {
         // Elapsed times are neither negative nor NaN, the only errors there are.
         let _ = self.player.advance(secs);
+        self.advance_motion(secs);
         if self.playback.playing {
             self.playback.time_secs += secs;
             self.goal.copy_from_slice(self.player.values());
@@ -122,20 +137,36 @@ impl Face {
 
     /// Whether frames have to follow each other.
     pub(super) fn moves(&self) -> bool {
-        !self.player.is_at_rest() || self.playback.playing || self.recording.is_some()
+        let is_led = self.motion.as_ref().is_some_and(Motion::moves);
+        !self.player.is_at_rest() || is_led || self.playback.playing || self.recording.is_some()
     }
 
     /// Brings the state to the present values.
     pub(super) fn pose(&mut self) -> Result<()> {
+        if self.pose_motion()? {
+            return Ok(());
+        }
         match &self.start {
             Some(start) => start.apply(&self.pack, &mut self.state),
             None => Ok(self.state.pose(&self.pack, self.player.values())?),
         }
     }
 
+    /// What is shown, in words of the command line.
+    pub(super) fn choice(&self) -> FaceChoice {
+        match (&self.motion, &self.start) {
+            (Some(motion), _) if motion.is_wanted() => {
+                FaceChoice::of_clip(&self.pack, &motion.name, motion.time_secs)
+            }
+            (_, Some(start)) => start.clone(),
+            _ => FaceChoice::of_values(self.player.values().to_vec()),
+        }
+    }
+
     /// Goes to a pose.
     pub(super) fn press(&mut self, pose: &Pose) {
         self.start = None;
+        self.leave_file_clip();
         self.playback.playing = false;
         self.active_pose = None;
         for &(control, value) in &pose.values {

@@ -174,7 +174,10 @@ impl App {
         let Some(stage) = &self.stage else { bail!("expected a window, found none") };
         let (width, height) = stage.size();
         let size = Size { width: width.min(LARGEST_SIDE), height: height.min(LARGEST_SIDE) };
-        let clip = clip.and_then(|clip| self.face.pack.clips.clips.get(clip)).map(|clip| clip.name.clone());
+        let of_file = self.face.motion.as_ref().filter(|motion| motion.is_wanted());
+        let of_file = of_file.map(|motion| motion.name.clone());
+        let chosen = clip.and_then(|clip| self.face.pack.clips.clips.get(clip));
+        let clip = of_file.or(chosen.map(|clip| clip.name.clone()));
         let stem = clip.clone().unwrap_or_else(|| "around".to_owned());
         let subject = Subject {
             pack: self.face.pack.clone(),

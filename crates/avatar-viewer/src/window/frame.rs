@@ -8,7 +8,7 @@ use super::shot::Shot;
 use super::stage::Stage;
 use crate::scene::BACKGROUND;
 use anyhow::Result;
-use avatar_panel::{KeyRow, Model, Playback, Stats, Theme};
+use avatar_panel::{FileClip, FilePlayback, KeyRow, Model, Playback, Stats, Theme};
 use pose_anim::Pose;
 use std::time::{Duration, Instant};
 use winit::event_loop::ActiveEventLoop;
@@ -180,6 +180,10 @@ impl App {
             .collect();
         let loading = self.loading.as_ref().map(|loading| loading.path.display().to_string());
         let loading = self.loading.as_ref().zip(loading.as_deref());
+        let file_clips = face.file_clips.iter();
+        let file_clips: Vec<_> =
+            file_clips.map(|(name, secs)| FileClip { name, duration_secs: *secs }).collect();
+        let motion = face.motion.as_ref().filter(|motion| motion.is_wanted());
         let model = Model {
             values: &face.goal,
             highlighted: &self.pointing.highlighted,
@@ -201,6 +205,12 @@ impl App {
                 recording_secs: face.recorded_secs(),
                 frame_rate: FRAME_RATE,
             },
+            file_clips: &file_clips,
+            file_playback: motion.map(|motion| FilePlayback {
+                clip: motion.clip,
+                time_secs: motion.time_secs,
+                playing: motion.playing,
+            }),
             keys: &rows,
             reserved_keys: &reserved,
             messages: &messages,

@@ -18,6 +18,7 @@ mod key_name;
 pub(crate) mod keys;
 mod loading;
 mod messages;
+mod motion;
 mod overlay;
 mod playing;
 mod point;

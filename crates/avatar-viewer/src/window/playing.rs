@@ -38,6 +38,7 @@ impl Face {
             (f64::from(here) - track.at(0.0).value).abs() < 1e-3
         });
         self.start = None;
+        self.leave_file_clip();
         self.active_pose = None;
         self.player.play(&Arc::new(rest), is_there.then_some(0.0));
         self.playback = Playback { clip: Some(index), time_secs: from_secs, playing: true };
@@ -46,6 +47,9 @@ impl Face {
 
     /// Halts what plays.
     pub(super) fn pause(&mut self) {
+        if let Some(motion) = &mut self.motion {
+            motion.playing = false;
+        }
         if self.playback.playing {
             self.playback.playing = false;
             self.player.stop();

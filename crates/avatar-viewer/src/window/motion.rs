@@ -1,0 +1,95 @@
+//! A clip that the avatar's file brings along, while it plays: it moves joints and shapes themselves, over what the controls say.
+
+use super::face::Face;
+use anyhow::Result;
+use avatar_pack::MotionSampler;
+
+/// Seconds in which the face is led into a clip, and out of it.
+const LEAD_SECS: f32 = 0.3;
+
+/// A clip that comes, plays, is paused or goes.
+pub(super) struct Motion {
+    pub(super) clip: usize,
+    pub(super) name: String,
+    /// Seconds from its start.
+    pub(super) time_secs: f64,
+    pub(super) playing: bool,
+    duration_secs: f64,
+    /// How much of the face is the clip's; the rest is the controls'.
+    share: f32,
+    leaving: bool,
+    sampler: MotionSampler,
+}
+
+impl Motion {
+    /// Whether frames have to follow each other. Clips of a single face stand still once they are there.
+    pub(super) fn moves(&self) -> bool {
+        self.leaving || self.share < 1.0 || (self.playing && self.duration_secs > 0.0)
+    }
+
+    /// Whether it is what the user wants to see.
+    pub(super) fn is_wanted(&self) -> bool {
+        !self.leaving
+    }
+
+    /// Lets time pass; whether there is anything left of it.
+    fn advance(&mut self, secs: f64) -> bool {
+        let step = secs as f32 / LEAD_SECS;
+        self.share = if self.leaving { self.share - step } else { self.share + step }.clamp(0.0, 1.0);
+        if self.playing && self.duration_secs > 0.0 {
+            self.time_secs = (self.time_secs + secs).rem_euclid(self.duration_secs);
+        }
+        !self.leaving || self.share > 0.0
+    }
+}
+
+impl Face {
+    /// Plays a clip of the file: from where it was paused, or else from its start, over and over.
+    pub(super) fn play_file_clip(&mut self, clip: usize) -> Result<()> {
+        let Some(scene) = &self.pack.motion else { return Ok(()) };
+        self.playback.playing = false;
+        self.player.stop();
+        self.goal.copy_from_slice(self.player.values());
+        self.start = None;
+        self.active_pose = None;
+        if let Some(motion) = self.motion.as_mut().filter(|motion| motion.clip == clip) {
+            (motion.playing, motion.leaving) = (true, false);
+            return Ok(());
+        }
+        let sampler = scene.sampler(clip)?;
+        let name = scene.clips().get(clip).cloned().unwrap_or_default();
+        let duration_secs = f64::from(scene.duration_secs(&name)?);
+        self.motion = Some(Motion {
+            clip,
+            name,
+            time_secs: 0.0,
+            playing: true,
+            duration_secs,
+            share: 0.0,
+            leaving: false,
+            sampler,
+        });
+        Ok(())
+    }
+
+    /// Leads the face back to what its controls say.
+    pub(super) fn leave_file_clip(&mut self) {
+        if let Some(motion) = &mut self.motion {
+            motion.leaving = true;
+        }
+    }
+
+    pub(super) fn advance_motion(&mut self, secs: f64) {
+        self.motion.take_if(|motion| !motion.advance(secs));
+    }
+
+    /// Brings the state to the present values, and from there towards the clip; whether there is one.
+    pub(super) fn pose_motion(&mut self) -> Result<bool> {
+        let (Some(motion), Some(scene)) = (&mut self.motion, &self.pack.motion) else { return Ok(false) };
+        // Slow at both ends, as transitions are.
+        let share = motion.share * motion.share * (3.0 - 2.0 * motion.share);
+        let at = scene.sample(&mut motion.sampler, motion.time_secs as f32);
+        self.state.pose_toward(&self.pack, self.player.values(), at, share)?;
+        Ok(true)
+    }
+}
