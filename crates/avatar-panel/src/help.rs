@@ -4,7 +4,7 @@ use crate::{KeyRow, style};
 use egui::{Context, Frame, Id, Key, Modal, Modifiers, RichText, ScrollArea, Ui};
 
 /// Least width of a column in points.
-const COLUMN: f32 = 250.0;
+const COLUMN: f32 = 290.0;
 
 /// Opens and closes the help by its keys. They are consumed: nothing else sees them.
 pub(crate) fn listen(ctx: &Context, open: &mut bool) {
@@ -93,7 +93,7 @@ fn table(ui: &mut Ui, group: &[KeyRow<'_>]) {
     for row in group {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 8.0;
-            let width = 0.36 * ui.available_width();
+            let width = 0.42 * ui.available_width();
             ui.allocate_ui_with_layout(
                 egui::vec2(width, ui.spacing().interact_size.y),
                 egui::Layout::left_to_right(egui::Align::Center),

@@ -4,7 +4,7 @@ use crate::pose_cards;
 use crate::pose_form::{OpenForm, Outcome};
 use crate::widgets::{Icon, icon_button_if, named};
 use crate::{Action, Model, PoseForm};
-use egui::{Button, Ui};
+use egui::{Button, Label, RichText, Ui};
 
 /// What the list of poses has in mind.
 #[derive(Clone, Debug, Default)]
@@ -81,8 +81,9 @@ impl Poses {
         let Some(pose) = model.poses.poses.get(index) else { return };
         let name = &pose.name;
         let can = model.can_save.is_ok();
+        // On a line of its own: a long name would tear the tools apart.
+        ui.add(Label::new(RichText::new(name).strong()).truncate());
         ui.horizontal_wrapped(|ui| {
-            ui.strong(name);
             let tool = |ui: &mut Ui, text: &str, what: &str| {
                 let response = ui.add_enabled(can, Button::new(text)).on_hover_text(what);
                 named(&response, || format!("{text} {name}"));

@@ -112,3 +112,28 @@ fn clips_of_a_file_play_and_a_pose_ends_them() {
     desk.key("Escape");
     desk.closes();
 }
+
+#[test]
+fn a_window_that_was_hidden_or_had_no_room_shows_its_face_again() {
+    if !can_run() {
+        return;
+    }
+    let size = ["--size", "320x240", "--quality", "plain"];
+    let mut desk = Desk::open(&size);
+    desk.shows(&render(&size), "at first");
+    let window = desk.window.to_string();
+    // Without a window manager, hiding is what minimising is.
+    desk.do_xdotool(&["windowunmap", "--sync", &window]);
+    std::thread::sleep(Duration::from_millis(300));
+    desk.do_xdotool(&["windowmap", "--sync", &window]);
+    desk.do_xdotool(&["windowfocus", "--sync", &window]);
+    desk.key(&key_of("smile"));
+    desk.shows(&render(&[&size[..], &["--pose", "smile"]].concat()), "after it was hidden");
+    desk.do_xdotool(&["windowsize", &window, "1", "1"]);
+    std::thread::sleep(Duration::from_millis(300));
+    desk.do_xdotool(&["windowsize", &window, "240", "320"]);
+    let small = ["--size", "240x320", "--quality", "plain", "--pose", "smile"];
+    desk.shows(&render(&small), "after it had no room");
+    desk.key("Escape");
+    desk.closes();
+}

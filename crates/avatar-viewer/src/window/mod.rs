@@ -247,7 +247,7 @@ impl ApplicationHandler<Wake> for App {
             WindowEvent::RedrawRequested => {
                 let drawn = self.frame(event_loop);
                 // A device may be lost in the middle of a frame; the next one finds out.
-                if drawn.is_err() && self.stage.as_ref().is_some_and(Stage::is_lost) {
+                if drawn.is_err() && self.stage.as_ref().is_some_and(Stage::is_found_lost) {
                     self.redraw();
                 } else if let Err(error) = drawn {
                     self.fail(event_loop, error);
@@ -289,10 +289,8 @@ impl App {
     /// Everything on the device is gone: the same face on another one.
     fn reopen(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         let Some(window) = self.stage.take().map(Stage::into_window) else { return Ok(()) };
-        if let Some(overlay) = &self.overlay {
-            let state = overlay.panel.state();
-            self.overlay = None;
-            self.overlay = Some(Overlay::new(event_loop, &window, self.proxy.clone(), state));
+        if let Some(overlay) = &mut self.overlay {
+            overlay.forget_device();
         }
         self.frames.forget_miniatures();
         self.open_stage(event_loop, window).context("the graphics device was lost")?;

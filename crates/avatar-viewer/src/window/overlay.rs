@@ -54,6 +54,15 @@ impl Overlay {
         }
     }
 
+    /// Forgets the device that it was drawn with: the next frame goes to another one, with the letters that egui believes to be there.
+    pub(super) fn forget_device(&mut self) {
+        self.renderer = None;
+        self.textures.clear();
+        let letters = self.ctx.fonts(|fonts| fonts.image());
+        let letters = egui::epaint::ImageDelta::full(letters, egui::TextureOptions::LINEAR);
+        self.textures.push(egui::TextureId::default(), letters);
+    }
+
     pub(super) fn event(&mut self, window: &Window, event: &WindowEvent) -> EventResponse {
         self.input.on_window_event(window, event)
     }

@@ -181,6 +181,13 @@ impl Stage {
         self.gpu.errors.is_lost()
     }
 
+    /// As [`Stage::is_lost`], once something has failed: some losses are only told of when somebody asks the device.
+    pub(super) fn is_found_lost(&self) -> bool {
+        // What the question itself fails with is that loss.
+        let _ = self.gpu.device.poll(wgpu::PollType::Poll);
+        self.is_lost()
+    }
+
     /// Size of what is drawn on, in pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         (self.config.width, self.config.height)
