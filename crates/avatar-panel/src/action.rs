@@ -127,6 +127,14 @@ pub enum Action {
     /// Writes the clips to their file.
     SaveClips,
 
+    /// Lets the eyes follow the pointer, or no longer.
+    Gaze,
+    /// Gives the face other hair.
+    Hair {
+        /// The one before, instead of the next.
+        backward: bool,
+    },
+
     /// Asks for a file and opens it.
     OpenFile,
     /// Opens a file again.

@@ -7,15 +7,22 @@ use egui::{Context, Frame, Id, Key, Modal, Modifiers, RichText, ScrollArea, Ui};
 const COLUMN: f32 = 290.0;
 
 /// Opens and closes the help by its keys. They are consumed: nothing else sees them.
-pub(crate) fn listen(ctx: &Context, open: &mut bool) {
+pub(crate) fn listen(ctx: &Context, open: &mut bool, own: &[Option<Key>; 2]) {
     let typing = ctx.text_edit_focused();
     let pressed = |key: Key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-    let asked = pressed(Key::F1) || (!typing && (pressed(Key::Questionmark) || asked_by_text(ctx)));
+    let is_own = |key: Key| own.contains(&Some(key));
+    let asked = (is_own(Key::F1) && pressed(Key::F1))
+        || (is_own(Key::Questionmark) && !typing && (pressed(Key::Questionmark) || asked_by_text(ctx)));
     if asked {
         *open = !*open;
     } else if *open && pressed(Key::Escape) {
         *open = false;
     }
+}
+
+/// Those keys of the help that are heard here.
+pub(crate) fn own_keys(names: &[&str]) -> [Option<Key>; 2] {
+    [("F1", Key::F1), ("?", Key::Questionmark)].map(|(name, key)| names.contains(&name).then_some(key))
 }
 
 /// On many keyboards the question mark is a character only.
@@ -26,7 +33,7 @@ fn asked_by_text(ctx: &Context) -> bool {
     })
 }
 
-pub(crate) fn show(ctx: &Context, keys: &[KeyRow<'_>], open: &mut bool) {
+pub(crate) fn show(ctx: &Context, keys: &[KeyRow<'_>], help_keys: &[&str], open: &mut bool) {
     let window = ctx.content_rect();
     let modal =
         Modal::new(Id::unique("avatar-panel help")).frame(Frame::popup(&ctx.global_style()).inner_margin(14));
@@ -41,7 +48,8 @@ pub(crate) fn show(ctx: &Context, keys: &[KeyRow<'_>], open: &mut bool) {
                 if ui.button("Close help").clicked() {
                     *open = false;
                 }
-                ui.weak("F1, ? or Escape");
+                let others = help_keys.join(", ");
+                ui.weak(if others.is_empty() { "Escape".to_owned() } else { format!("{others} or Escape") });
             });
         });
         ui.separator();

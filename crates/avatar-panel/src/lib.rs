@@ -45,7 +45,7 @@
 //!
 //! - Every frame: fill a model, call [`Panel::show`], carry the actions out in order, draw the face within the returned rectangle.
 //! - The pointer is the panel's while [`egui::Context::egui_wants_pointer_input`], keys are where [`Panel::takes_key`] says so.
-//! - F1, ? and Escape open and close the help by themselves: forward them, and do not call [`Panel::toggle_help`] for them, too.
+//! - F1 and ? (where [`Model::help_keys`] has them) and Escape open and close the help by themselves: forward them, and do not call [`Panel::toggle_help`] for them, too.
 //! - Scaling text scales points: [`egui::Context::pixels_per_point`] follows.
 //! - Everything has a name for screen readers; forward AccessKit's events and trees to have them read.
 

@@ -34,8 +34,15 @@ pub struct Model<'a> {
     /// Which of them plays or is paused, by its index in [`Model::file_clips`].
     pub file_playback: Option<FilePlayback>,
 
+    /// Whether the eyes follow the pointer; `None` where they cannot.
+    pub gaze: Option<bool>,
+    /// What the hair is called that the face has; `None` where there is none to choose.
+    pub hair: Option<&'a str>,
+
     /// All keys of the program in the order of their groups, for the help.
     pub keys: &'a [KeyRow<'a>],
+    /// What opens and closes the help: `F1` and `?` are heard by the panel itself where they are among these, others are the program's.
+    pub help_keys: &'a [&'a str],
     /// Names of keys that no pose can have, because the program uses them.
     pub reserved_keys: &'a [&'a str],
     /// Errors, warnings and news, the most important first.
@@ -80,7 +87,10 @@ impl<'a> Model<'a> {
             },
             file_clips: &[],
             file_playback: None,
+            gaze: None,
+            hair: None,
             keys: &[],
+            help_keys: &["F1", "?"],
             reserved_keys: &[],
             messages: &[],
             loading: None,

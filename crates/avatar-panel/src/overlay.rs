@@ -84,7 +84,7 @@ fn grouped(number: u64) -> String {
 }
 
 /// The line for those who are here for the first time. Where there is no room for it, it waits.
-pub(crate) fn hint(ctx: &Context, free: Rect, state: &mut PanelState) {
+pub(crate) fn hint(ctx: &Context, free: Rect, help_keys: &[&str], state: &mut PanelState) {
     if free.width() < 180.0 || free.height() < 120.0 {
         return;
     }
@@ -94,7 +94,8 @@ pub(crate) fn hint(ctx: &Context, free: Rect, state: &mut PanelState) {
         ui.set_max_width((free.width() - 20.0).max(100.0));
         style::float_frame(ui).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                ui.label("F1 help · drag turns the camera, the wheel zooms · the sliders move the face");
+                let help = help_keys.first().map_or_else(String::new, |key| format!("{key} help · "));
+                ui.label(format!("{help}drag turns the camera, the wheel zooms · the sliders move the face"));
                 if ui.button("Got it").clicked() {
                     state.seen_hint = true;
                 }

@@ -19,6 +19,8 @@ pub struct Panel {
     /// Theme and scale that the context has been told.
     applied: Option<(Theme, f32)>,
     scaling: bool,
+    /// Which keys of the help are heard here.
+    help_keys: [Option<Key>; 2],
 }
 
 /// Share of the window's width that the panel may cover, and of its height the timeline.
@@ -30,7 +32,7 @@ const LOWEST: f32 = 260.0;
 impl Panel {
     /// A panel as it was left.
     pub fn new(state: PanelState) -> Self {
-        Self { state: state.sound(), ..Self::default() }
+        Self { state: state.sound(), help_keys: [Some(Key::F1), Some(Key::Questionmark)], ..Self::default() }
     }
 
     /// What is to be remembered.
@@ -38,8 +40,8 @@ impl Panel {
         self.state.clone()
     }
 
-    /// Opens or closes the help. The keys F1, ? and Escape are seen by [`Self::show`] itself: a window that forwards its keys to egui must
-    /// not call this for them, too.
+    /// Opens or closes the help. Escape, and F1 and ? where [`Model::help_keys`] has them, are seen by [`Self::show`] itself:
+    /// a window that forwards its keys to egui must not call this for them, too.
     pub fn toggle_help(&mut self) {
         self.help = !self.help;
     }
@@ -65,7 +67,7 @@ impl Panel {
             Key::Escape,
         ];
         let focused = ctx.egui_wants_keyboard_input();
-        let own = [Key::F1, Key::Questionmark, Key::Tab].contains(&key);
+        let own = key == Key::Tab || self.help_keys.contains(&Some(key));
         self.help || ctx.text_edit_focused() || own || (focused && moves.contains(&key))
     }
 
@@ -74,7 +76,8 @@ impl Panel {
     pub fn show(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) -> Rect {
         let ctx = ui.ctx().clone();
         self.prepare(&ctx);
-        help::listen(&ctx, &mut self.help);
+        self.help_keys = help::own_keys(model.help_keys);
+        help::listen(&ctx, &mut self.help, &self.help_keys);
         notices::show(ui, model, actions);
         if self.state.folded {
             self.face.hover(None, actions);
@@ -87,14 +90,15 @@ impl Panel {
             self.opener(&ctx, free);
         }
         // The hint goes first where both have no room.
-        if self.state.show_stats && (self.state.seen_hint || free.width() > 500.0) {
+        let least = if self.state.seen_hint { 200.0 } else { 500.0 };
+        if self.state.show_stats && free.width() > least {
             overlay::stats(&ctx, free, &model.stats);
         }
         if !self.state.seen_hint {
-            overlay::hint(&ctx, free, &mut self.state);
+            overlay::hint(&ctx, free, model.help_keys, &mut self.state);
         }
         if self.help {
-            help::show(&ctx, model.keys, &mut self.help);
+            help::show(&ctx, model.keys, model.help_keys, &mut self.help);
         }
         self.remember(actions);
         free
@@ -132,6 +136,7 @@ impl Panel {
 
     fn show_timeline(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
         if self.timeline.refresh(model).is_none() || self.state.tab != Tab::Clips {
+            ui.skip_ahead_auto_ids(1);
             return;
         }
         let folded = &mut self.state.timeline_folded;

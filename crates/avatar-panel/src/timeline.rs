@@ -23,6 +23,8 @@ pub(crate) struct Timeline {
     pub(crate) held: Option<(usize, usize, f64)>,
     /// Transition functions by name, made once.
     pub(crate) easings: Vec<(String, Easing)>,
+    /// The clip that played or was made last: it is shown once it changes.
+    followed: Option<usize>,
     /// Time at the left edge.
     start_secs: f64,
     /// How much closer than the whole clip.
@@ -61,6 +63,8 @@ impl Scale {
 /// Width of the names of the rows.
 const NAMES: f32 = 110.0;
 const RULER: f32 = 20.0;
+/// Room for the text of a tick.
+const LABEL: f32 = 28.0;
 const ROW: f32 = 26.0;
 const MAX_ZOOM: f64 = 200.0;
 
@@ -68,8 +72,13 @@ impl Timeline {
     /// Drops what the clips no longer have; `None` where there is nothing to show.
     pub(crate) fn refresh<'a>(&mut self, model: &Model<'a>) -> Option<(usize, &'a Clip)> {
         let last = model.clips.len().checked_sub(1)?;
-        let index = self.clip.or(model.playback.clip).unwrap_or(0).min(last);
-        if self.clip != Some(index) {
+        let before = self.clip;
+        if self.followed != model.playback.clip {
+            self.followed = model.playback.clip;
+            self.clip = self.followed.or(self.clip);
+        }
+        let index = self.clip.unwrap_or(0).min(last);
+        if before != Some(index) {
             (self.clip, self.control, self.key, self.held) = (Some(index), None, None, None);
         }
         let clip = &model.clips[index];
@@ -214,14 +223,13 @@ fn paint_ruler(ui: &Ui, rect: Rect, scale: &Scale, playhead_secs: f64, focused: 
         let x = scale.x_of(secs);
         if rect.x_range().contains(x) {
             painter.vline(x, rect.bottom() - 5.0..=rect.bottom(), Stroke::new(1.0, weak));
+            // The last one stands before its line.
+            let (align, x) = match rect.right() - x < LABEL {
+                true => (Align2::RIGHT_TOP, x - 3.0),
+                false => (Align2::LEFT_TOP, x + 3.0),
+            };
             let text = format!("{secs:.decimals$}");
-            painter.text(
-                pos2(x + 3.0, rect.top() + 2.0),
-                Align2::LEFT_TOP,
-                text,
-                FontId::proportional(11.0),
-                weak,
-            );
+            painter.text(pos2(x, rect.top() + 2.0), align, text, FontId::proportional(11.0), weak);
         }
     }
     let x = scale.x_of(playhead_secs);

@@ -13,6 +13,8 @@ use pose_anim::{Control, Track};
 const CLOSEST: f32 = 3.0;
 /// Points between places where the curve is taken.
 const CURVE_STEP: f32 = 3.0;
+/// Share of a control's range that a row shows at least.
+const LEAST_SHOWN: f64 = 0.1;
 
 #[expect(clippy::too_many_arguments, reason = "one call, and each of them is another thing")]
 pub(crate) fn show(
@@ -74,10 +76,19 @@ fn name(timeline: &mut Timeline, ui: &Ui, rect: Rect, control: &Control, track: 
     }
 }
 
-/// Height of a value in the row: the range of the control fills it.
-fn y_of(control: &Control, rect: Rect, value: f64) -> f32 {
-    let range = f64::from(control.max - control.min);
-    let share = if range > 0.0 { ((value - f64::from(control.min)) / range).clamp(0.0, 1.0) } else { 0.5 };
+/// The values that a row shows from bottom to top: those of its keys, but no less than a part of the control's range, so that a
+/// tremor does not look like a leap.
+fn shown(control: &Control, track: &Track) -> [f64; 2] {
+    let values = track.keys().iter().map(|key| key.value);
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    let least = LEAST_SHOWN * f64::from(control.max - control.min);
+    let missing = (least - (high - low)).max(0.0) / 2.0;
+    [low - missing, high + missing]
+}
+
+/// Height of a value in the row.
+fn y_of([low, high]: [f64; 2], rect: Rect, value: f64) -> f32 {
+    let share = if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
     rect.bottom() - 4.0 - share as f32 * (rect.height() - 8.0)
 }
 
@@ -89,10 +100,11 @@ fn paint(ui: &Ui, rect: Rect, scale: &Scale, control: &Control, track: &Track, c
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let edge = if chosen { Stroke::new(1.0, colors.accent.gamma_multiply(0.6)) } else { Stroke::NONE };
     painter.rect(rect, 3, colors.ground, edge, egui::StrokeKind::Inside);
+    let values = shown(control, track);
     let places = (rect.width() / CURVE_STEP).ceil() as usize;
     let point = |place: usize| {
         let x = (rect.left() + place as f32 * CURVE_STEP).min(rect.right());
-        pos2(x, y_of(control, rect, track.at(scale.secs_at(x)).value))
+        pos2(x, y_of(values, rect, track.at(scale.secs_at(x)).value))
     };
     let curve: Vec<_> = (0..=places).map(point).collect();
     painter.add(Shape::line(curve, Stroke::new(1.0, ui.visuals().weak_text_color())));
@@ -111,6 +123,7 @@ fn keys(
 ) {
     let colors = palette(ui);
     let keys = track.keys();
+    let values = shown(control, track);
     let first = keys.partition_point(|key| scale.x_of(key.time_secs) < rect.left() - 6.0);
     let mut drawn = f32::NEG_INFINITY;
     for (index, key) in keys.iter().enumerate().skip(first) {
@@ -125,7 +138,7 @@ fn keys(
             continue;
         }
         drawn = x;
-        let center = pos2(x, y_of(control, rect, key.value));
+        let center = pos2(x, y_of(values, rect, key.value));
         let place = Rect::from_center_size(center, vec2(13.0, 13.0));
         let response = ui.interact(place, ui.scope_id().with(("key", index)), Sense::click_and_drag());
         response.widget_info(|| {

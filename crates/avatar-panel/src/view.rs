@@ -1,6 +1,6 @@
 //! Files, pictures, camera and display.
 
-use crate::widgets::named;
+use crate::widgets::{Icon, icon_button, named};
 use crate::{Action, Model, PanelState, Theme};
 use egui::{Button, Checkbox, ScrollArea, Slider, Ui};
 
@@ -17,7 +17,8 @@ pub(crate) fn show(
             actions.push(Action::OpenFile);
         }
         for (index, file) in model.recent.iter().enumerate() {
-            let row = ui.add(Button::new(short(file)).truncate().frame(false)).on_hover_text(file);
+            let row = Button::selectable(false, short(file)).truncate();
+            let row = ui.add(row.min_size(egui::vec2(ui.available_width(), 0.0))).on_hover_text(file);
             named(&row, || format!("Open {file}"));
             if row.clicked() {
                 actions.push(Action::OpenRecent(index));
@@ -44,6 +45,27 @@ pub(crate) fn show(
                         actions.push(Action::Camera(index));
                     }
                 }
+            });
+        }
+        if model.gaze.is_some() || model.hair.is_some() {
+            section(ui, "Face");
+        }
+        if let Some(mut gaze) = model.gaze
+            && ui.add(Checkbox::new(&mut gaze, "Eyes follow the pointer")).changed()
+        {
+            actions.push(Action::Gaze);
+        }
+        if let Some(hair) = model.hair {
+            ui.horizontal(|ui| {
+                ui.label("Hair");
+                for (icon, name, backward) in
+                    [(Icon::Left, "The hair before", true), (Icon::Right, "Other hair", false)]
+                {
+                    if icon_button(ui, icon, name).clicked() {
+                        actions.push(Action::Hair { backward });
+                    }
+                }
+                ui.strong(hair);
             });
         }
         section(ui, "Display");

@@ -2,7 +2,7 @@
 
 mod support;
 
-use avatar_panel::{Action, Model, PoseForm, Tab};
+use avatar_panel::{Action, Message, Model, PoseForm, Severity, Tab};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -216,4 +216,21 @@ fn keys_and_durations_are_right_where_the_file_takes_them() {
     }
     // Six keys of eleven are free and well made, four durations of six within the range.
     assert_eq!(right, 24);
+}
+
+#[test]
+fn a_message_does_not_take_the_keyboard_from_a_form() {
+    let mut window = window(World::new());
+    click(&mut window, "Save this face…");
+    window.event(egui::Event::Text("mi".to_owned()));
+    window.run_steps(2);
+    window.state_mut().messages =
+        vec![Message { severity: Severity::Error, title: "Something", text: "is wrong", dismissible: true }];
+    window.run_steps(2);
+    window.event(egui::Event::Text("ne".to_owned()));
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    let form = PoseForm { name: "mine".to_owned(), ..PoseForm::default() };
+    assert_eq!(window.state().log, [Action::SavePose(form)]);
 }

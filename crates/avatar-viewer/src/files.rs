@@ -82,7 +82,7 @@ impl Files {
             Self::File(_, import) => import.pack.clone(),
         };
         // Such an avatar has no folder of its own: what its user has made is elsewhere.
-        let mut store = Store::of(self);
+        let store = Store::of(self);
         if let Some(text) = store.read(store::POSES)? {
             let poses = PoseSet::from_toml(&text, &pack.controls);
             pack.poses = poses.map_err(|error| store.placed(store::POSES, &error))?;
@@ -92,6 +92,17 @@ impl Files {
             pack.clips = clips.map_err(|error| store.placed(store::CLIPS, &error))?;
         }
         Ok(pack)
+    }
+
+    /// As [`Files::load_pack`], but where poses or clips hold a mistake there are the usual ones: a window tells of it itself.
+    pub(crate) fn load_pack_in_any_case(&self) -> Result<Pack> {
+        self.load_pack().or_else(|error| {
+            let pack = match self {
+                Self::File(_, import) => Ok(import.pack.clone()),
+                _ => Pack::load(&WithoutBooks(self)),
+            };
+            pack.map_err(|_| error)
+        })
     }
 
     /// The pictures with their warnings, which are not told here.
@@ -174,6 +185,19 @@ fn read_file(path: &Path) -> Result<Vec<u8>, String> {
         return Err(format!("expected a file of at most {MAX_FILE_BYTES} bytes, found {size}"));
     }
     std::fs::read(path).map_err(|error| format!("expected a readable file, found: {error}"))
+}
+
+/// All files but the poses and clips.
+struct WithoutBooks<'a>(&'a Files);
+
+impl Source for WithoutBooks<'_> {
+    fn read(&self, name: &str) -> Result<Option<Cow<'_, [u8]>>, SourceError> {
+        if store::NAMES.contains(&name) { Ok(None) } else { self.0.read(name) }
+    }
+
+    fn locate(&self, name: &str) -> String {
+        self.0.locate(name)
+    }
 }
 
 impl Source for Files {

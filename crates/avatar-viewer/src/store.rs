@@ -10,20 +10,26 @@ use std::path::{Path, PathBuf};
 /// Names of the files, and their places in [`Store`].
 pub(crate) const POSES: usize = 0;
 pub(crate) const CLIPS: usize = 1;
-const NAMES: [&str; 2] = ["poses.toml", "clips.toml"];
+pub(crate) const NAMES: [&str; 2] = ["poses.toml", "clips.toml"];
 
 /// The files that hold an avatar's poses and clips.
 #[derive(Debug)]
 pub(crate) struct Store {
     paths: [Option<PathBuf>; 2],
-    /// What the files were when they were read or written last.
-    texts: [String; 2],
+    /// The texts that were taken over or written last.
+    taken: [String; 2],
+    /// Texts of somebody else that the user knows of, and may replace.
+    known: [Option<String>; 2],
 }
 
 impl Store {
     /// Those of a pack are in its folder; those of a file are beside it; those of the built-in avatar are the user's.
     pub(crate) fn of(files: &Files) -> Self {
-        Self { paths: [POSES, CLIPS].map(|which| path_of(files, which)), texts: Default::default() }
+        Self {
+            paths: [POSES, CLIPS].map(|which| path_of(files, which)),
+            taken: Default::default(),
+            known: Default::default(),
+        }
     }
 
     /// Where a file is, if there can be one.
@@ -32,22 +38,40 @@ impl Store {
     }
 
     /// The file's text; `None` where there is none.
-    pub(crate) fn read(&mut self, which: usize) -> Result<Option<String>> {
-        let Some(path) = self.path(which) else { return Ok(None) };
-        let text = read(path)?;
-        self.texts[which] = text.clone().unwrap_or_default();
-        Ok(text)
+    pub(crate) fn read(&self, which: usize) -> Result<Option<String>> {
+        self.path(which).map_or(Ok(None), read)
     }
 
-    /// What the file was when it was read or written last.
+    /// The text that was taken over or written last.
     pub(crate) fn text(&self, which: usize) -> &str {
-        &self.texts[which]
+        &self.taken[which]
+    }
+
+    /// A text that was read has been taken over.
+    pub(crate) fn take(&mut self, which: usize, text: String) {
+        self.taken[which] = text;
+        self.known[which] = None;
+    }
+
+    /// The user was told of this text, which is not taken over: it may be replaced.
+    pub(crate) fn tell(&mut self, which: usize, text: String) {
+        self.known[which] = Some(text);
     }
 
     /// Writes the file, whole or not at all.
+    ///
+    /// # Errors
+    /// The file holds what somebody else wrote, and the user does not know of: nothing is lost by writing.
     pub(crate) fn write(&mut self, which: usize, text: &str) -> Result<()> {
-        if text == self.texts[which] {
+        if text == self.taken[which] {
             return Ok(());
+        }
+        let others = self.read(which)?.filter(|found| *found != self.taken[which]);
+        if others.is_some() && others != self.known[which] {
+            return Err(self.placed(
+                which,
+                &"expected the text that was read last, found another one, which would be lost: mend it first, or move it away",
+            ));
         }
         let path = self.path(which);
         let path = path.ok_or_else(|| {
@@ -58,7 +82,7 @@ impl Store {
                 .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
         }
         OutputFile::check(path)?.write(text.as_bytes())?;
-        self.texts[which] = text.to_owned();
+        self.take(which, text.to_owned());
         Ok(())
     }
 

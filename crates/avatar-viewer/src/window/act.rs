@@ -4,6 +4,7 @@ use super::App;
 use super::keys::Action as KeyAction;
 use super::messages::About;
 use super::shot::Shot;
+use super::watch::{Watched, watch};
 use crate::film;
 use crate::output::OutputFile;
 use anyhow::Result;
@@ -16,7 +17,7 @@ use winit::window::Fullscreen;
 impl App {
     pub(super) fn act_on_key(&mut self, event_loop: &ActiveEventLoop, action: KeyAction) {
         match action {
-            KeyAction::Close => event_loop.exit(),
+            KeyAction::Close => self.close(event_loop),
             KeyAction::Orbit(yaw, pitch) => self.camera.orbit(yaw, pitch),
             KeyAction::Zoom(factor) => self.camera.zoom(factor),
             KeyAction::Pan(right, up) => self.camera.pan(right, up),
@@ -95,7 +96,12 @@ impl App {
                 }
             }
             Action::Scrub { clip, time_secs } => self.face.scrub(clip, time_secs),
-            Action::StartRecording => self.face.start_recording(),
+            Action::StartRecording => {
+                let done = self.face.start_recording();
+                self.report(About::Clips, "Nothing is recorded.", done);
+            }
+            Action::Gaze => self.toggle_gaze(),
+            Action::Hair { backward } => self.next_hair(backward),
             Action::OpenFile => super::loading::ask(self.proxy.clone()),
             Action::OpenRecent(index) => {
                 if let Some(path) = self.config.recent.get(index).cloned() {
@@ -115,7 +121,7 @@ impl App {
             }
             Action::Theme(_) | Action::TextScale(_) => {}
             Action::Remember => self.remember(),
-            Action::Quit => event_loop.exit(),
+            Action::Quit => self.close(event_loop),
             edit => self.edit(edit),
         }
         self.redraw();
@@ -182,7 +188,15 @@ impl App {
             Action::SaveClips => (About::Clips, face.save_clips()),
             _ => return,
         };
-        self.report(about, "That was not done.", done);
+        self.is_warned = false;
+        if self.watching.is_behind() {
+            self.watching = watch(&self.face.files, &self.face.store, self.proxy.clone());
+        }
+        if !self.face.has_unsaved_clips() {
+            // What somebody else wrote meanwhile can be taken over now.
+            self.reload_soon(Watched::Clips);
+        }
+        self.report(about, "The change was not made.", done);
     }
 
     fn report(&mut self, about: About, title: &str, done: Result<()>) {

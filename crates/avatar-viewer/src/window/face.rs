@@ -1,3 +1,4 @@
+use super::books::Order;
 use super::motion::Motion;
 use super::playing::{RECORDED_PER_SEC, Recording};
 use crate::face_args::FaceChoice;
@@ -32,8 +33,8 @@ pub(super) struct Face {
     /// Names and lengths in seconds of the file's clips.
     pub(super) file_clips: Vec<(String, f64)>,
     pub(super) recording: Option<Recording>,
-    /// Which book was changed last, for undo.
-    pub(super) last: Book,
+    /// In which order the books were changed, for undo.
+    pub(super) order: Order,
 }
 
 /// What plays.
@@ -43,13 +44,6 @@ pub(super) struct Playback {
     /// Seconds from its start.
     pub(super) time_secs: f64,
     pub(super) playing: bool,
-}
-
-/// Which text an edit is in.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Book {
-    Poses,
-    Clips,
 }
 
 impl Face {
@@ -85,23 +79,44 @@ impl Face {
             motion: None,
             file_clips,
             recording: None,
-            last: Book::Poses,
+            order: Order::default(),
             files,
             pack,
             textures,
         };
-        // The texts with their comments; the pack holds what they mean.
-        if let Some(text) = face.store.read(store::POSES)? {
-            face.poses.replace(&text)?;
+        // The texts with their comments; the pack holds what they mean. Those with mistakes are told of when they are followed.
+        if let Some(text) = face.store.read(store::POSES)?
+            && face.poses.replace(&text).is_ok()
+        {
+            face.store.take(store::POSES, text);
         }
-        if let Some(text) = face.store.read(store::CLIPS)? {
-            face.clips.replace(&text)?;
+        if let Some(text) = face.store.read(store::CLIPS)?
+            && face.clips.replace(&text).is_ok()
+        {
+            face.store.take(store::CLIPS, text);
         }
         Ok(face)
     }
 
-    /// Lets time pass.
+    /// Lets time pass. What is recorded is recorded at even times, however many frames are drawn.
     pub(super) fn advance(&mut self, secs: f64) {
+        let mut left = secs;
+        while let Some(recording) = &self.recording {
+            let due = recording.samples.len() as f64 / RECORDED_PER_SEC - recording.secs;
+            if due > left {
+                break;
+            }
+            self.step(due);
+            left -= due;
+            let values = self.player.values().to_vec();
+            if let Some(recording) = &mut self.recording {
+                recording.samples.push(values);
+            }
+        }
+        self.step(left);
+    }
+
+    fn step(&mut self, secs: f64) {
         // Elapsed times are neither negative nor NaN, the only errors there are.
         let _ = self.player.advance(secs);
         self.advance_motion(secs);
@@ -127,11 +142,6 @@ impl Face {
         }
         if let Some(recording) = &mut self.recording {
             recording.secs += secs;
-            let due = (recording.secs * RECORDED_PER_SEC) as usize;
-            // A slow machine gives fewer values; what is between is a straight line then.
-            while recording.samples.len() <= due {
-                recording.samples.push(self.player.values().to_vec());
-            }
         }
     }
 

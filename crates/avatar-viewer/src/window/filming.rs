@@ -18,6 +18,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::thread::JoinHandle;
 use std::time::Instant;
 use winit::event_loop::EventLoopProxy;
 
@@ -36,6 +37,18 @@ pub(super) struct Filming {
     started: Instant,
     stop: Arc<AtomicBool>,
     news: Receiver<News>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for Filming {
+    /// Whoever closes the window ends the film, and waits until its half-written file is gone.
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            // A film that ended by a panic has told so by its silence.
+            let _ = thread.join();
+        }
+    }
 }
 
 enum News {
@@ -79,7 +92,7 @@ impl Filming {
         let (sender, news) = channel();
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = Arc::clone(&stop);
-        std::thread::spawn(move || {
+        let thread = std::thread::spawn(move || {
             let tell = |news| {
                 let _ = sender.send(news);
                 let _ = window.send_event(Wake::Ready);
@@ -93,7 +106,7 @@ impl Filming {
             };
             tell(News::End(subject.shoot(target, rate, frames, shot)));
         });
-        Ok(Self { path, frames, done: 0, started: Instant::now(), stop, news })
+        Ok(Self { path, frames, done: 0, started: Instant::now(), stop, news, thread: Some(thread) })
     }
 
     /// For the panel.

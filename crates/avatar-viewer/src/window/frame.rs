@@ -13,8 +13,9 @@ use pose_anim::Pose;
 use std::time::{Duration, Instant};
 use winit::event_loop::ActiveEventLoop;
 
-/// A frame that takes longer (a suspended laptop) does not let the motion jump.
+/// A frame that takes longer (a suspended laptop) does not let the motion jump, nor a recording wait for hours.
 const MAX_FRAME_SECS: f64 = 0.25;
+const MAX_RECORDED_FRAME_SECS: f64 = 5.0;
 /// How long hair swings on after the head has stopped.
 const SWINGS_ON: Duration = Duration::from_millis(1800);
 /// How often progress is shown.
@@ -31,6 +32,8 @@ const FRAME_RATE: f64 = 30.0;
 pub(super) struct Frames {
     /// When the last frame of a running motion was drawn; `None` while nothing moves.
     last: Option<Instant>,
+    /// When the last of frames that follow each other was drawn.
+    drawn: Option<Instant>,
     /// When the last frame was drawn that hair moved in, and until when it does.
     swing: Option<(Instant, Instant)>,
     /// When the panel wants to be drawn again.
@@ -50,9 +53,11 @@ struct Miniature {
 
 impl Frames {
     /// Seconds since the last frame or press, while something moves.
-    pub(super) fn catch_up(&mut self, now: Instant) -> f64 {
+    pub(super) fn catch_up(&mut self, now: Instant, is_recorded: bool) -> f64 {
+        // What is recorded lasts as long as it lasted for the user.
+        let most = if is_recorded { MAX_RECORDED_FRAME_SECS } else { MAX_FRAME_SECS };
         let last = self.last.replace(now);
-        last.map_or(0.0, |last| now.duration_since(last).as_secs_f64().min(MAX_FRAME_SECS))
+        last.map_or(0.0, |last| now.duration_since(last).as_secs_f64().min(most))
     }
 
     /// When the next frame is to be drawn that nothing else asks for.
@@ -91,12 +96,14 @@ impl App {
             return self.reopen(event_loop);
         }
         let before = Instant::now();
-        if let Some(last) = self.frames.last {
+        if let Some(last) = self.frames.drawn {
             let ms = before.duration_since(last).as_secs_f32() * 1e3;
             if self.frames.history.len() == HISTORY {
                 self.frames.history.remove(0);
             }
             self.frames.history.push(ms);
+        }
+        if self.frames.last.is_some() {
             self.catch_up();
         }
         if self.face.recording_is_full() {
@@ -107,7 +114,7 @@ impl App {
         let has_more = self.draw_miniature(is_at_rest, background)?;
 
         let mut actions = Vec::new();
-        let painted = self.lay_out(&mut actions);
+        let mut painted = self.lay_out(&mut actions);
         let has_acted = !actions.is_empty();
         for action in actions {
             self.act(event_loop, action);
@@ -118,9 +125,13 @@ impl App {
         self.look(free);
         self.face.pose()?;
         self.point(free, is_at_rest);
+        if let (Some(overlay), Some(painted)) = (&self.overlay, &mut painted) {
+            overlay.mark(painted);
+        }
         self.draw(painted.as_ref(), is_at_rest, background)?;
 
         let swings = self.frames.swing.is_some();
+        self.frames.drawn = self.face.moves().then_some(before);
         if !self.face.moves() {
             self.frames.last = None;
         } else {
@@ -167,6 +178,9 @@ impl App {
         });
         let mouse = MOUSE.iter().map(|(key, meaning)| KeyRow { key, meaning, group: "Mouse" });
         let rows: Vec<KeyRow<'_>> = poses.chain(clips).chain(rows).chain(mouse).collect();
+        let hair = self.look.hair.name();
+        let help = self.keys.help();
+        let help: Vec<&str> = help.iter().map(String::as_str).collect();
         let reserved = self.keys.reserved();
         let reserved: Vec<&str> = reserved.iter().map(String::as_str).collect();
         let messages: Vec<_> = self.messages.shown().collect();
@@ -205,6 +219,8 @@ impl App {
                 recording_secs: face.recorded_secs(),
                 frame_rate: FRAME_RATE,
             },
+            gaze: Some(self.pointing.follows),
+            hair: Some(&hair),
             file_clips: &file_clips,
             file_playback: motion.map(|motion| FilePlayback {
                 clip: motion.clip,
@@ -212,6 +228,7 @@ impl App {
                 playing: motion.playing,
             }),
             keys: &rows,
+            help_keys: &help,
             reserved_keys: &reserved,
             messages: &messages,
             loading: loading

@@ -194,6 +194,12 @@ impl Keys {
         self.names.iter().map(text).zip(&ROWS).filter(|(keys, _)| !keys.is_empty())
     }
 
+    /// The keys of the help.
+    pub(crate) fn help(&self) -> Vec<String> {
+        let help = self.names.iter().zip(&ROWS).filter(|(_, row)| row.action == Action::Help);
+        help.flat_map(|(names, _)| names.iter().map(ToString::to_string)).collect()
+    }
+
     /// All keys that no pose can have.
     pub(crate) fn reserved(&self) -> Vec<String> {
         self.names.iter().flatten().map(ToString::to_string).collect()

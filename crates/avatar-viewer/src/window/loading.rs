@@ -10,7 +10,11 @@ use anyhow::Result;
 use avatar_pack::{Pack, Textures};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
+
+/// A dialog that ends before this was never open.
+const AT_ONCE: Duration = Duration::from_millis(400);
 
 /// An avatar that is read beside the running picture.
 pub(super) struct Loading {
@@ -86,7 +90,14 @@ pub(super) fn ask(window: EventLoopProxy<Wake>) {
         .add_filter("Packs (their Transformations.xml)", &["xml"])
         .pick_file();
     std::thread::spawn(move || {
-        let Some(chosen) = pollster::block_on(dialog) else { return };
+        let asked = Instant::now();
+        let Some(chosen) = pollster::block_on(dialog) else {
+            // Nobody cancels that fast: there was no dialog.
+            if asked.elapsed() < AT_ONCE {
+                let _ = window.send_event(Wake::NoDialog);
+            }
+            return;
+        };
         let path = chosen.path();
         // A pack is a folder, which this dialog shows by the file that every pack has.
         let is_pack = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xml"));
@@ -98,6 +109,9 @@ pub(super) fn ask(window: EventLoopProxy<Wake>) {
 impl App {
     /// Reads another avatar beside the running picture.
     pub(super) fn open(&mut self, path: &Path) {
+        if !self.may_leave() {
+            return;
+        }
         self.loading = Some(Loading::start(path, self.proxy.clone()));
         self.redraw();
     }
@@ -133,10 +147,11 @@ impl App {
             stage.set_avatar(&face.pack, &face.textures, self.look)?;
         }
         self.face = face;
+        self.is_warned = false;
         self.pointing = Pointing::new(&self.face.pack, self.proxy.clone(), self.pointing.follows);
         self.camera = Camera::START;
         self.frames.forget_miniatures();
-        self.watcher = watch(&self.face.files, &self.face.store, self.proxy.clone());
+        self.watching = watch(&self.face.files, &self.face.store, self.proxy.clone());
         for about in [About::Poses, About::Clips, About::Materials, About::Hair] {
             self.messages.settle(about);
         }

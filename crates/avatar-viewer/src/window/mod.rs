@@ -45,7 +45,7 @@ use point::Pointing;
 use stage::Stage;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use watch::{Wake, Watched, watch};
+use watch::{Wake, Watched, Watching, watch};
 use winit::application::ApplicationHandler;
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event::{Modifiers, WindowEvent};
@@ -59,7 +59,7 @@ const SETTLED: Duration = Duration::from_millis(100);
 /// Opens the window and runs until it is closed.
 pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let files = Files::open(args.pack.pack.as_deref(), &args.pack.with)?;
-    let pack = files.load_pack()?;
+    let pack = files.load_pack_in_any_case()?;
     let textures = files.load_textures();
     let start = args.face.resolve(&pack, matches)?;
     let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|_| no_display())?;
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let proxy = event_loop.create_proxy();
     let face = Face::new(files, pack, textures, Some(start))?;
     // Watches as long as it lives.
-    let watcher = watch(&face.files, &face.store, proxy.clone());
+    let watching = watch(&face.files, &face.store, proxy.clone());
     let pointing = Pointing::new(&face.pack, proxy.clone(), false);
     let mut app = App {
         proxy,
@@ -106,13 +106,14 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         frames: Frames::default(),
         loading: None,
         filming: None,
-        watcher,
+        watching,
         // Nobody told of changes since the avatar was loaded.
         reload_at: [Some(Instant::now() + SETTLED); Watched::ALL.len()],
         modifiers: Modifiers::default(),
         pointer: PhysicalPosition::default(),
         dragging: None,
         interrupted: None,
+        is_warned: false,
         failure: None,
     };
     event_loop.run_app(&mut app).context("the window's event loop")?;
@@ -146,7 +147,7 @@ struct App {
     pointing: Pointing,
     loading: Option<Loading>,
     filming: Option<Filming>,
-    watcher: Option<notify::RecommendedWatcher>,
+    watching: Watching,
     /// When each of the files is read again, unless it changes once more before.
     reload_at: [Option<Instant>; Watched::ALL.len()],
     modifiers: Modifiers,
@@ -156,18 +157,19 @@ struct App {
     dragging: Option<Drag>,
     /// A pose was pressed while the pointer holds something; and whether it has let go since.
     interrupted: Option<bool>,
+    /// The user was told that clips are not saved.
+    is_warned: bool,
     failure: Option<anyhow::Error>,
 }
 
 impl ApplicationHandler<Wake> for App {
     fn user_event(&mut self, _: &ActiveEventLoop, wake: Wake) {
         match wake {
-            Wake::Changed(file) => {
-                for (watched, at) in Watched::ALL.iter().zip(&mut self.reload_at) {
-                    if *watched == file {
-                        *at = Some(Instant::now() + SETTLED);
-                    }
-                }
+            Wake::Changed(file) => self.reload_soon(file),
+            Wake::NoDialog => {
+                let advice = "Drop a file on the window, or name it where the program is started.";
+                self.messages.warn(About::Opening, "The system opens no dialog.", advice);
+                self.redraw();
             }
             Wake::Ready => {
                 self.pointing.take();
@@ -223,7 +225,7 @@ impl ApplicationHandler<Wake> for App {
             self.redraw();
         }
         match event {
-            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::CloseRequested => self.close(event_loop),
             WindowEvent::Resized(size) => {
                 let resized = self.stage.as_mut().map_or(Ok(()), |stage| stage.resize(size));
                 match resized {
@@ -304,6 +306,33 @@ impl App {
         event_loop.exit();
     }
 
+    fn close(&mut self, event_loop: &ActiveEventLoop) {
+        if self.may_leave() {
+            event_loop.exit();
+        }
+    }
+
+    /// Whether nothing is lost with this face; or the user wants the same once more after having been told what is.
+    fn may_leave(&mut self) -> bool {
+        let loses = self.face.has_unsaved_clips() || self.face.recorded_secs().is_some();
+        if !loses || self.overlay.is_none() || std::mem::replace(&mut self.is_warned, true) {
+            return true;
+        }
+        let advice = "Save them in the tab of clips, or do the same once more to go on without them.";
+        self.messages.warn(About::Clips, "There are clips that are not saved.", advice);
+        self.redraw();
+        false
+    }
+
+    /// Reads a file again once it has been left alone.
+    fn reload_soon(&mut self, file: Watched) {
+        for (watched, at) in Watched::ALL.iter().zip(&mut self.reload_at) {
+            if *watched == file {
+                *at = Some(Instant::now() + SETTLED);
+            }
+        }
+    }
+
     fn redraw(&self) {
         if let Some(stage) = &self.stage {
             stage.window().request_redraw();
@@ -312,7 +341,7 @@ impl App {
 
     /// Brings the motion to this moment, so that a press acts at the time of the press.
     fn catch_up(&mut self) {
-        let secs = self.frames.catch_up(Instant::now());
+        let secs = self.frames.catch_up(Instant::now(), self.face.recorded_secs().is_some());
         self.face.advance(secs);
     }
 

@@ -86,11 +86,10 @@ impl Overlay {
     /// Lays the panel out.
     pub(super) fn run(&mut self, window: &Window, model: &Model<'_>, actions: &mut Vec<Action>) -> Painted {
         let input = self.input.take_egui_input(window);
-        let (panel, marks) = (&mut self.panel, &self.marks);
+        let panel = &mut self.panel;
         let mut free = egui::Rect::ZERO;
         let output = self.ctx.run_ui(input, |ui| {
             free = panel.show(ui, model, actions);
-            paint_marks(ui.ctx(), marks);
         });
         self.input.handle_platform_output(window, output.platform_output);
         let pixels_per_point = output.pixels_per_point;
@@ -106,6 +105,13 @@ impl Overlay {
             free: scaled(free),
             again,
         }
+    }
+
+    /// Puts the marks under the panel.
+    pub(super) fn mark(&self, painted: &mut Painted) {
+        let shapes = mark_shapes(&self.ctx, &self.marks);
+        let marks = self.ctx.tessellate(shapes, painted.pixels_per_point);
+        painted.triangles.splice(0..0, marks);
     }
 
     /// Draws over what is there, through a view of this format.
@@ -186,15 +192,14 @@ fn egui_key(key: &Key) -> egui::Key {
 /// Radius of a mark in points.
 const MARK: f32 = 1.6;
 
-/// Shows which part of the face is meant.
-fn paint_marks(ctx: &egui::Context, marks: &[[f32; 2]]) {
-    if marks.is_empty() {
-        return;
-    }
-    let painter = ctx.layer_painter(egui::LayerId::background());
+/// Which part of the face is meant.
+fn mark_shapes(ctx: &egui::Context, marks: &[[f32; 2]]) -> Vec<egui::epaint::ClippedShape> {
     let color = ctx.global_style().visuals.hyperlink_color.gamma_multiply(0.85);
     let scale = 1.0 / ctx.pixels_per_point();
-    for [x, y] in marks {
-        painter.circle_filled(egui::pos2(x * scale, y * scale), MARK, color);
-    }
+    let clip_rect = ctx.content_rect();
+    let mark = |[x, y]: &[f32; 2]| {
+        let shape = egui::Shape::circle_filled(egui::pos2(x * scale, y * scale), MARK, color);
+        egui::epaint::ClippedShape { clip_rect, shape, transform_after_tessellation: Default::default() }
+    };
+    marks.iter().map(mark).collect()
 }

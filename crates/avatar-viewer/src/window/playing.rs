@@ -70,8 +70,19 @@ impl Face {
         Some(self.recording.as_ref()?.secs)
     }
 
-    pub(super) fn start_recording(&mut self) {
+    /// Begins to note the values of the controls.
+    ///
+    /// # Errors
+    /// A clip of the file moves the face, and no control does.
+    pub(super) fn start_recording(&mut self) -> Result<()> {
+        if let Some(motion) = self.motion.as_ref().filter(|motion| motion.is_wanted()) {
+            anyhow::bail!(
+                "expected a face that its controls move, found the clip {} of its file, which moves joints themselves",
+                motion.name
+            );
+        }
         self.recording = Some(Recording { secs: 0.0, samples: vec![self.player.values().to_vec()] });
+        Ok(())
     }
 
     /// Whether a recording has become too long.

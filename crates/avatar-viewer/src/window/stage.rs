@@ -75,6 +75,8 @@ impl Stage {
         // Blending and resolving samples are right in linear light, which sRGB formats do in hardware.
         config.format = formats.iter().copied().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
         config.present_mode = wgpu::PresentMode::Fifo;
+        // What the user does is to be seen at once, not behind frames that wait.
+        config.desired_maximum_frame_latency = 1;
         // The panel blends in the space of the screen: through a view without sRGB, where the surface has such views.
         let flags = gpu.adapter.get_downlevel_capabilities().flags;
         let plain = config.format.remove_srgb_suffix();

@@ -13,6 +13,8 @@ pub(super) enum Wake {
     Ready,
     /// The user has chosen a file to open.
     Chosen(PathBuf),
+    /// The system has no dialog to choose one in.
+    NoDialog,
     /// Somebody reads the window to the user, or acts for the user.
     Accessibility(accesskit_winit::Event),
 }
@@ -49,21 +51,32 @@ impl Watched {
     }
 }
 
+/// Files are watched as long as this lives.
+pub(super) struct Watching {
+    _watcher: Option<RecommendedWatcher>,
+    /// Folders that were not there.
+    missing: Vec<PathBuf>,
+}
+
+impl Watching {
+    /// Whether there are folders by now that are not watched.
+    pub(super) fn is_behind(&self) -> bool {
+        self.missing.iter().any(|folder| folder.is_dir())
+    }
+}
+
 /// Tells the window when files of the avatar change that it follows. Folders are watched instead of files: many editors put a new
 /// file in the place of the old one. Where watching does not work the window works all the same, after a warning.
-pub(super) fn watch(
-    files: &Files,
-    store: &Store,
-    window: EventLoopProxy<Wake>,
-) -> Option<RecommendedWatcher> {
+pub(super) fn watch(files: &Files, store: &Store, window: EventLoopProxy<Wake>) -> Watching {
     let paths: Vec<(Watched, PathBuf)> =
         Watched::ALL.into_iter().filter_map(|file| Some((file, file.path(files, store)?))).collect();
     let mut folders: Vec<PathBuf> =
         paths.iter().filter_map(|(_, path)| Some(path.parent()?.to_owned())).collect();
     folders.sort();
     folders.dedup();
-    // The user's own folder may not be there yet; what this program writes there it knows.
-    folders.retain(|folder| folder.as_os_str().is_empty() || folder.is_dir());
+    // The user's own folder may not be there yet.
+    let is_there = |folder: &PathBuf| folder.as_os_str().is_empty() || folder.is_dir();
+    let (folders, missing): (Vec<_>, Vec<_>) = folders.into_iter().partition(is_there);
     let changed = move |event: notify::Result<notify::Event>| {
         let Ok(event) = event else { return };
         // Reading a file is an event, too.
@@ -84,11 +97,12 @@ pub(super) fn watch(
         }
         Ok(watcher)
     });
-    watcher
+    let watcher = watcher
         .inspect_err(|error| {
             let folders =
                 folders.iter().map(|folder| folder.display().to_string()).collect::<Vec<_>>().join(" and ");
             eprintln!("warning: {folders}: expected to be told of changes of files, found: {error}");
         })
-        .ok()
+        .ok();
+    Watching { _watcher: watcher, missing }
 }
