@@ -12,10 +12,10 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
     }
     let frame = style::edge_frame(ui);
     let highest = (0.45 * ui.available_height()).max(80.0);
-    Panel::top("avatar-panel notices").frame(frame).max_size(highest).show(ui, |ui| {
+    let shown = Panel::top("avatar-panel notices").frame(frame).max_size(highest).show(ui, |ui| {
         let room = highest - 24.0;
         let area = ScrollArea::vertical().max_height(room).min_scrolled_height(room);
-        area.auto_shrink([false, true]).show(ui, |ui| {
+        let area = area.auto_shrink([false, true]).show(ui, |ui| {
             if let Some(loading) = model.loading {
                 progress(ui, loading);
             }
@@ -28,7 +28,14 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
                 }
             }
         });
+        area.content_size.y
     });
+    // The panel is as high as its content was in the frame before: a frame more where that has changed.
+    let (id, height) = (shown.response.id.with("height"), shown.inner);
+    let before = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default::<f32>(id), height));
+    if before != height {
+        ui.ctx().request_repaint();
+    }
 }
 
 /// Whether it is to be dismissed.
