@@ -1,6 +1,6 @@
 use crate::{Source, Warning};
 use avatar_mesh::PartKind;
-use image::{ImageReader, Limits, RgbaImage};
+use image::{ImageFormat, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
 /// A texture of the pack. The names are those of the original's files, without extension.
@@ -147,7 +147,7 @@ impl Textures {
         for name in &names {
             let problem = match source.read(name) {
                 Ok(None) => continue,
-                Ok(Some(bytes)) => match decode(&bytes) {
+                Ok(Some(bytes)) => match decode(name, &bytes) {
                     Ok(image) => {
                         self.images.push((texture, image));
                         return;
@@ -166,8 +166,14 @@ impl Textures {
     }
 }
 
-pub(crate) fn decode(bytes: &[u8]) -> Result<RgbaImage, image::ImageError> {
+pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<RgbaImage, image::ImageError> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    // TGA does not begin with anything of its own: the name has to say it.
+    if reader.format().is_none()
+        && let Ok(format) = ImageFormat::from_path(name)
+    {
+        reader.set_format(format);
+    }
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);

@@ -163,7 +163,7 @@ impl Images {
         for (source, factor) in &self.sources {
             let image = scene.images.get(*source).and_then(|image| {
                 let file = if image.name.is_empty() { format!("image {source}") } else { image.name.clone() };
-                let problem = match decode(&image.bytes) {
+                let problem = match decode(&image.name, &image.bytes) {
                     _ if image.bytes.is_empty() => "expected a picture, found none".to_owned(),
                     Ok(decoded) => return Some(tinted(decoded, *factor)),
                     Err(error) => format!("expected a picture (PNG, JPEG, TGA or BMP), found: {error}"),

@@ -1,0 +1,43 @@
+//! Pictures of imported files.
+#![allow(clippy::expect_used, reason = "a test may panic")]
+
+use avatar_exchange::{Material, Node, RawScene, Scene, SceneImage, ScenePart};
+use avatar_mesh::Mesh;
+use avatar_pack::Import;
+use glam::{Vec2, Vec3};
+
+fn with_picture(name: &str, bytes: &[u8]) -> Import {
+    let mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        normals: vec![Vec3::Z; 3],
+        uvs: vec![Vec2::ZERO; 3],
+        triangles: vec![[0, 1, 2]],
+        ..Mesh::default()
+    };
+    let scene = RawScene {
+        nodes: vec![Node::default()],
+        parts: vec![ScenePart { material: Some(0), ..ScenePart::rigid("duck", 0, mesh) }],
+        materials: vec![Material { base_color_texture: Some(0), ..Material::default() }],
+        images: vec![SceneImage { name: name.to_owned(), mime: String::new(), bytes: bytes.to_vec() }],
+        ..RawScene::default()
+    };
+    Import::from_scene(Scene::from_raw(scene).expect("a scene")).expect("an avatar")
+}
+
+/// Truevision's TGA 2.0: an uncompressed picture (type 2) of 2 × 1 pixels of 24 bits, blue first, its origin at the bottom left.
+const TGA: [u8; 24] = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 0, 10, 20, 30, 40, 50, 60];
+
+#[test]
+fn a_picture_that_does_not_say_what_it_is_goes_by_its_name() {
+    let import = with_picture("textures/duckCM.TGA", &TGA);
+    let kind = import.pack.parts[0].kind;
+    let color = import.textures.of_part(0, kind).color.expect("a picture");
+    assert_eq!(
+        (color.dimensions(), color.as_raw().as_slice()),
+        ((2, 1), &[30, 20, 10, 255, 60, 50, 40, 255][..])
+    );
+    assert!(import.textures.warnings.is_empty(), "{:?}", import.textures.warnings);
+    let import = with_picture("duck", &TGA);
+    let told = import.textures.warnings[0].to_string();
+    assert!(told.contains("duck: expected a picture (PNG, JPEG, TGA or BMP)"), "{told}");
+}
