@@ -1,5 +1,7 @@
 use crate::error::quoted;
-use crate::{Channel, ChannelTarget, ImportError, Interpolation, Node, Note, RawScene, Transform};
+use crate::{
+    Channel, ChannelTarget, ImportError, Interpolation, Node, Note, RawScene, SceneImage, Transform,
+};
 use avatar_mesh::drivers::ShapeDrivers;
 use glam::Affine3A;
 use std::ops::Deref;
@@ -42,6 +44,16 @@ impl Deref for Scene {
 }
 
 impl Scene {
+    /// The same scene with these pictures in the place of its own; `None` where they are not as many.
+    pub fn with_images(&self, images: Vec<SceneImage>) -> Option<Self> {
+        if images.len() != self.raw.images.len() {
+            return None;
+        }
+        let mut scene = self.clone();
+        scene.raw.images = images;
+        Some(scene)
+    }
+
     /// Checks a scene and turns joints of skins into positions in the palette. Weights that do not quite sum to 1
     /// are renormalised, with a note.
     ///

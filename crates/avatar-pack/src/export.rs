@@ -1,14 +1,16 @@
 //! An avatar as a scene, for files of interchange formats: the way back from `import`.
 
+use crate::textures::decode;
 use crate::{Pack, Part, Textures};
 use avatar_exchange::{
-    AlphaMode, Channel, ChannelTarget, Clip, Interpolation, Material, Node, Note, RawScene, SceneImage,
-    ScenePart, Skin, Transform, Trs,
+    AlphaMode, Channel, ChannelTarget, Clip, Interpolation, Material, Node, Note, RawScene, Scene,
+    SceneImage, ScenePart, Skin, Transform, Trs,
 };
 use avatar_mesh::{Mesh, PartKind, Skinning, Winding};
 use glam::{Affine3A, DAffine3, DQuat, Vec3};
 use image::{ImageFormat, Rgba, RgbaImage};
 use pose_anim::{Drive, Pose};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
@@ -291,4 +293,29 @@ impl<'a> Images<'a> {
         self.encoded.push(SceneImage { name: name.to_owned(), mime, bytes: bytes.into_inner() });
         Some(self.encoded.len() - 1)
     }
+}
+
+/// A scene whose pictures are all PNG or JPEG, the formats that glTF knows (2.0, section 3.8.2): TGA and BMP become PNG. What cannot
+/// be decoded stays as it is. Borrowed where there is nothing to do.
+pub fn portable_pictures(scene: &Scene) -> Cow<'_, Scene> {
+    let is_foreign = |image: &SceneImage| {
+        let begins = |start: &[u8]| image.bytes.starts_with(start);
+        !image.bytes.is_empty() && !begins(b"\x89PNG\r\n\x1a\n") && !begins(b"\xff\xd8\xff")
+    };
+    if !scene.images.iter().any(is_foreign) {
+        return Cow::Borrowed(scene);
+    }
+    let portable = |image: &SceneImage| {
+        let decoded = if is_foreign(image) { decode(&image.name, &image.bytes).ok() } else { None };
+        let mut png = Cursor::new(Vec::new());
+        match decoded.map(|picture| picture.write_to(&mut png, ImageFormat::Png)) {
+            Some(Ok(())) => {
+                let mime = "image/png".to_owned();
+                SceneImage { name: image.name.clone(), mime, bytes: png.into_inner() }
+            }
+            _ => image.clone(),
+        }
+    };
+    let images = scene.images.iter().map(portable).collect();
+    scene.with_images(images).map_or(Cow::Borrowed(scene), Cow::Owned)
 }

@@ -42,7 +42,7 @@ mod source;
 mod textures;
 
 pub use error::{PackError, PackProblem, Warning};
-pub use export::export;
+pub use export::{export, portable_pictures};
 pub use face::{FaceError, FaceState};
 pub use gaze::Gaze;
 #[cfg(feature = "vrm")]

@@ -3,8 +3,9 @@
 
 use avatar_exchange::{Material, Node, RawScene, Scene, SceneImage, ScenePart};
 use avatar_mesh::Mesh;
-use avatar_pack::Import;
+use avatar_pack::{Import, portable_pictures};
 use glam::{Vec2, Vec3};
+use std::borrow::Cow;
 
 fn with_picture(name: &str, bytes: &[u8]) -> Import {
     let mesh = Mesh {
@@ -40,4 +41,21 @@ fn a_picture_that_does_not_say_what_it_is_goes_by_its_name() {
     let import = with_picture("duck", &TGA);
     let told = import.textures.warnings[0].to_string();
     assert!(told.contains("duck: expected a picture (PNG, JPEG, TGA or BMP)"), "{told}");
+}
+
+#[test]
+fn pictures_that_gltf_does_not_know_become_png() {
+    let import = with_picture("duckCM.tga", &TGA);
+    let scene = import.pack.motion.as_ref().expect("the scene").scene();
+    let portable = portable_pictures(scene);
+    let again = Import::from_scene(portable.clone().into_owned()).expect("an avatar");
+    assert_eq!(portable.images[0].mime, "image/png");
+    assert!(portable.images[0].bytes.starts_with(b"\x89PNG"));
+    let color = |import: &Import| import.textures.of_part(0, import.pack.parts[0].kind).color.cloned();
+    assert_eq!(color(&again), color(&import));
+    // What is one already, and what is none, stays.
+    assert!(matches!(portable_pictures(&portable), Cow::Borrowed(_)));
+    let nothing = with_picture("duck", &TGA);
+    let scene = nothing.pack.motion.as_ref().expect("the scene").scene();
+    assert_eq!(portable_pictures(scene).images[0].bytes, TGA);
 }

@@ -164,12 +164,15 @@ pub(crate) struct DeformArgs {
 pub(crate) struct ConvertArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
+    /// The file to write, as --out
+    #[arg(value_name = "OUT", conflicts_with = "out")]
+    pub(crate) target: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) face: FaceArgs,
     /// The file to write, whose end says the format; a name without an end, or with a separator at its end, is that of a
     /// folder
     #[arg(long, value_name = "FILE")]
-    pub(crate) out: PathBuf,
+    pub(crate) out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

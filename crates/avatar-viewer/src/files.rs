@@ -101,7 +101,13 @@ impl Files {
                 Self::File(_, import) => Ok(import.pack.clone()),
                 _ => Pack::load(&WithoutBooks(self)),
             };
-            pack.map_err(|_| error)
+            match pack {
+                Ok(pack) => {
+                    eprintln!("warning: {error:#}: poses and clips of its own are left out");
+                    Ok(pack)
+                }
+                Err(_) => Err(error),
+            }
         })
     }
 

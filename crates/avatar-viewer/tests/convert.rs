@@ -21,7 +21,11 @@ fn world(pack: &Path, out: &Path) -> Vec<Vec<f64>> {
 fn a_pack_goes_through_glb_into_a_folder() {
     let (pack, folder) = (copy_of_golden_pack(), tempfile::tempdir().expect("a temporary folder"));
     let at = |name: &str| folder.path().join(name);
-    convert(pack.path(), &at("face.glb")).ok();
+    // The second name is what --out says, and both is one too many.
+    finish(viewer().arg("convert").arg(pack.path()).arg(at("face.glb"))).ok();
+    finish(viewer().arg("convert").arg(pack.path()).arg(at("face.glb")).args(["--out", "x.glb"]))
+        .fails(2, &["cannot be used with"]);
+    finish(viewer().arg("convert").arg(pack.path())).fails(2, &["expected the file to write"]);
     // A name without an end is that of a folder, and so is that of an empty folder.
     fs::create_dir(at("empty.d")).expect("a folder");
     for name in ["again", "slash/", "empty.d"] {

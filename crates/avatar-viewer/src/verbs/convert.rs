@@ -29,7 +29,7 @@ impl Target {
             Some("glb") => Ok(Self::Glb),
             Some("obj") => Ok(Self::Obj),
             _ => Err(usage(format!(
-                "--out: expected a name that ends in .glb or .obj, or (with a separator at its end) that of a new folder, found {:?}",
+                "expected a name that ends in .glb or .obj, or (with a separator at its end) that of a new folder, found {:?}",
                 path.display().to_string()
             ))),
         }
@@ -37,9 +37,12 @@ impl Target {
 }
 
 pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
-    match Target::of(&args.out)? {
+    let Some(path) = args.out.as_ref().or(args.target.as_ref()) else {
+        return Err(usage("expected the file to write, as a second name or after --out, found none"));
+    };
+    match Target::of(path)? {
         Target::Folder => {
-            let out = OutputFolder::check(&args.out)?;
+            let out = OutputFolder::check(path)?;
             let files = super::open(&args.pack)?;
             let pack = files.load_pack()?;
             args.face.resolve(&pack, matches)?;
@@ -49,14 +52,14 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
             out.write(&raw.files)
         }
         Target::Glb => {
-            let out = OutputFile::check(&args.out)?;
+            let out = OutputFile::check(path)?;
             let files = super::open(&args.pack)?;
             let pack = files.load_pack()?;
             args.face.resolve(&pack, matches)?;
             out.write(&glb(&files, &pack)?)
         }
         Target::Obj => {
-            let out = OutputFile::check(&args.out)?;
+            let out = OutputFile::check(path)?;
             let pack = super::open(&args.pack)?.load_pack()?;
             let mut state = FaceState::new(&pack);
             args.face.resolve(&pack, matches)?.apply(&pack, &mut state)?;
@@ -68,7 +71,7 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
 /// A file's scene as it is; of a pack rig, parts, shapes, and its poses as clips.
 fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
     let written = match &pack.motion {
-        Some(motion) => glb::write(motion.scene()),
+        Some(motion) => glb::write(&avatar_pack::portable_pictures(motion.scene())),
         None => {
             let raw = avatar_pack::export(pack, &files.load_textures());
             glb::write_raw(&raw)
@@ -79,6 +82,9 @@ fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
 
 /// All parts in world space, one object each.
 pub(super) fn world_obj(pack: &Pack, state: &FaceState) -> Result<String> {
+    if pack.parts.is_empty() {
+        return Err(anyhow!("expected a mesh to write, found a skeleton alone"));
+    }
     let deformed: Vec<_> =
         (0..pack.parts.len()).map(|part| Ok(state.deform(pack, part)?)).collect::<Result<_>>()?;
     let parts: Vec<ObjPart<'_>> = (pack.parts.iter().zip(&deformed))

@@ -85,12 +85,12 @@ impl Face {
             textures,
         };
         // The texts with their comments; the pack holds what they mean. Those with mistakes are told of when they are followed.
-        if let Some(text) = face.store.read(store::POSES)?
+        if let Ok(Some(text)) = face.store.read(store::POSES)
             && face.poses.replace(&text).is_ok()
         {
             face.store.take(store::POSES, text);
         }
-        if let Some(text) = face.store.read(store::CLIPS)?
+        if let Ok(Some(text)) = face.store.read(store::CLIPS)
             && face.clips.replace(&text).is_ok()
         {
             face.store.take(store::CLIPS, text);
