@@ -182,7 +182,10 @@ proptest! {
             }
             worst
         };
-        let (coarse, fine) = (error(1e-3), error(6.25e-5));
+        // What a bend costs depends on where in a step it falls: three steps, so that none looks good by luck.
+        let coarse = [1e-3, 0.93e-3, 1.06e-3].map(error);
+        let coarse = [0, 1].map(|which| coarse.iter().map(|worst| worst[which]).fold(0.0, f64::max));
+        let fine = error(6.25e-5);
         prop_assert!(fine[0] < coarse[0] / 60.0 + 1e-9, "{coarse:?} {fine:?}");
         prop_assert!(fine[1] < coarse[1] / 20.0 + 1e-7, "{coarse:?} {fine:?}");
     }
