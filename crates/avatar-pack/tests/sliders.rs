@@ -167,3 +167,25 @@ fn files_without_sliders_keep_the_shapes_or_refuse_them() {
     let refused = raw_files(&import.pack, &import.textures).expect_err("in-betweens");
     assert_eq!(refused, RawError::InBetween { sliders: ["shut", "smile", "shut"].map(str::to_owned).into() });
 }
+
+#[test]
+fn shapes_at_very_many_nodes_are_refused_before_they_take_all_memory() {
+    let names: Vec<String> = (0..60).map(|k| format!("shape {k}")).collect();
+    let offsets: Vec<_> = names.iter().map(|name| (name.as_str(), Vec3::X)).collect();
+    let crowd = |nodes: usize| {
+        let node = |number: usize| Node {
+            name: format!("face {number}"),
+            weights: vec![0.0; 60],
+            ..Node::default()
+        };
+        let raw = RawScene {
+            nodes: (0..nodes).map(node).collect(),
+            parts: (0..nodes).map(|node| part("face", node, &offsets)).collect(),
+            ..RawScene::default()
+        };
+        Import::from_scene(Scene::from_raw(raw).expect("a scene"))
+    };
+    assert!(crowd(20).is_ok());
+    let error = crowd(200).expect_err("too much").to_string();
+    assert!(error.contains("face 183") && error.contains("1000000"), "{error}");
+}

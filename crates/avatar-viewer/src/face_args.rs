@@ -149,6 +149,11 @@ impl FaceChoice {
 }
 
 impl FaceArgs {
+    /// Whether any face but that at rest is asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.pose.is_some() || !self.set.is_empty() || !self.rotate.is_empty() || self.clip.is_some()
+    }
+
     /// Looks all names up. `matches` tells the order in which options were given: where `--set` and `--rotate`
     /// concern one joint, the later one wins.
     pub(crate) fn resolve(&self, pack: &Pack, matches: &ArgMatches) -> Result<FaceChoice> {

@@ -119,6 +119,11 @@ impl Files {
         }
     }
 
+    /// Whether it says more than a scene can hold.
+    pub(crate) fn is_vrm(&self) -> bool {
+        matches!(self, Self::File(path, _) if Format::of_name(&path.to_string_lossy()) == Some(Format::Vrm))
+    }
+
     /// What became of a file of an interchange format.
     pub(crate) fn report(&self) -> Option<&ImportReport> {
         match self {
@@ -136,9 +141,10 @@ fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     let file = path.display().to_string();
     let bytes = read_file(path).map_err(|reason| anyhow!("{file}: {reason}"))?;
     let mut files = Vec::new();
+    let base = path;
     for path in further {
         let name = path.display().to_string();
-        let found = with_its_files(path, &file).map_err(|reason| anyhow!("{name}: {reason}"))?;
+        let found = with_its_files(path, base).map_err(|reason| anyhow!("{name}: {reason}"))?;
         for path in found {
             let name = path.display().to_string();
             files.push((read_file(&path).map_err(|reason| anyhow!("{name}: {reason}"))?, name));
@@ -156,7 +162,7 @@ fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
 }
 
 /// A file, or those files of a folder that may belong to `first`, in the order of their names.
-fn with_its_files(path: &Path, first: &str) -> Result<Vec<PathBuf>, String> {
+fn with_its_files(path: &Path, first: &Path) -> Result<Vec<PathBuf>, String> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
@@ -164,17 +170,46 @@ fn with_its_files(path: &Path, first: &str) -> Result<Vec<PathBuf>, String> {
     let entries = std::fs::read_dir(path).map_err(unreadable)?;
     let mut files =
         entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>().map_err(unreadable)?;
-    let endings = Format::of_name(first).map_or(&[][..], Format::further_extensions);
+    let endings = Format::of_name(&first.to_string_lossy()).map_or(&[][..], Format::further_extensions);
     let belongs = |file: &Path| {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         ending.is_some_and(|ending| endings.contains(&ending.as_str())) && file.is_file()
     };
     files.retain(|file| belongs(file));
+    // The avatar itself may be among them.
+    let itself = std::fs::canonicalize(first).ok();
+    files.retain(|file| itself.is_none() || std::fs::canonicalize(file).ok() != itself);
+    // Other meshes beside targets are no frames.
+    let is_target =
+        |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("target"));
+    if files.iter().any(is_target) {
+        files.retain(is_target);
+    }
     if files.is_empty() {
         return Err(format!("expected files that end in {}, found none", endings.join(", ")));
     }
-    files.sort();
+    files.sort_by_cached_key(|file| (by_numbers(&file.to_string_lossy()), file.clone()));
     Ok(files)
+}
+
+/// A name in an order in which `f2` comes before `f10`: runs of digits are numbers.
+fn by_numbers(name: &str) -> Vec<(u64, String)> {
+    let mut parts = vec![(0u64, String::new())];
+    let mut was_digit = false;
+    for letter in name.chars() {
+        let digit = letter.to_digit(10).map(u64::from);
+        if digit.is_some() && !was_digit {
+            parts.push((0, String::new()));
+        }
+        if let Some((number, text)) = parts.last_mut() {
+            match digit {
+                Some(digit) => *number = number.saturating_mul(10).saturating_add(digit),
+                None => text.push(letter),
+            }
+        }
+        was_digit = digit.is_some();
+    }
+    parts
 }
 
 /// What a file refers to is beside it or below.
@@ -229,5 +264,17 @@ impl Source for Files {
             Self::Folder(folder) => folder.join(name).display().to_string(),
             Self::File(path, _) => path.display().to_string(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::by_numbers;
+
+    #[test]
+    fn numbers_in_names_are_numbers() {
+        let mut names = ["f10", "f2", "f1b", "f1", "e3", "f1a", "12", "2"];
+        names.sort_by_cached_key(|name| by_numbers(name));
+        assert_eq!(names, ["2", "12", "e3", "f1", "f1a", "f1b", "f2", "f10"]);
     }
 }

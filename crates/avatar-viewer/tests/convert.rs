@@ -99,3 +99,60 @@ fn nothing_is_written_over_or_left_half() {
         .filter(|entry| entry.as_ref().expect("an entry").file_name().to_string_lossy().starts_with('.'));
     assert_eq!(hidden.count(), 0);
 }
+
+#[test]
+fn a_rig_is_not_written_in_a_pose() {
+    let (pack, folder) = (copy_of_golden_pack(), tempfile::tempdir().expect("a temporary folder"));
+    let at = |name: &str| folder.path().join(name);
+    for out in ["face.glb", "face/"] {
+        let mut posed = viewer();
+        posed.arg("convert").arg(pack.path()).args(["--set", "jaw.open=3", "--out"]).arg(at(out));
+        finish(&mut posed).fails(2, &["expected no pose", ".obj"]);
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
+    fs::write(
+        pack.path().join("clips.toml"),
+        "[[clip]]\nname = 'a'\n[clip.tracks]\n'jaw.open' = [{ t = 0, v = 3 }]\n",
+    )
+    .expect("written");
+    let run = convert(pack.path(), &at("face.glb"));
+    assert!(run.stderr.contains("clips of controls are left out"), "{}", run.stderr);
+    run.ok();
+}
+
+#[test]
+fn names_of_parts_stay() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("body.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\ng skin\nf 1 2 3\ng coat\nf 1 3 2\n")
+        .expect("written");
+    convert(&at("body.obj"), &at("body.glb")).ok();
+    for file in ["body.obj", "body.glb"] {
+        let info = finish(viewer().arg("info").arg(at(file))).ok();
+        assert!(info.contains("skin") && info.contains("coat"), "{file}: {info}");
+    }
+}
+
+#[test]
+fn a_folder_of_frames_or_targets_may_hold_the_first_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name);
+    let frame = |y: u32| format!("v 0 0 0\nv 1 0 0\nv 0 {y} 0\nf 1 2 3\n");
+    fs::create_dir(at("frames")).expect("a folder");
+    for number in 0..12 {
+        fs::write(at(&format!("frames/f{number}.obj")), frame(number + 1)).expect("written");
+    }
+    let height = |time: &str| {
+        let mut deform = viewer();
+        deform.args(["deform", "--world"]).arg(at("frames/f0.obj")).arg("--with").arg(at("frames"));
+        finish(deform.args(["--clip", "f0", "--time", time, "--out"]).arg(at("now.obj"))).ok();
+        read_obj(&at("now.obj")).0[2][1]
+    };
+    let info = finish(viewer().arg("info").arg(at("frames/f0.obj")).arg("--with").arg(at("frames"))).ok();
+    assert!(info.contains("0.458"), "eleven spans of 1/24 s: {info}");
+    // Frame 10 is the eleventh.
+    assert!((height("0.4166667") - 11.0).abs() < 1e-4, "{}", height("0.4166667"));
+    fs::write(at("frames/up.target"), "2 0 1 0\n").expect("written");
+    let info = finish(viewer().arg("info").arg(at("frames/f0.obj")).arg("--with").arg(at("frames"))).ok();
+    assert!(info.contains("up"), "{info}");
+}

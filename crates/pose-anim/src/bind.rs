@@ -1,6 +1,7 @@
 use crate::{ApplyError, BindError, Control, ControlTable, Coupling, Drive, JointMotion};
 use glam::{Affine3A, Vec3};
 use rig_core::{Elementary, JointId, Locals, Rig};
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// A [`ControlTable`] bound to the joints of a rig and to a list of blend shapes.
@@ -31,34 +32,36 @@ impl ControlTable {
     /// A control names a joint or a shape that does not exist.
     pub fn bind(&self, rig: &Rig, shapes: &[&str]) -> Result<Binding, BindError> {
         let mut by_joint: Vec<(JointId, Vec<Factor>)> = Vec::new();
+        // Imported rigs have tens of thousands of joints: looking each up in turn takes the square of their number.
+        let ids: HashMap<&str, JointId> = rig.names().iter().map(String::as_str).zip(rig.joints()).collect();
+        let mut places: HashMap<JointId, usize> = HashMap::new();
+        let mut shape_places: HashMap<&str, Vec<usize>> = HashMap::new();
+        shapes.iter().enumerate().for_each(|(at, name)| shape_places.entry(name).or_default().push(at));
         let mut bound_shapes = Vec::new();
         for (index, control) in self.controls().iter().enumerate() {
             match &control.drives {
                 Drive::Joint { joint, axis, kind } => {
-                    let id = rig.joint(joint).ok_or_else(|| BindError::UnknownJoint {
+                    let id = ids.get(joint.as_str()).copied().ok_or_else(|| BindError::UnknownJoint {
                         control: control.name.clone(),
                         joint: joint.clone(),
                         nearest: placed_toml::nearest(joint, rig.names().iter().map(String::as_str))
                             .map(str::to_owned),
                     })?;
                     let factor = Factor { control: index, axis: *axis, kind: *kind };
-                    match by_joint.iter_mut().find(|(other, _)| *other == id) {
+                    let place = *places.entry(id).or_insert(by_joint.len());
+                    match by_joint.get_mut(place) {
                         Some((_, factors)) => factors.push(factor),
                         None => by_joint.push((id, vec![factor])),
                     }
                 }
                 Drive::Shape { shape } => {
-                    let before = bound_shapes.len();
                     // Parts may have shapes of one name, which move as one.
-                    let named = shapes.iter().enumerate().filter(|(_, other)| **other == shape.as_str());
-                    bound_shapes.extend(named.map(|(at, _)| (index, at)));
-                    if bound_shapes.len() == before {
-                        return Err(BindError::UnknownShape {
-                            control: control.name.clone(),
-                            shape: shape.clone(),
-                            nearest: placed_toml::nearest(shape, shapes.iter().copied()).map(str::to_owned),
-                        });
-                    }
+                    let named = shape_places.get(shape.as_str()).ok_or_else(|| BindError::UnknownShape {
+                        control: control.name.clone(),
+                        shape: shape.clone(),
+                        nearest: placed_toml::nearest(shape, shapes.iter().copied()).map(str::to_owned),
+                    })?;
+                    bound_shapes.extend(named.iter().map(|at| (index, *at)));
                 }
             }
         }

@@ -55,13 +55,18 @@ impl<'s> Plan<'s> {
             let same = by_node[part.node].iter().copied().find(|group| {
                 let Some(other) = first(group).and_then(|first| scene.parts.get(first)) else { return false };
                 let names = part.mesh.shapes.iter().map(|shape| &shape.name);
-                other.skin == part.skin && names.eq(other.mesh.shapes.iter().map(|shape| &shape.name))
+                // Readers call all primitives of a mesh as its node.
+                other.skin == part.skin
+                    && other.name == part.name
+                    && names.eq(other.mesh.shapes.iter().map(|shape| &shape.name))
             });
             if let Some(group) = same {
                 self.groups[group].parts.push(number);
                 continue;
             }
-            let at = if by_node[part.node].is_empty() {
+            let is_nodes = part.name.is_empty() || part.name == scene.nodes[part.node].name;
+            let at = if by_node[part.node].iter().all(|group| self.groups[*group].at != part.node) && is_nodes
+            {
                 part.node
             } else {
                 self.nodes.push(PlannedNode::still(&part.name, Some(part.node)));

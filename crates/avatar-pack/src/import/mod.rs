@@ -63,6 +63,16 @@ pub enum ImportFailure {
     /// Controls that do not fit the rig.
     #[error(transparent)]
     Bind(#[from] BindError),
+    /// Shapes at so many nodes that the list that all parts share has no room.
+    #[error(
+        "node {node:?}: expected at most {most} places for shapes of other nodes in all parts together, found more"
+    )]
+    Shapes {
+        /// The node of the part that is one too many.
+        node: String,
+        /// How many there may be.
+        most: usize,
+    },
     /// Rules of shapes that cannot be followed.
     #[error(transparent)]
     Drivers(#[from] DriversError),
@@ -104,6 +114,7 @@ impl Import {
         }
         let joints = rig::Joints::of(&scene, known, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
+        shapes.check(&scene)?;
         let sliders = sliders::Wanted::of(&scene, &shapes)?;
         let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
         let names: Vec<&str> = sliders.names.iter().map(String::as_str).collect();

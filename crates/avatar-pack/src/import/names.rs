@@ -86,6 +86,8 @@ fn plain(name: &str) -> String {
 
 /// What a joint of this name does.
 pub(super) fn role_of(name: &str) -> Option<Role> {
+    // Namespaces stand before the name itself.
+    let name = name.rsplit([':', '|']).next().unwrap_or(name);
     let plain = plain(name);
     let is = |name: &str| JOINTS.iter().find(|(_, names)| names.contains(&name)).map(|(role, _)| *role);
     is(&plain).or_else(|| {
@@ -286,6 +288,8 @@ mod tests {
         for (name, role) in [
             ("HeadJoint", Some(Role::Head)),
             ("mixamorig:Head", Some(Role::Head)),
+            ("mixamorig5:Head", Some(Role::Head)),
+            ("Armature|Armature:Head", Some(Role::Head)),
             ("mixamorig:HeadTop_End", None),
             ("J_Bip_C_Head", Some(Role::Head)),
             ("J_Adj_L_FaceEye", Some(Role::LeftEye)),

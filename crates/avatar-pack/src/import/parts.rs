@@ -1,5 +1,5 @@
-use super::ImportReport;
 use super::rig::unique_names;
+use super::{ImportFailure, ImportReport};
 use crate::textures::{OwnImages, decode};
 use crate::{Part, Textures, Warning};
 use avatar_exchange::{AlphaMode, Scene, ScenePart};
@@ -28,6 +28,28 @@ impl ShapeNames {
             all.weights.extend((0..named.len()).map(|k| node.weights.get(k).copied().unwrap_or(0.0)));
         }
         all
+    }
+}
+
+/// So many places of parts may be held free for the shapes of other nodes: some hundred bytes each. A crowd of 150 faces of 52 shapes
+/// each stays below it.
+const MOST_FREE_PLACES: usize = 1_000_000;
+
+impl ShapeNames {
+    /// Whether the parts have room for all: each holds the places before its own free.
+    ///
+    /// # Errors
+    /// The part with which it becomes too much.
+    pub(super) fn check(&self, scene: &Scene) -> Result<(), ImportFailure> {
+        let mut places = 0usize;
+        for part in scene.parts.iter().filter(|part| !part.mesh.shapes.is_empty()) {
+            places = places.saturating_add(self.first.get(part.node).copied().unwrap_or(0));
+            if places > MOST_FREE_PLACES {
+                let node = scene.nodes.get(part.node).map_or_else(String::new, |node| node.name.clone());
+                return Err(ImportFailure::Shapes { node, most: MOST_FREE_PLACES });
+            }
+        }
+        Ok(())
     }
 }
 

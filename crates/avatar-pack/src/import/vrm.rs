@@ -26,8 +26,13 @@ impl Import {
         let poses: Vec<Pose> =
             vrm.expressions.iter().map(|expression| pose(&import.pack, &vrm, &expression.name)).collect();
         for pose in poses {
-            import.pack.poses.poses.retain(|other| other.name != pose.name);
-            import.pack.poses.poses.push(pose);
+            // The usual pose of that name keeps its place and its key.
+            match import.pack.poses.poses.iter_mut().find(|other| other.name == pose.name) {
+                // An expression that moves nothing says no more than the usual face.
+                Some(_) if pose.values.is_empty() => {}
+                Some(other) => other.values = pose.values,
+                None => import.pack.poses.poses.push(pose),
+            }
         }
         Ok(import)
     }

@@ -42,20 +42,20 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
     };
     match Target::of(path)? {
         Target::Folder => {
+            at_rest(args)?;
             let out = OutputFolder::check(path)?;
             let files = super::open(&args.pack)?;
             let pack = files.load_pack()?;
-            args.face.resolve(&pack, matches)?;
             let raw = avatar_pack::raw_files(&pack, &files.load_textures());
             let raw = raw.map_err(|error| anyhow!("{}: {error}", files.name()))?;
             raw.notes.iter().for_each(|note| eprintln!("warning: {note}"));
             out.write(&raw.files)
         }
         Target::Glb => {
+            at_rest(args)?;
             let out = OutputFile::check(path)?;
             let files = super::open(&args.pack)?;
             let pack = files.load_pack()?;
-            args.face.resolve(&pack, matches)?;
             out.write(&glb(&files, &pack)?)
         }
         Target::Obj => {
@@ -68,12 +68,37 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
     }
 }
 
+/// A rig is written at rest: who asks for a pose has to hear that it is not in the file.
+fn at_rest(args: &ConvertArgs) -> Result<()> {
+    match args.face.is_given() {
+        true => {
+            Err(usage("expected no pose, --set, --rotate or --clip, which only .obj can show, found one"))
+        }
+        false => Ok(()),
+    }
+}
+
 /// A file's scene as it is; of a pack rig, parts, shapes, and its poses as clips.
 fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
     let written = match &pack.motion {
-        Some(motion) => glb::write(&avatar_pack::portable_pictures(motion.scene())),
+        Some(motion) => {
+            let scene = motion.scene();
+            if !scene.drivers.is_empty() {
+                eprintln!(
+                    "warning: sliders of in-between and corrective shapes are left out, each shape is one of its own"
+                );
+            }
+            if files.is_vrm() {
+                eprintln!("warning: roles of bones, expressions and look-at are left out");
+            }
+            glb::write(&avatar_pack::portable_pictures(scene))
+        }
         None => {
             let raw = avatar_pack::export(pack, &files.load_textures());
+            raw.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+            if !pack.clips.clips.is_empty() {
+                eprintln!("warning: clips of controls are left out: poses are the clips of the file");
+            }
             glb::write_raw(&raw)
         }
     };
