@@ -6,7 +6,7 @@ mod common;
 
 use avatar_exchange::{AlphaMode, Material};
 use common::{Builder, F32, I8, I16, U8, U16, U32, floats, one_primitive};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
 #[test]
 fn positions_of_every_component_type() {
@@ -208,6 +208,50 @@ fn targets_get_their_names_and_names_are_told_apart() {
     assert_eq!((scene.parts[0].name.as_str(), scene.parts[1].name.as_str()), ("face", "node 1"));
     let few = rest.replace("[1, 2, 3, 4]", "[1]");
     assert_eq!(file.error(&few).place, "node 1 or mesh 0, weights");
+}
+
+#[test]
+fn targets_move_tangents() {
+    let mut file = Builder::default();
+    let position = file.triangle();
+    let tangents = file.floats(&[1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0], "VEC4");
+    let offsets = file.floats(&[0.0, 0.5, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 2.0], "VEC3");
+    let rest = format!(
+        r#""nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [{{"attributes": {{"POSITION": {position}, "TANGENT": {tangents}}},
+        "targets": [{{"POSITION": {position}, "TANGENT": {offsets}}}]}}]}}]"#
+    );
+    let part = &file.scene(&rest).parts[0];
+    assert_eq!(part.tangents[0], Vec4::new(1.0, 0.0, 0.0, -1.0));
+    let moved = part.mesh.shapes[0].tangents.as_ref().expect("tangents");
+    let moved: Vec<_> = (0..3).map(|vertex| moved.get(vertex).unwrap_or(Vec3::ZERO)).collect();
+    assert_eq!(moved, [Vec3::new(0.0, 0.5, 0.0), Vec3::ZERO, Vec3::new(-1.0, 0.0, 2.0)]);
+}
+
+#[test]
+fn the_default_scene_is_what_is_shown() {
+    let mut file = Builder::default();
+    let position = file.triangle();
+    // A group with a child, a node of the second scene, one of none.
+    let rest = format!(
+        r#""nodes": [{{"name": "group", "children": [1]}}, {{"name": "child", "mesh": 0}}, {{"name": "other", "mesh": 0}}, {{"name": "loose", "mesh": 0}}],
+        "scenes": [{{"nodes": [2]}}, {{"nodes": [0]}}], "scene": 1,
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": {position}}}}}]}}]"#
+    );
+    let parts =
+        |rest: &str| -> Vec<String> { file.scene(rest).parts.iter().map(|part| part.name.clone()).collect() };
+    assert_eq!(parts(&rest), ["child"]);
+    assert_eq!(parts(&rest.replace(r#", "scene": 1"#, "")), ["other"], "the first one");
+    let none = rest.replace(r#""scenes": [{"nodes": [2]}, {"nodes": [0]}], "scene": 1,"#, "");
+    assert_eq!(parts(&none), ["child", "other", "loose"]);
+    let scene = file.scene(&rest);
+    assert_eq!(scene.nodes.len(), 4, "joints may be anywhere");
+    let notes: Vec<String> = scene.notes.iter().map(ToString::to_string).collect();
+    assert!(
+        ["node 2", "node 3"].iter().all(|node| notes.iter().any(|note| note.contains(node))),
+        "{notes:?}"
+    );
+    assert_eq!(file.error(&rest.replace(r#""scene": 1"#, r#""scene": 2"#)).place, "scenes");
+    assert_eq!(file.error(&rest.replace(r#"{"nodes": [0]}"#, r#"{"nodes": [9]}"#)).place, "nodes");
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn a_quad_becomes_a_fan_with_texture_coordinates_from_the_top() {
 #[test]
 fn negative_indices_count_back_from_where_they_stand() {
     let obj = good("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 5\nf -1 -3 -2\n");
-    assert_eq!(obj.triangles, [[0, 1, 2], [3, 1, 2]]);
+    assert_eq!((&obj.faces.corners[..], &obj.faces.ends[..]), (&[0, 1, 2, 3, 1, 2][..], &[3, 6][..]));
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn vertices_keep_the_order_of_the_file_and_know_it() {
     assert_eq!(part.sources, [1, 2, 3, 3]);
     assert_eq!(part.mesh.triangles, [[3, 0, 1], [2, 1, 0]]);
     assert_eq!(part.mesh.normals[2..], [Vec3::Z, Vec3::Y]);
-    assert_eq!(obj.places, [[0, 0], [0, 1]]);
+    assert_eq!((&obj.faces.parts[..], &obj.faces.vertices[..]), (&[0, 0][..], &[3, 0, 1, 2, 1, 0][..]));
 }
 
 #[test]
@@ -199,9 +199,9 @@ fn errors_name_their_line() {
 fn faces_of_many_corners_and_many_parts_take_bounded_time() {
     let corners: String = (0..100_000).map(|k| format!(" {}", 1 + k % 3)).collect();
     let obj = good(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{corners}\n"));
-    assert_eq!(obj.triangles.len(), 99_998);
+    assert_eq!(obj.parts[0].mesh.triangles.len(), 99_998);
     let joined = good(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2{}3\n", "\\\n".repeat(1_000_000)));
-    assert_eq!(joined.triangles, [[0, 1, 2]]);
+    assert_eq!(joined.faces.corners, [0, 1, 2]);
     let groups: String = (0..70_000).map(|k| format!("g {k}\nf 1 2 3\n")).collect();
     let error = parse(&format!("\n\ng {}\n", "x".repeat(2000))).expect_err("too long");
     assert_eq!((error.place.as_str(), error.found.as_str()), ("line 3", "2000"));
@@ -250,7 +250,9 @@ fn frames_that_do_not_fit_are_told() {
     let more =
         fails(&[of("a.obj", a, 0.0), of("b.obj", "v 0 0 0\nv 0 1 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", 1.0)]);
     assert!(
-        ["b.obj", "\"b\"", "expected 3 vertices, found 4"].iter().all(|text| more.contains(text)),
+        ["b.obj: shape \"b\": expected 3 vertices, as in a.obj", "found 4"]
+            .iter()
+            .all(|text| more.contains(text)),
         "{more}"
     );
     let other = fails(&[of("a.obj", a, 0.0), of("b.obj", "v 0 0 0\nv 0 1 0\nv 1 1 1\nf 3 2 1\n", 1.0)]);
@@ -264,6 +266,52 @@ fn frames_that_do_not_fit_are_told() {
         .expect("a sequence");
     assert_eq!(scene.notes.len(), 1);
     assert_eq!(scene.parts[0].mesh.shapes[1].positions.get(0), Some(Vec3::Z * 7.0));
+}
+
+#[test]
+fn quads_that_begin_at_another_corner_are_the_same_quads() {
+    // A quad and a pentagon that share an edge, with a normal of its own at every corner.
+    let points = |z: f32| format!("v 0 0 {z}\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 3 1 0\nv 2 2 0\n");
+    let normals =
+        ["1 0 0", "0 1 0", "0 0 1", "0.6 0.8 0", "0 0.6 0.8", "0.8 0 0.6", "0 -1 0", "-1 0 0", "0 0 -1"];
+    let normals: String = normals.iter().map(|normal| format!("vn {normal}\n")).collect();
+    let base = format!("{}vn 0 0 1\nf 1//1 2//1 3//1 4//1\nf 2//1 5//1 6//1 7//1 3//1\n", points(0.0));
+    // The other one first; each begins two corners later.
+    let other = format!("{}{normals}f 6//7 7//8 3//9 2//5 5//6\nf 3//3 4//4 1//1 2//2\n", points(4.0));
+    let of = |file, text: &str| read_obj(file, text.as_bytes(), &mut |_| Err(String::new())).expect(text);
+    let (mut obj, frame) = (of("a.obj", &base), of("b.obj", &other));
+    obj.add_shape_of("b", &frame).expect("the same faces");
+    let note = obj.notes.last().expect("a warning");
+    assert_eq!(note.place, "b.obj");
+    assert!(note.text.contains("2 of 2 elsewhere and 2 that begin at another corner"), "{}", note.text);
+    // Each corner's normal is the one that the other file gives to this vertex; where two faces meet at one, the later
+    // face's holds, so that only corners of the quad alone and of the pentagon are looked at.
+    let part = &obj.parts[0];
+    let shape = &part.mesh.shapes[0];
+    let change = |vertex: usize| {
+        part.mesh.normals[vertex] + shape.normals.as_ref().expect("normals").get(vertex).unwrap_or(Vec3::ZERO)
+    };
+    for (source, expected) in [
+        (0, Vec3::X),
+        (3, Vec3::new(0.6, 0.8, 0.0)),
+        (1, Vec3::new(0.0, 0.6, 0.8)),
+        (4, Vec3::new(0.8, 0.0, 0.6)),
+        (5, Vec3::NEG_Y),
+        (6, Vec3::NEG_X),
+        (2, Vec3::NEG_Z),
+    ] {
+        let vertex = part.sources.iter().position(|s| *s == source).expect("a vertex");
+        assert!(change(vertex).abs_diff_eq(expected, 1e-6), "{source}: {}", change(vertex));
+    }
+    assert_eq!(shape.positions.get(0), Some(Vec3::Z * 4.0));
+    // The other way around it is another face.
+    let back = format!("{}f 1 4 3 2\nf 2 5 6 7 3\n", points(0.0));
+    let error = obj.add_shape_of("back", &of("c.obj", &back)).expect_err("another face").to_string();
+    assert!(
+        error.contains("the base's 2 faces, as in a.obj")
+            && error.contains("none for 1 of them (first 0: [0, 1, 2, 3])"),
+        "{error}"
+    );
 }
 
 /// Statements of a kind, counted without the reader.
@@ -285,7 +333,7 @@ fn real_faces_load() {
         assert_eq!(obj.positions.len(), count(&text, "v"), "{name}");
         let faces = text.lines().filter(|line| line.starts_with("f "));
         let triangles: usize = faces.map(|line| line.split_whitespace().count() - 3).sum();
-        assert_eq!(obj.triangles.len(), triangles, "{name}");
+        assert_eq!(obj.faces.ends.len(), count(&text, "f"), "{name}");
         let in_parts: usize = obj.parts.iter().map(|part| part.mesh.triangles.len()).sum();
         assert_eq!(in_parts, triangles, "{name}");
         let groups: std::collections::HashSet<_> =

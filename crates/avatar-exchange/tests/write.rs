@@ -62,6 +62,8 @@ fn random_scenes_are_rich() {
         .flat_map(|c| &c.channels)
         .any(|c| c.target == ChannelTarget::Weights)));
     assert!(any(&|scene| scene.materials.iter().any(|m| m.textures().count() > 1)));
+    let parts = |part: &ScenePart| part.mesh.shapes.iter().any(|shape| shape.tangents.is_some());
+    assert!(any(&|scene| scene.parts.iter().any(parts)));
 }
 
 #[derive(Clone, Copy, PartialEq)]

@@ -5,8 +5,54 @@
 //! turns a symmetric net of faces into itself, tell nothing.)
 
 use glam::Vec3;
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::fmt;
+
+/// Faces of any number of corners: the vertices that they go around.
+#[derive(Clone, Copy, Debug)]
+pub enum Faces<'a> {
+    /// Three corners each.
+    Triangles(&'a [[u32; 3]]),
+    /// One face after the other.
+    Polygons {
+        /// The corners of all faces.
+        corners: &'a [u32],
+        /// For each face where the next one's corners begin.
+        ends: &'a [u32],
+    },
+}
+
+impl<'a> Faces<'a> {
+    /// How many there are.
+    pub fn len(self) -> usize {
+        match self {
+            Self::Triangles(triangles) => triangles.len(),
+            Self::Polygons { ends, .. } => ends.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
+
+    /// The corners of a face; none where ends do not rise or go beyond the corners.
+    pub fn corners(self, face: usize) -> &'a [u32] {
+        match self {
+            Self::Triangles(triangles) => triangles.get(face).map_or(&[], |corners| corners),
+            Self::Polygons { corners, ends } => {
+                let start = face.checked_sub(1).map_or(Some(0), |before| ends.get(before).copied());
+                let range = start.zip(ends.get(face)).map(|(start, end)| start as usize..*end as usize);
+                range.and_then(|range| corners.get(range)).unwrap_or(&[])
+            }
+        }
+    }
+
+    fn all(self) -> impl Iterator<Item = &'a [u32]> {
+        (0..self.len()).map(move |face| self.corners(face))
+    }
+}
 
 /// A geometry and where it came from.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +63,8 @@ pub struct Geometry<'a> {
     pub shape: &'a str,
     /// Positions of its vertices.
     pub positions: &'a [Vec3],
-    /// Its triangles, as the file lists them.
-    pub triangles: &'a [[u32; 3]],
+    /// Its faces, as the file lists them.
+    pub faces: Faces<'a>,
 }
 
 /// How the faces of a candidate are those of the base.
@@ -29,7 +75,7 @@ pub enum FaceMatch {
     /// All of them, but listed in another order, or beginning at other corners: harmless for blending, but whatever is stored
     /// per face or per corner must be moved along.
     Reordered {
-        /// For each triangle of the base, the one of the candidate that it is.
+        /// For each face of the base, the one of the candidate that it is.
         candidate_from_base: Vec<u32>,
         /// How many are not in their place.
         moved: usize,
@@ -60,41 +106,35 @@ impl fmt::Display for FaceMatch {
 
 /// Why a geometry is no shape of the base.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum CoherenceError {
+#[error("{file}, shape {shape:?}: expected {}, found {}", .mismatch.expected(), .mismatch.found())]
+pub struct CoherenceError {
+    /// The candidate's file.
+    pub file: String,
+    /// The candidate's name.
+    pub shape: String,
+    /// What differs.
+    pub mismatch: Mismatch,
+}
+
+/// A difference that makes blending vertex by vertex meaningless.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Mismatch {
     /// Another number of vertices.
-    #[error("{file}, shape {shape:?}: expected {expected} vertices, found {found}")]
     VertexCount {
-        /// The candidate's file.
-        file: String,
-        /// The candidate's name.
-        shape: String,
         /// Vertices of the base.
         expected: usize,
         /// Vertices of the candidate.
         found: usize,
     },
-    /// Another number of triangles.
-    #[error("{file}, shape {shape:?}: expected {expected} triangles, found {found}")]
+    /// Another number of faces.
     FaceCount {
-        /// The candidate's file.
-        file: String,
-        /// The candidate's name.
-        shape: String,
-        /// Triangles of the base.
+        /// Faces of the base.
         expected: usize,
-        /// Triangles of the candidate.
+        /// Faces of the candidate.
         found: usize,
     },
     /// The same faces, but their vertices are numbered otherwise.
-    #[error(
-        "{file}, shape {shape:?}: expected the base's order of vertices, found {reordered} of {vertices} in another place \
-        (first vertex {vertex} as {found})"
-    )]
     VertexOrder {
-        /// The candidate's file.
-        file: String,
-        /// The candidate's name.
-        shape: String,
         /// Number of vertices of each.
         vertices: usize,
         /// How many have another number.
@@ -105,79 +145,126 @@ pub enum CoherenceError {
         found: u32,
     },
     /// Other faces.
-    #[error(
-        "{file}, shape {shape:?}: expected the base's {faces} triangles, {missing} are missing (first {triangle}: {corners:?})"
-    )]
     Faces {
-        /// The candidate's file.
-        file: String,
-        /// The candidate's name.
-        shape: String,
-        /// Number of triangles of each.
+        /// Number of faces of each.
         faces: usize,
         /// How many of the base's the candidate lacks.
         missing: usize,
         /// The first of them, in the base.
-        triangle: usize,
+        face: usize,
         /// Its vertices.
-        corners: [u32; 3],
+        corners: Vec<u32>,
     },
+}
+
+impl Mismatch {
+    /// What the base has.
+    pub fn expected(&self) -> String {
+        match self {
+            Self::VertexCount { expected, .. } => format!("{expected} vertices"),
+            Self::FaceCount { expected, .. } => format!("{expected} faces"),
+            Self::VertexOrder { .. } => "the base's order of vertices".to_owned(),
+            Self::Faces { faces, .. } => format!("the base's {faces} faces"),
+        }
+    }
+
+    /// What the candidate has.
+    pub fn found(&self) -> String {
+        match self {
+            Self::VertexCount { found, .. } | Self::FaceCount { found, .. } => found.to_string(),
+            Self::VertexOrder { vertices, reordered, vertex, found } => {
+                format!("{reordered} of {vertices} in another place (first vertex {vertex} as {found})")
+            }
+            Self::Faces { missing, face, corners, .. } => {
+                let shown = &corners[..corners.len().min(8)];
+                let more = if shown.len() < corners.len() { " and more" } else { "" };
+                format!("none for {missing} of them (first {face}: {shown:?}{more})")
+            }
+        }
+    }
 }
 
 /// Checks that a candidate has the base's vertices and faces.
 ///
 /// # Errors
-/// Other counts, another order of vertices, other faces; a triangle that runs the other way around is another face.
+/// Other counts, another order of vertices, other faces; a face that runs the other way around is another face.
 pub fn check(base: Geometry<'_>, candidate: Geometry<'_>) -> Result<FaceMatch, CoherenceError> {
-    let (file, shape) = (candidate.file.to_owned(), candidate.shape.to_owned());
+    compare(base, candidate).map_err(|mismatch| CoherenceError {
+        file: candidate.file.to_owned(),
+        shape: candidate.shape.to_owned(),
+        mismatch,
+    })
+}
+
+fn compare(base: Geometry<'_>, candidate: Geometry<'_>) -> Result<FaceMatch, Mismatch> {
     let (expected, found) = (base.positions.len(), candidate.positions.len());
     if expected != found {
-        return Err(CoherenceError::VertexCount { file, shape, expected, found });
+        return Err(Mismatch::VertexCount { expected, found });
     }
-    let (vertices, expected, found) = (expected, base.triangles.len(), candidate.triangles.len());
+    let (vertices, expected, found) = (expected, base.faces.len(), candidate.faces.len());
     if expected != found {
-        return Err(CoherenceError::FaceCount { file, shape, expected, found });
+        return Err(Mismatch::FaceCount { expected, found });
     }
-    if base.triangles == candidate.triangles {
+    if base.faces.all().eq(candidate.faces.all()) {
         return Ok(FaceMatch::Same);
     }
-    match matched(base.triangles, candidate.triangles) {
-        Ok(face_match) => Ok(face_match),
-        Err((missing, triangle)) => Err(match renumbered(base.triangles, candidate.triangles) {
-            Some((reordered, vertex, found)) => {
-                CoherenceError::VertexOrder { file, shape, vertices, reordered, vertex, found }
-            }
+    matched(base.faces, candidate.faces).map_err(|(missing, face)| {
+        match renumbered(base.faces, candidate.faces) {
+            Some((reordered, vertex, found)) => Mismatch::VertexOrder { vertices, reordered, vertex, found },
             None => {
-                let corners = base.triangles.get(triangle).copied().unwrap_or_default();
-                CoherenceError::Faces { file, shape, faces: expected, missing, triangle, corners }
+                let corners = base.faces.corners(face).to_vec();
+                Mismatch::Faces { faces: expected, missing, face, corners }
             }
-        }),
+        }
+    })
+}
+
+/// The corner from which a face reads as the first of all its turns. Two faces are the same but for where they begin if
+/// they read the same from there. Linear in the corners: of two beginnings, the one that loses after k corners takes the k
+/// that follow it along.
+pub fn first_corner(corners: &[u32]) -> usize {
+    let count = corners.len();
+    let at = |start: usize, k: usize| corners[(start + k) % count];
+    let (mut one, mut other, mut k) = (0, 1, 0);
+    while one < count && other < count && k < count {
+        match at(one, k).cmp(&at(other, k)) {
+            Ordering::Equal => {
+                k += 1;
+                continue;
+            }
+            Ordering::Greater => one += k + 1,
+            Ordering::Less => other += k + 1,
+        }
+        other += usize::from(one == other);
+        k = 0;
     }
+    one.min(other)
 }
 
-/// A triangle as it reads from the corner that puts it first.
-fn canonical([a, b, c]: [u32; 3]) -> [u32; 3] {
-    [a, b, c].min([b, c, a]).min([c, a, b])
+/// A face from its first corner on.
+fn canonical(corners: &[u32]) -> Vec<u32> {
+    let (rest, start) = corners.split_at(first_corner(corners));
+    [start, rest].concat()
 }
 
-/// The candidate's triangle for each of the base's, or how many there are none for, and the first.
-fn matched(base: &[[u32; 3]], candidate: &[[u32; 3]]) -> Result<FaceMatch, (usize, usize)> {
-    // Triangles that are there several times are matched in their order: the last of a list is its first.
-    let mut places: HashMap<[u32; 3], Vec<u32>> = HashMap::with_capacity(candidate.len());
-    for (place, corners) in candidate.iter().enumerate().rev() {
-        places.entry(canonical(*corners)).or_default().push(place as u32);
+/// The candidate's face for each of the base's, or how many there are none for, and the first.
+fn matched(base: Faces<'_>, candidate: Faces<'_>) -> Result<FaceMatch, (usize, usize)> {
+    // Faces that are there several times are matched in their order: the last of a list is its first.
+    let mut places: HashMap<Vec<u32>, Vec<u32>> = HashMap::with_capacity(candidate.len());
+    for place in (0..candidate.len()).rev() {
+        places.entry(canonical(candidate.corners(place))).or_default().push(place as u32);
     }
     let mut candidate_from_base = Vec::with_capacity(base.len());
     let (mut missing, mut moved, mut rotated) = (None, 0, 0);
-    for (triangle, corners) in base.iter().enumerate() {
-        match places.get_mut(&canonical(*corners)).and_then(Vec::pop) {
+    for (face, corners) in base.all().enumerate() {
+        match places.get_mut(&canonical(corners)).and_then(Vec::pop) {
             Some(place) => {
-                moved += usize::from(place as usize != triangle);
-                rotated += usize::from(candidate.get(place as usize) != Some(corners));
+                moved += usize::from(place as usize != face);
+                rotated += usize::from(candidate.corners(place as usize) != corners);
                 candidate_from_base.push(place);
             }
             None => {
-                let (count, first) = missing.unwrap_or((0, triangle));
+                let (count, first) = missing.unwrap_or((0, face));
                 missing = Some((count + 1, first));
             }
         }
@@ -188,16 +275,21 @@ fn matched(base: &[[u32; 3]], candidate: &[[u32; 3]]) -> Result<FaceMatch, (usiz
     }
 }
 
-/// Where the triangles are the same but for a new numbering of their vertices: how many vertices have another number, and the
+/// Where the faces are the same but for a new numbering of their vertices: how many vertices have another number, and the
 /// first with its new one.
-fn renumbered(base: &[[u32; 3]], candidate: &[[u32; 3]]) -> Option<(usize, u32, u32)> {
+fn renumbered(base: Faces<'_>, candidate: Faces<'_>) -> Option<(usize, u32, u32)> {
     let mut new_of: HashMap<u32, u32> = HashMap::new();
     let mut old_of: HashMap<u32, u32> = HashMap::new();
-    for (old, new) in base.iter().flatten().zip(candidate.iter().flatten()) {
-        if new_of.insert(*old, *new).is_some_and(|other| other != *new)
-            || old_of.insert(*new, *old).is_some_and(|other| other != *old)
-        {
+    for (base, candidate) in base.all().zip(candidate.all()) {
+        if base.len() != candidate.len() {
             return None;
+        }
+        for (old, new) in base.iter().zip(candidate) {
+            if new_of.insert(*old, *new).is_some_and(|other| other != *new)
+                || old_of.insert(*new, *old).is_some_and(|other| other != *old)
+            {
+                return None;
+            }
         }
     }
     let changed = || new_of.iter().filter(|(old, new)| old != new);

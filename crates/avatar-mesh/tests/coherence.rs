@@ -3,13 +3,13 @@
 
 mod common;
 
-use avatar_mesh::coherence::{CoherenceError, FaceMatch, Geometry, check};
+use avatar_mesh::coherence::{CoherenceError, FaceMatch, Faces, Geometry, Mismatch, check};
 use common::Random;
 use glam::Vec3;
 use proptest::prelude::*;
 
 fn geometry<'a>(positions: &'a [Vec3], triangles: &'a [[u32; 3]]) -> Geometry<'a> {
-    Geometry { file: "grin.obj", shape: "grin", positions, triangles }
+    Geometry { file: "grin.obj", shape: "grin", positions, faces: Faces::Triangles(triangles) }
 }
 
 fn shuffled<T>(random: &mut Random, list: &mut [T]) {
@@ -54,6 +54,52 @@ proptest! {
         }
     }
 
+    /// Faces of any size, against comparing every turn of every face with every other.
+    #[test]
+    fn polygons_that_begin_elsewhere_are_matched(seed in any::<u64>(), names in 1usize..5, count in 1usize..9) {
+        let mut random = Random(seed);
+        let faces: Vec<Vec<u32>> = (0..count)
+            .map(|_| (0..=random.below(6)).map(|_| random.below(names) as u32).collect())
+            .collect();
+        let mut others = faces.clone();
+        shuffled(&mut random, &mut others);
+        for face in &mut others {
+            let turn = random.below(face.len());
+            face.rotate_left(turn);
+        }
+        let damaged = random.below(3) == 0;
+        if damaged {
+            let face = random.below(count);
+            let corner = random.below(others[face].len());
+            others[face][corner] = random.below(names + 1) as u32;
+        }
+        let turns = |face: &[u32]| {
+            let turn = |k| { let mut face = face.to_vec(); face.rotate_left(k); face };
+            (0..face.len()).map(turn).min()
+        };
+        let sorted = |faces: &[Vec<u32>]| {
+            let mut all: Vec<_> = faces.iter().map(|face| turns(face)).collect();
+            all.sort();
+            all
+        };
+        let flat = |faces: &[Vec<u32>]| {
+            let ends = faces.iter().scan(0, |end, face| { *end += face.len() as u32; Some(*end) });
+            (faces.concat(), ends.collect::<Vec<u32>>())
+        };
+        let ((corners, ends), (other_corners, other_ends)) = (flat(&faces), flat(&others));
+        let of = |corners, ends| Geometry { faces: Faces::Polygons { corners, ends }, ..geometry(&[], &[]) };
+        match check(of(&corners, &ends), of(&other_corners, &other_ends)) {
+            Ok(FaceMatch::Same) => prop_assert_eq!(&faces, &others),
+            Ok(FaceMatch::Reordered { candidate_from_base, .. }) => {
+                prop_assert_eq!(sorted(&faces), sorted(&others));
+                for (face, place) in faces.iter().zip(candidate_from_base) {
+                    prop_assert_eq!(turns(face), turns(&others[place as usize]));
+                }
+            }
+            Err(_) => prop_assert!(damaged && sorted(&faces) != sorted(&others)),
+        }
+    }
+
     /// Whatever an exporter does to the numbers of vertices, faces tell.
     #[test]
     fn vertices_in_another_order_are_found(seed in any::<u64>(), shuffle_faces in any::<bool>()) {
@@ -66,17 +112,18 @@ proptest! {
         if shuffle_faces {
             shuffled(&mut random, &mut other);
         }
-        match check(geometry(&positions, &triangles), geometry(&positions, &other)) {
-            Err(CoherenceError::VertexOrder { vertices: 25, reordered, vertex, found, .. }) if !shuffle_faces => {
+        let found = check(geometry(&positions, &triangles), geometry(&positions, &other));
+        match found.map_err(|CoherenceError { mismatch, .. }| mismatch) {
+            Err(Mismatch::VertexOrder { vertices: 25, reordered, vertex, found }) if !shuffle_faces => {
                 let wrong: Vec<usize> = (0..25).filter(|old| new_of[*old] != *old as u32).collect();
                 prop_assert_eq!((reordered, vertex as usize, found), (wrong.len(), wrong[0], new_of[wrong[0]]));
             }
-            Err(CoherenceError::Faces { faces: 32, missing, triangle, corners, .. }) if shuffle_faces => {
+            Err(Mismatch::Faces { faces: 32, missing, face, corners }) if shuffle_faces => {
                 prop_assert!(missing > 0);
-                prop_assert_eq!(triangles[triangle], corners);
+                prop_assert_eq!(&triangles[face][..], &corners);
             }
             // A shuffle may by chance be one in which the faces' corners correspond.
-            Err(CoherenceError::VertexOrder { .. }) if shuffle_faces => {}
+            Err(Mismatch::VertexOrder { .. }) if shuffle_faces => {}
             other => prop_assert!(false, "{:?}", other),
         }
     }
@@ -94,17 +141,16 @@ fn errors_name_the_file_the_shape_and_both_numbers() {
         text(&positions[..24], &triangles),
         "grin.obj, shape \"grin\": expected 25 vertices, found 24"
     );
-    assert_eq!(
-        text(&positions, &triangles[1..]),
-        "grin.obj, shape \"grin\": expected 32 triangles, found 31"
-    );
+    assert_eq!(text(&positions, &triangles[1..]), "grin.obj, shape \"grin\": expected 32 faces, found 31");
     let mut turned = triangles.clone();
     turned[7].swap(0, 1);
     turned[9].swap(0, 1);
     let t = triangles[7];
     assert_eq!(
         text(&positions, &turned),
-        format!("grin.obj, shape \"grin\": expected the base's 32 triangles, 2 are missing (first 7: {t:?})")
+        format!(
+            "grin.obj, shape \"grin\": expected the base's 32 faces, found none for 2 of them (first 7: {t:?})"
+        )
     );
     let swapped: Vec<[u32; 3]> =
         triangles.iter().map(|t| t.map(|v| [3, 1, 2, 0].get(v as usize).copied().unwrap_or(v))).collect();

@@ -152,15 +152,12 @@ impl<'a> Document<'a> {
             .filter(|name| !KNOWN_EXTENSIONS[..REPRESENTED_EXTENSIONS].contains(&name.as_str()))
             .map(|name| format!("{name} is not represented"))
             .collect();
-        let (cameras, scenes) = (root.cameras.len(), root.scenes.len());
+        let cameras = root.cameras.len();
         for text in left_out {
             self.note("extensionsUsed", text);
         }
         if cameras > 0 {
             self.note("cameras", format!("{cameras} are left out"));
-        }
-        if scenes > 1 {
-            self.note("scenes", format!("the nodes of all {scenes} are taken as one scene"));
         }
     }
 }

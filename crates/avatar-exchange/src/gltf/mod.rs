@@ -29,8 +29,8 @@ pub use container::{Container, split};
 
 /// Reads `.gltf` (JSON) or `.glb`. `file` is its name for messages.
 ///
-/// Every node of the file is in the scene, whether the file's default scene shows it or not. Primitives without
-/// normals get some, with a note. Points and lines are left out, with a note.
+/// Every node of the file is in the scene; meshes of nodes that the file's default scene does not show are left out, with a
+/// note. Primitives without normals get some, with a note. Points and lines are left out, with a note.
 ///
 /// ```
 /// let json = br#"{"asset": {"version": "2.0"}, "nodes": [{"name": "hip", "translation": [0, 1, 0]}]}"#;

@@ -2,7 +2,7 @@ use super::document::{Document, in_range};
 use super::triangles;
 use crate::assemble::{Influences, SHAPE_BYTES_PER_VERTEX, normals_of, shape, unique_names};
 use crate::{ImportError, RawScene, ScenePart};
-use avatar_mesh::{Mesh, Shape, Skinning};
+use avatar_mesh::{Mesh, Offsets, Shape, Skinning};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{MorphTarget, Primitive, Semantic};
@@ -22,6 +22,7 @@ impl Document<'_> {
     pub(super) fn read_parts(&mut self, scene: &mut RawScene) -> Result<(), ImportError> {
         let nodes = std::mem::take(&mut self.root.nodes);
         let meshes = std::mem::take(&mut self.root.meshes);
+        let is_shown = self.shown(&nodes)?;
         for (number, node) in nodes.iter().enumerate() {
             let Some(mesh) = node.mesh else { continue };
             let (mesh_number, mesh) = (mesh.value(), in_range("meshes", &meshes, mesh.value())?);
@@ -38,6 +39,10 @@ impl Document<'_> {
                     return Err(ImportError::new(place, expected, weights.len().to_string()));
                 }
             };
+            if !is_shown[number] {
+                self.note(format!("node {number}"), "is not in the default scene: its mesh is left out");
+                continue;
+            }
             let place = format!("mesh {mesh_number}");
             let names = self.target_names(&place, mesh, targets)?;
             let name = node.name.as_ref().or(mesh.name.as_ref()).cloned();
@@ -78,6 +83,24 @@ impl Document<'_> {
             }
         }
         Ok(())
+    }
+
+    /// For each node whether the default scene has it: the one that the file says, or else its first; all where there is none.
+    fn shown(&self, nodes: &[json::Node]) -> Result<Vec<bool>, ImportError> {
+        let number = self.root.scene.map_or(0, |scene| scene.value());
+        if self.root.scenes.is_empty() && self.root.scene.is_none() {
+            return Ok(vec![true; nodes.len()]);
+        }
+        let mut is_shown = vec![false; nodes.len()];
+        let mut below: Vec<usize> =
+            in_range("scenes", &self.root.scenes, number)?.nodes.iter().map(|node| node.value()).collect();
+        while let Some(number) = below.pop() {
+            let node = in_range("nodes", nodes, number)?;
+            if !std::mem::replace(&mut is_shown[number], true) {
+                below.extend(node.children.iter().flatten().map(|child| child.value()));
+            }
+        }
+        Ok(is_shown)
     }
 
     /// Names of morph targets: those of `extras.targetNames`, which exporters agree on, or numbers.
@@ -145,14 +168,9 @@ impl Document<'_> {
         self.note_attributes(place, primitive);
         let mut shapes = Vec::with_capacity(names.len());
         for (number, target) in primitive.targets.iter().flatten().enumerate() {
-            self.budget.take(
-                || place.to_owned(),
-                names[number].len() + vertices * SHAPE_BYTES_PER_VERTEX,
-                1,
-            )?;
-            if target.tangents.is_some() {
-                self.note(place, "offsets of tangents are left out");
-            }
+            let further = if target.tangents.is_some() { size_of::<Vec3>() } else { 0 };
+            let bytes = names[number].len() + vertices * (SHAPE_BYTES_PER_VERTEX + further);
+            self.budget.take(|| place.to_owned(), bytes, 1)?;
             let place = format!("{place}, target {number}");
             shapes.push(self.shape(&place, target, names[number].clone(), vertices)?);
         }
@@ -187,7 +205,8 @@ impl Document<'_> {
             Ok(Some(offsets))
         };
         let (positions, normals) = (offsets(target.positions)?, offsets(target.normals)?);
-        Ok(shape(name, vertices, positions, normals))
+        let tangents = offsets(target.tangents)?.filter(|offsets| offsets.iter().any(|o| *o != Vec3::ZERO));
+        Ok(Shape { tangents: tangents.map(Offsets::from_dense), ..shape(name, vertices, positions, normals) })
     }
 
     fn per_vertex<const N: usize, T: From<[f32; N]> + bytemuck::Pod>(

@@ -76,11 +76,14 @@ pub(super) fn build(file: &str, lines: &Lines) -> Result<ObjFile, ImportError> {
         let (keys_here, part) = (&keys[corners], &mut obj.parts[face.part]);
         // Every key was put there above.
         let vertex = |key: &Key| part_keys[face.part].partition_point(|other| other < key) as u32;
-        let vertices: Vec<u32> = keys_here.iter().map(vertex).collect();
+        let first = obj.faces.vertices.len();
+        obj.faces.vertices.extend(keys_here.iter().map(vertex));
+        obj.faces.corners.extend(keys_here.iter().map(|key| key.position));
+        obj.faces.ends.push(obj.faces.corners.len() as u32);
+        obj.faces.parts.push(face.part as u32);
+        let vertices = &obj.faces.vertices[first..];
         for k in 1..vertices.len() - 1 {
-            obj.places.push([face.part as u32, part.mesh.triangles.len() as u32]);
             part.mesh.triangles.push([vertices[0], vertices[k], vertices[k + 1]]);
-            obj.triangles.push([0, k, k + 1].map(|corner| keys_here[corner].position));
         }
     }
     obj.notes = notes(lines);

@@ -38,10 +38,8 @@ pub struct ObjFile {
     pub name: String,
     /// All vertices (`v`) in the order of the file, used by faces or not.
     pub positions: Vec<Vec3>,
-    /// All triangles in the order of the file's faces, by positions.
-    pub triangles: Vec<[u32; 3]>,
-    /// Where each of them is: part, triangle of the part.
-    pub places: Vec<[u32; 2]>,
+    /// All faces in the order of the file.
+    pub faces: ObjFaces,
     /// What is drawn.
     pub parts: Vec<ObjPart>,
     /// The materials that parts name, in the order in which the file names them.
@@ -50,6 +48,19 @@ pub struct ObjFile {
     pub images: Vec<SceneImage>,
     /// What is left out or was not found.
     pub notes: Vec<Note>,
+}
+
+/// The polygons of a file before they became triangles.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ObjFaces {
+    /// The corners of all faces, one face after the other: places among [`ObjFile::positions`].
+    pub corners: Vec<u32>,
+    /// For each corner its vertex in the part of its face.
+    pub vertices: Vec<u32>,
+    /// For each face where the next one's corners begin.
+    pub ends: Vec<u32>,
+    /// For each face its part.
+    pub parts: Vec<u32>,
 }
 
 /// The faces of one group or object with one material.

@@ -1,12 +1,13 @@
 //! Sequences of OBJ files: one connectivity, a geometry for each time.
 
-use super::{ObjFile, read_obj};
+use super::{ObjFaces, ObjFile, read_obj};
 use crate::Resolve;
 use crate::text::stem;
 use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Note, Scene};
-use avatar_mesh::Shape;
-use avatar_mesh::coherence::{self, FaceMatch, Geometry};
+use avatar_mesh::coherence::{self, FaceMatch, Faces, Geometry};
+use avatar_mesh::{Mesh, Shape};
 use glam::Vec3;
+use std::ops::Range;
 
 /// A clip has the square of this many weights at most.
 const MAX_FRAMES: usize = 4096;
@@ -80,37 +81,32 @@ impl ObjFile {
     /// Other vertices or faces, with both counts, or a shape of this name that is there already.
     pub fn add_shape_of(&mut self, name: &str, other: &ObjFile) -> Result<(), ImportError> {
         self.check_name(name)?;
-        let base = Geometry {
-            file: &self.file,
-            shape: &self.name,
-            positions: &self.positions,
-            triangles: &self.triangles,
-        };
-        let candidate = Geometry {
-            file: &other.file,
-            shape: name,
-            positions: &other.positions,
-            triangles: &other.triangles,
-        };
-        let same = coherence::check(base, candidate).map_err(|error| {
-            let expected = format!("the vertices and faces of {}", self.file);
-            ImportError::new(format!("shape {name:?}"), expected, error.to_string()).in_file(&other.file)
+        let base = self.geometry(&self.name);
+        let same = coherence::check(base, other.geometry(name)).map_err(|error| {
+            let (expected, found) = (error.mismatch.expected(), error.mismatch.found());
+            let expected = format!("{expected}, as in {}", self.file);
+            ImportError::new(format!("shape {name:?}"), expected, found).in_file(&other.file)
         })?;
         if same.is_warning() {
             self.notes.push(Note { place: other.file.clone(), text: same.to_string() });
         }
         let mut normals: Vec<Vec<Vec3>> =
             self.parts.iter().map(|part| vec![Vec3::ZERO; part.sources.len()]).collect();
-        for (number, (&[part, triangle], corners)) in self.places.iter().zip(&self.triangles).enumerate() {
+        for (face, &part) in self.faces.parts.iter().enumerate() {
             let theirs = match &same {
-                FaceMatch::Same => number,
-                FaceMatch::Reordered { candidate_from_base, .. } => candidate_from_base[number] as usize,
+                FaceMatch::Same => face,
+                FaceMatch::Reordered { candidate_from_base, .. } => candidate_from_base[face] as usize,
             };
-            let mesh = &self.parts[part as usize].mesh;
-            for (corner, &vertex) in mesh.triangles[triangle as usize].iter().enumerate() {
-                let turned = other.triangles[theirs].iter().position(|position| *position == corners[corner]);
-                let normal = other.normal_at(theirs, turned.unwrap_or(corner));
-                normals[part as usize][vertex as usize] = normal - mesh.normals[vertex as usize];
+            let (ours, own) = (self.faces.range(face), &self.parts[part as usize].mesh);
+            let (range, mesh) = (other.faces.range(theirs), other.mesh_of(theirs));
+            let corners = ours.len();
+            // From where a face reads the same, whatever corner it begins at.
+            let [first, their_first] = [(&self.faces, &ours), (&other.faces, &range)]
+                .map(|(faces, range)| coherence::first_corner(&faces.corners[range.clone()]));
+            for k in 0..corners {
+                let vertex = self.faces.vertices[ours.start + (first + k) % corners] as usize;
+                let their_vertex = other.faces.vertices[range.start + (their_first + k) % corners] as usize;
+                normals[part as usize][vertex] = mesh.normals[their_vertex] - own.normals[vertex];
             }
         }
         for (part, normals) in self.parts.iter_mut().zip(normals) {
@@ -121,10 +117,20 @@ impl ObjFile {
         Ok(())
     }
 
-    /// The normal at a corner of a triangle in the order of the file.
-    fn normal_at(&self, triangle: usize, corner: usize) -> Vec3 {
-        let [part, triangle] = self.places[triangle];
-        let mesh = &self.parts[part as usize].mesh;
-        mesh.normals[mesh.triangles[triangle as usize][corner] as usize]
+    fn geometry<'a>(&'a self, shape: &'a str) -> Geometry<'a> {
+        let faces = Faces::Polygons { corners: &self.faces.corners, ends: &self.faces.ends };
+        Geometry { file: &self.file, shape, positions: &self.positions, faces }
+    }
+
+    fn mesh_of(&self, face: usize) -> &Mesh {
+        &self.parts[self.faces.parts[face] as usize].mesh
+    }
+}
+
+impl ObjFaces {
+    /// Where the corners of a face are.
+    fn range(&self, face: usize) -> Range<usize> {
+        let start = face.checked_sub(1).map_or(0, |before| self.ends[before]);
+        start as usize..self.ends[face] as usize
     }
 }

@@ -98,12 +98,20 @@ pub fn scene(seed: u64) -> RawScene {
         let shapes: Vec<String> = (0..r.below(4)).map(|k| format!("{}.{k}", r.text())).collect();
         scene.nodes[node].weights = shapes.iter().map(|_| r.float()).collect();
         for primitive in 0..1 + r.below(2) {
-            let mesh = mesh(&mut r, &shapes, skin.map(|skin| scene.skins[skin].joints.len()));
+            let mut mesh = mesh(&mut r, &shapes, skin.map(|skin| scene.skins[skin].joints.len()));
             let tangents = if r.chance(2) {
                 Vec::new()
             } else {
                 mesh.positions.iter().map(|_| tangent(&mut r)).collect()
             };
+            if !tangents.is_empty() && r.chance(2) {
+                let moved = |r: &mut Random| mesh.positions.iter().map(|_| r.unit()).collect::<Vec<_>>();
+                let moved: Vec<_> = mesh.shapes.iter().map(|_| moved(&mut r)).collect();
+                mesh.shapes
+                    .iter_mut()
+                    .zip(moved)
+                    .for_each(|(shape, moved)| shape.tangents = Some(moved.into()));
+            }
             scene.parts.push(ScenePart {
                 name: scene.nodes[node].name.clone(),
                 node,
