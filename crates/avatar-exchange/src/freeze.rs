@@ -1,6 +1,7 @@
 use crate::error::quoted;
 use crate::{
-    Channel, ChannelTarget, ImportError, Interpolation, Node, Note, RawScene, SceneImage, Transform,
+    Channel, ChannelTarget, ImportError, Interpolation, Node, Note, RawScene, SceneImage, ScenePart,
+    Transform,
 };
 use avatar_mesh::drivers::ShapeDrivers;
 use glam::Affine3A;
@@ -52,6 +53,11 @@ impl Scene {
         let mut scene = self.clone();
         scene.raw.images = images;
         Some(scene)
+    }
+
+    /// Leaves parts out. Nodes, and with them the palette, stay.
+    pub fn retain_parts(&mut self, keep: impl FnMut(&ScenePart) -> bool) {
+        self.raw.parts.retain(keep);
     }
 
     /// Checks a scene and turns joints of skins into positions in the palette. Weights that do not quite sum to 1

@@ -39,6 +39,8 @@ pub struct Pack {
     pub hair: Option<Hair>,
     /// The clips of a file of an interchange format, of whole joints; packs in the raw format have none.
     pub motion: Option<SceneMotion>,
+    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind pose in world space.
+    pub face: Option<Bounds>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
 }
@@ -128,6 +130,7 @@ impl Pack {
             materials,
             hair,
             motion: None,
+            face: None,
             warnings,
         })
     }

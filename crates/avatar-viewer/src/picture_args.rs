@@ -1,6 +1,6 @@
 //! Where the camera stands and what is behind the face, as the command line says it.
 
-use crate::scene::{BACKGROUND, SAMPLES, View};
+use crate::scene::{BACKGROUND, Frame, SAMPLES, View};
 use crate::usage;
 use anyhow::Result;
 use avatar_pack::Pack;
@@ -19,7 +19,7 @@ pub(crate) struct PictureArgs {
     /// Camera's angle above the horizon in degrees [default: 0]
     #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
     pitch: Option<f32>,
-    /// Name of the part that fills the picture, where it is at rest [default: the whole head]
+    /// What fills the picture, where it is at rest: the name of a part, or `face` [default: the whole avatar]
     #[arg(long, value_name = "PART")]
     frame: Option<String>,
     /// Samples per pixel, 1 or 4
@@ -33,8 +33,12 @@ pub(crate) struct PictureArgs {
 impl PictureArgs {
     /// Where the camera stands around this pack.
     pub(crate) fn view(&self, pack: &Pack) -> Result<View> {
-        let part = self.frame.as_deref().map(|name| usage::part(pack, name)).transpose()?;
-        let mut view = View { part, ..self.view.view() };
+        let frame = match self.frame.as_deref() {
+            None => Frame::Whole,
+            Some("face") if pack.part("face").is_none() => Frame::Face,
+            Some(name) => Frame::Part(usage::part(pack, name)?),
+        };
+        let mut view = View { frame, ..self.view.view() };
         view.yaw_degrees = self.yaw.unwrap_or(view.yaw_degrees);
         view.pitch_degrees = self.pitch.unwrap_or(view.pitch_degrees);
         Ok(view)

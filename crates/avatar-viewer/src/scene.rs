@@ -16,6 +16,9 @@ pub(crate) const BACKGROUND: [u8; 4] = [0x23, 0x27, 0x2e, 255];
 /// Angle of view from top to bottom: long enough a lens not to distort a face.
 const VERTICAL_FOV_DEGREES: f32 = 24.0;
 
+/// At this share of the distance that shows a head its face fills the picture.
+const FACE_DISTANCE: f32 = 0.7;
+
 /// How much of the box's depth is taken into account where the distance is chosen.
 const ROUNDNESS: f32 = 0.4;
 
@@ -26,17 +29,27 @@ pub(crate) struct View {
     pub(crate) yaw_degrees: f32,
     /// Above the horizon.
     pub(crate) pitch_degrees: f32,
-    /// Distance as a multiple of the one that shows the whole head, or the part.
+    /// Distance as a multiple of the one that shows what is framed.
     pub(crate) distance: f32,
-    /// By how much the head is moved in the picture, to the right and up, in heights of the picture that shows the whole head.
+    /// By how much the head is moved in the picture, to the right and up, in heights of the picture that shows what is framed.
     pub(crate) pan: [f32; 2],
-    /// The part that fills the picture, where it is at bind pose; `None` for the whole head.
-    pub(crate) part: Option<usize>,
+    pub(crate) frame: Frame,
+}
+
+/// What fills the picture, where it is at bind pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Frame {
+    Whole,
+    /// The whole where the avatar is but a face with hair and neck.
+    FaceOfBody,
+    /// Near enough to see nothing else.
+    Face,
+    Part(usize),
 }
 
 impl View {
     pub(crate) const FRONT: Self =
-        Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0, pan: [0.0; 2], part: None };
+        Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0, pan: [0.0; 2], frame: Frame::Whole };
     pub(crate) const THREE_QUARTER: Self = Self { yaw_degrees: 35.0, ..Self::FRONT };
 }
 
@@ -49,19 +62,24 @@ pub(crate) fn scene(
     background: [u8; 4],
     light: Light,
 ) -> Scene {
-    let of_part = view.part.and_then(|part| pack.parts.get(part)?.bounds);
-    let bounds = of_part
-        .or_else(|| pack.bounds())
-        .unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
+    let (framed, nearer) = match (view.frame, pack.face) {
+        (Frame::Whole, _) | (Frame::FaceOfBody, None) => (None, 1.0),
+        (Frame::FaceOfBody | Frame::Face, Some(face)) => (Some(face), 1.0),
+        (Frame::Face, None) => (None, FACE_DISTANCE),
+        (Frame::Part(part), _) => (pack.parts.get(part).and_then(|part| part.bounds), 1.0),
+    };
+    let bounds =
+        framed.or_else(|| pack.bounds()).unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
     let aspect = width.max(1) as f32 / height.max(1) as f32;
     let fov = VERTICAL_FOV_DEGREES.to_radians();
     // The distance is that of the front view, so that the head does not grow and shrink as the camera goes round.
     let across = bounds.size().x.max(bounds.size().z);
     // A head is round: the corners of its box that are nearest to the camera are empty. Other files hold anything.
-    let roundness = if pack.motion.is_none() { ROUNDNESS } else { 1.0 };
+    let is_head = pack.motion.is_none() || framed == pack.face && framed.is_some();
+    let roundness = if is_head { ROUNDNESS } else { 1.0 };
     let half = glam::Vec3::new(across, bounds.size().y, across * roundness) / 2.0;
     let round = Bounds { min: bounds.center() - half, max: bounds.center() + half };
-    let whole_head = Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
+    let whole_head = nearer * Camera::frame(round, 0.0, 0.0, fov, aspect).eye().distance(bounds.center());
     let (yaw, pitch) = (view.yaw_degrees.to_radians(), view.pitch_degrees.to_radians());
     let straight = Camera::orbit(bounds.center(), whole_head * view.distance, yaw, pitch, fov, aspect);
     // What lies at the head's distance moves by these shares of the picture.

@@ -4,7 +4,7 @@ use super::sliders::Wanted;
 use super::{ImportFailure, ImportReport};
 use avatar_exchange::Scene;
 use glam::Vec3;
-use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, Pose, PoseSet};
+use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace};
 use std::collections::HashSet;
 
 /// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its hinge.
@@ -100,7 +100,7 @@ fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table
             (min, max) = (min.min(*own_min), max.max(*own_max));
             rest = if own_rest.abs() > rest.abs() { *own_rest } else { rest };
         }
-        match ShapeSet::of(shape) {
+        match ShapeSet::find(shape).map(|(set, _)| set) {
             Some(set) => {
                 counts.iter_mut().filter(|(other, _)| *other == set).for_each(|(_, count)| *count += 1)
             }
@@ -129,29 +129,4 @@ impl Table {
         let pace = Pace::named(&unique, &drives);
         self.controls.push(Control { name: unique, drives, min, max, default, pace });
     }
-}
-
-/// Those default poses that the avatar can take, and one for each shape.
-pub(super) fn poses(controls: &ControlTable) -> PoseSet {
-    let face = ControlTable::default_face();
-    let whole = PoseSet::default_face(&face);
-    let can_take = |pose: &Pose| {
-        let moved = |(index, value): &&(usize, f32)| face.controls()[*index].default != *value;
-        let mut moving = pose.values.iter().filter(moved).peekable();
-        moving.peek().is_some()
-            && moving.all(|(index, _)| controls.index(&face.controls()[*index].name).is_some())
-    };
-    let mut set = PoseSet::default_face(controls);
-    set.poses.retain(|pose| pose.name == "neutral" || whole.get(&pose.name).is_some_and(can_take));
-    if set.get("neutral").is_none() {
-        set.poses.insert(0, Pose::new("neutral", Vec::new()));
-    }
-    for (index, control) in controls.controls().iter().enumerate() {
-        let is_shape = matches!(control.drives, Drive::Shape { .. });
-        if is_shape && set.get(&control.name).is_none() {
-            let pose = Pose::new(&control.name, vec![(index, control.max)]);
-            set.poses.push(pose);
-        }
-    }
-    set
 }

@@ -1,9 +1,11 @@
 //! Avatars from interchange formats: a scene becomes rig, parts, shapes and controls, and a report says what of it did not.
 
 mod controls;
+mod face;
 mod motion;
 mod names;
 mod parts;
+mod poses;
 mod rig;
 mod sliders;
 #[cfg(feature = "vrm")]
@@ -22,7 +24,7 @@ use avatar_look::Materials;
 use avatar_mesh::drivers::DriversError;
 use avatar_mesh::{Bounds, DeformError};
 use pose_anim::{BindError, ControlError};
-use rig_core::RigError;
+use rig_core::{JointId, RigError};
 use std::fmt;
 
 /// An avatar from a file of an interchange format.
@@ -101,7 +103,7 @@ impl Import {
 
     /// As [`Import::from_scene`], where what some nodes do is known, and perhaps how far eyes turn.
     fn with_roles(
-        scene: Scene,
+        mut scene: Scene,
         known: &[(Role, usize)],
         eyes: Option<controls::EyeRanges>,
     ) -> Result<Self, ImportFailure> {
@@ -112,6 +114,7 @@ impl Import {
         if scene.parts.is_empty() {
             report.notes.push("there is no mesh: a skeleton and its motion, nothing to draw".to_owned());
         }
+        leave_helpers_out(&mut scene, &mut report);
         let joints = rig::Joints::of(&scene, known, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
         shapes.check(&scene)?;
@@ -120,8 +123,11 @@ impl Import {
         let names: Vec<&str> = sliders.names.iter().map(String::as_str).collect();
         let binding = controls.bind(&joints.rig, &names)?;
         let (parts, textures) = parts::parts(&scene, &shapes, &mut report);
-        let poses = controls::poses(&controls);
+        let poses = poses::poses(&controls);
+        let head =
+            joints.roles.iter().find(|(role, _)| *role == Role::Head).map(|(_, node)| joints.of_node[*node]);
         let mut pack = Pack {
+            face: None,
             palette: joints.palette,
             rig: joints.rig,
             parts,
@@ -136,24 +142,38 @@ impl Import {
             motion: Some(SceneMotion::new(scene, joints.of_node, joints.node_from_parent, shapes.first)),
             warnings: Vec::new(),
         };
-        measure(&mut pack)?;
+        measure(&mut pack, head)?;
         pack.warnings = report.notes.iter().cloned().map(Warning::Import).collect();
         Ok(Self { pack, textures, report })
     }
 }
 
-/// Boxes around the parts at rest.
-fn measure(pack: &mut Pack) -> Result<(), ImportFailure> {
+/// MakeHuman's base mesh without what it does not show.
+fn leave_helpers_out(scene: &mut Scene, report: &mut ImportReport) {
+    let parts = scene.parts.len();
+    if scene.parts.iter().any(|part| part.name == "body") {
+        scene.retain_parts(|part| !names::is_fitting_helper(&part.name));
+    }
+    let left_out = parts - scene.parts.len();
+    if left_out > 0 {
+        report
+            .notes
+            .push(format!("{left_out} parts of MakeHuman's base mesh that clothes and bones are fitted to"));
+    }
+}
+
+/// Boxes around the parts and the face at rest.
+fn measure(pack: &mut Pack, head: Option<JointId>) -> Result<(), ImportFailure> {
     let mut state = FaceState::new(pack);
     state.pose(pack, &pack.controls.defaults())?;
-    let boxes: Result<Vec<_>, _> = (0..pack.parts.len())
-        .map(|index| {
-            let part = &pack.parts[index];
-            let failed = |problem| ImportFailure::Deform { part: part.name.clone(), problem };
-            state.deform(pack, index).map(|posed| Bounds::of(&posed.positions)).map_err(failed)
-        })
-        .collect();
-    pack.parts.iter_mut().zip(boxes?).for_each(|(part, bounds)| part.bounds = bounds);
+    let mut face = face::Measure::new(pack, head);
+    for index in 0..pack.parts.len() {
+        let failed = |problem| ImportFailure::Deform { part: pack.parts[index].name.clone(), problem };
+        let positions = &state.deform(pack, index).map_err(failed)?.positions;
+        face.add(&pack.parts[index], positions);
+        pack.parts[index].bounds = Bounds::of(positions);
+    }
+    pack.face = face.finish(pack.bounds());
     Ok(())
 }
 

@@ -111,6 +111,8 @@ pub enum ShapeSet {
     Vrm,
     /// The 15 mouths for speech of Oculus.
     Visemes,
+    /// The units of expressions that MakeHuman has as targets.
+    MakeHuman,
     /// The shapes of this format's own face.
     Own,
 }
@@ -121,6 +123,7 @@ impl fmt::Display for ShapeSet {
             Self::ArKit => "ARKit",
             Self::Vrm => "VRM",
             Self::Visemes => "visemes (Oculus)",
+            Self::MakeHuman => "MakeHuman",
             Self::Own => "the nine-joint face",
         })
     }
@@ -128,7 +131,7 @@ impl fmt::Display for ShapeSet {
 
 impl ShapeSet {
     /// All sets, in the order in which a name is looked for.
-    pub const ALL: [Self; 4] = [Self::Own, Self::ArKit, Self::Visemes, Self::Vrm];
+    pub const ALL: [Self; 5] = [Self::Own, Self::ArKit, Self::Visemes, Self::MakeHuman, Self::Vrm];
 
     /// The names of the set.
     pub fn names(self) -> &'static [&'static str] {
@@ -136,16 +139,19 @@ impl ShapeSet {
             Self::ArKit => &ARKIT,
             Self::Vrm => &VRM,
             Self::Visemes => &VISEMES,
+            Self::MakeHuman => &MAKEHUMAN,
             Self::Own => &["SSmile", "Frown"],
         }
     }
 
-    /// The set that a shape of this name belongs to: upper and lower case, separators, and what stands before the last dot do not
-    /// count, `_L` and `_R` stand for `Left` and `Right`.
-    pub(super) fn of(name: &str) -> Option<Self> {
+    /// The set that a shape of this name belongs to, and how the set has the name: upper and lower case, separators, and what
+    /// stands before the last dot do not count, `_L` and `_R` stand for `Left` and `Right`.
+    pub(super) fn find(name: &str) -> Option<(Self, &'static str)> {
         let last = name.rsplit(['.', ':']).next().unwrap_or(name);
         let known = |name: &str| {
-            Self::ALL.into_iter().find(|set| set.names().iter().any(|other| plain(other) == name))
+            Self::ALL
+                .into_iter()
+                .find_map(|set| Some((set, *set.names().iter().find(|other| plain(other) == name)?)))
         };
         let sided = || {
             let (stem, side) = last.split_at_checked(last.len().checked_sub(2)?)?;
@@ -161,11 +167,27 @@ impl ShapeSet {
     }
 }
 
+/// Whether a part is one of those that MakeHuman's base mesh has for fitting clothes, hair and bones to it, which are not to be
+/// seen. (Its plain eyes, teeth and tongue are.)
+pub(super) fn is_fitting_helper(part: &str) -> bool {
+    let helpers = [
+        "hair",
+        "skirt",
+        "tights",
+        "genital",
+        "l-eyelashes-1",
+        "l-eyelashes-2",
+        "r-eyelashes-1",
+        "r-eyelashes-2",
+    ];
+    part.starts_with("joint-") || part.strip_prefix("helper-").is_some_and(|what| helpers.contains(&what))
+}
+
 /// The control of the nine-joint face that means the same as a shape.
 pub(crate) fn face_control(shape: &str) -> Option<&'static str> {
     match plain(shape.rsplit(['.', ':']).next().unwrap_or(shape)).as_str() {
-        "ssmile" | "smile" | "mouthsmile" => Some("smile"),
-        "frown" | "mouthfrown" => Some("frown"),
+        "ssmile" | "smile" | "mouthsmile" | "mouthcornerpuller" => Some("smile"),
+        "frown" | "mouthfrown" | "mouthdepression" => Some("frown"),
         _ => None,
     }
 }
@@ -279,6 +301,44 @@ const VISEMES: [&str; 15] = [
     "viseme_U",
 ];
 
+/// MakeHuman's own spelling. "Corner puller" is the smile of the Facial Action Coding System, unit 12.
+const MAKEHUMAN: [&str; 34] = [
+    "eye-left-closure",
+    "eye-left-opened-up",
+    "eye-left-slit",
+    "eye-right-closure",
+    "eye-right-opened-up",
+    "eye-right-slit",
+    "eyebrows-left-down",
+    "eyebrows-left-extern-up",
+    "eyebrows-left-inner-up",
+    "eyebrows-left-up",
+    "eyebrows-right-down",
+    "eyebrows-right-extern-up",
+    "eyebrows-right-inner-up",
+    "eyebrows-right-up",
+    "mouth-compression",
+    "mouth-corner-puller",
+    "mouth-depression",
+    "mouth-depression-retraction",
+    "mouth-elevation",
+    "mouth-eversion",
+    "mouth-open",
+    "mouth-parling",
+    "mouth-part-later",
+    "mouth-protusion",
+    "mouth-pursing",
+    "mouth-retraction",
+    "mouth-upward-retraction",
+    "neck-platysma",
+    "nose-compression",
+    "nose-depression",
+    "nose-left-dilatation",
+    "nose-left-elevation",
+    "nose-right-dilatation",
+    "nose-right-elevation",
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -317,10 +377,12 @@ mod tests {
             ("viseme_PP", Some(ShapeSet::Visemes)),
             ("SSmile", Some(ShapeSet::Own)),
             ("Surprised", Some(ShapeSet::Vrm)),
+            ("eye-left-closure", Some(ShapeSet::MakeHuman)),
+            ("mouth_open", Some(ShapeSet::MakeHuman)),
             ("Key 1", None),
             ("", None),
         ] {
-            assert_eq!(ShapeSet::of(name), set, "{name}");
+            assert_eq!(ShapeSet::find(name).map(|(set, _)| set), set, "{name}");
         }
         assert_eq!(face_control("Smile"), Some("smile"));
         assert_eq!(face_control("mouthSmileLeft"), None);

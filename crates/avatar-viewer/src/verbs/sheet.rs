@@ -4,7 +4,7 @@ use crate::film;
 use crate::label;
 use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
-use crate::scene::{BACKGROUND, SAMPLES, View};
+use crate::scene::{BACKGROUND, Frame, SAMPLES, View};
 use anyhow::Result;
 use image::{Rgba, RgbaImage, imageops};
 
@@ -42,6 +42,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
         let cell = RgbaImage::from_pixel(cell_width, cell_height, Rgba(BACKGROUND));
         imageops::replace(&mut sheet, &cell, left.into(), top.into());
         for (place, view) in [View::FRONT, View::THREE_QUARTER].into_iter().enumerate() {
+            let view = View { frame: Frame::FaceOfBody, ..view };
             let picture = offscreen.picture(&pack, &face, view, FACE, BACKGROUND)?;
             let x = left + place as u32 * FACE.width;
             imageops::replace(&mut sheet, &picture, x.into(), top.into());

@@ -1,4 +1,4 @@
-use crate::scene::View;
+use crate::scene::{Frame, View};
 use std::ops::RangeInclusive;
 
 /// Degrees that the camera turns for a pixel of dragging.
@@ -11,8 +11,6 @@ const DISTANCES: RangeInclusive<f32> = 0.2..=4.0;
 const MAX_PAN: f32 = 1.0;
 /// One notch of the wheel.
 const WHEEL_ZOOM: f32 = 0.92;
-/// At this distance the face fills the picture.
-const FACE_DISTANCE: f32 = 0.7;
 
 /// Places that the camera can be taken to, by name.
 pub(crate) const PLACES: [&str; 6] = ["front", "three-quarter", "left", "right", "back", "face"];
@@ -36,7 +34,7 @@ impl Camera {
             2 => View { yaw_degrees: 90.0, ..View::FRONT },
             3 => View { yaw_degrees: -90.0, ..View::FRONT },
             4 => View { yaw_degrees: 180.0, ..View::FRONT },
-            FACE => View { distance: FACE_DISTANCE, pan: [0.0; 2], ..self.view },
+            FACE => View { distance: 1.0, pan: [0.0; 2], frame: Frame::Face, ..self.view },
             _ => self.view,
         };
     }

@@ -1,7 +1,7 @@
 use super::overlay::{Overlay, Painted};
 use super::shot::{Kept, Shot, kept};
 use crate::look_args::LookArgs;
-use crate::scene::{self, SAMPLES, View};
+use crate::scene::{self, Frame, SAMPLES, View};
 use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
@@ -249,7 +249,7 @@ impl Stage {
         let Miniatures { canvas, avatar, state } = self.miniatures.insert(miniatures);
         state.pose(pack, values)?;
         avatar.set(&self.gpu.queue, state.bones(), state.weights())?;
-        let view = View { distance: 0.92, ..View::FRONT };
+        let view = View { distance: 0.92, frame: Frame::FaceOfBody, ..View::FRONT };
         let scene = scene::scene(pack, view, MINIATURE, MINIATURE, background, self.look.light());
         let picture = canvas.render(&self.gpu, &scene, &[(&self.model, avatar)])?;
         RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")

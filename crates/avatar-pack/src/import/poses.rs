@@ -1,0 +1,140 @@
+//! The poses that an imported face begins with.
+
+use super::names::ShapeSet;
+use pose_anim::{Control, ControlTable, Drive, Pose, PoseSet};
+use std::collections::{BTreeMap, HashMap};
+
+/// How much of its range a control moves at least in a pose that is nothing without it.
+const LEADS: f32 = 1.0 / 3.0;
+
+/// Shapes that show what a control of the nine-joint face does: the control, its value at which they are there in full, and
+/// ways to show it, of which a face uses the first that it has all shapes of.
+type StandIn = (&'static str, f32, &'static [&'static [&'static str]]);
+
+/// By names of ARKit and MakeHuman.
+const STAND_INS: [StandIn; 21] = [
+    ("smile", 1.0, &[&["mouthSmileLeft", "mouthSmileRight"]]),
+    ("frown", 1.0, &[&["mouthFrownLeft", "mouthFrownRight"]]),
+    ("jaw.open", 20.0, &[&["jawOpen"], &["mouth-open"]]),
+    ("jaw.jut", 8.0, &[&["jawLeft"]]),
+    ("jaw.jut", -8.0, &[&["jawRight"]]),
+    ("eye.left.ud", 25.0, &[&["eyeLookUpLeft"]]),
+    ("eye.left.ud", -25.0, &[&["eyeLookDownLeft"]]),
+    ("eye.right.ud", 25.0, &[&["eyeLookUpRight"]]),
+    ("eye.right.ud", -25.0, &[&["eyeLookDownRight"]]),
+    ("eye.left.lr", 30.0, &[&["eyeLookOutLeft"]]),
+    ("eye.left.lr", -30.0, &[&["eyeLookInLeft"]]),
+    ("eye.right.lr", 30.0, &[&["eyeLookInRight"]]),
+    ("eye.right.lr", -30.0, &[&["eyeLookOutRight"]]),
+    ("lid.left.upper", 45.0, &[&["eyeBlinkLeft"], &["eye-left-closure"]]),
+    ("lid.right.upper", 45.0, &[&["eyeBlinkRight"], &["eye-right-closure"]]),
+    ("lid.left.lower", 25.0, &[&["eyeSquintLeft"], &["eye-left-slit"]]),
+    ("lid.right.lower", 25.0, &[&["eyeSquintRight"], &["eye-right-slit"]]),
+    // These move both lids.
+    ("lid.left.upper", -10.0, &[&["eyeWideLeft"], &["eye-left-opened-up"]]),
+    ("lid.right.upper", -10.0, &[&["eyeWideRight"], &["eye-right-opened-up"]]),
+    ("lid.left.lower", -5.0, &[&["eyeWideLeft"], &["eye-left-opened-up"]]),
+    ("lid.right.lower", -5.0, &[&["eyeWideRight"], &["eye-right-opened-up"]]),
+];
+
+/// Those default poses of which the face can show what matters, by joints or by shapes that mean the same, and one for each
+/// shape. `neutral` puts everything to rest.
+pub(super) fn poses(controls: &ControlTable) -> PoseSet {
+    let translation = Translation::new(controls);
+    let mut set = PoseSet::default_face(&translation.face);
+    set.poses.retain_mut(|pose| translation.apply(pose));
+    let rest = Pose::from_values("neutral", &controls.defaults());
+    match set.poses.iter_mut().find(|pose| pose.name == rest.name) {
+        Some(neutral) => neutral.values = rest.values,
+        None => set.poses.insert(0, rest),
+    }
+    for (index, control) in controls.controls().iter().enumerate() {
+        let is_shape = matches!(control.drives, Drive::Shape { .. });
+        if is_shape && set.get(&control.name).is_none() {
+            let pose = Pose::new(&control.name, vec![(index, control.max)]);
+            set.poses.push(pose);
+        }
+    }
+    set
+}
+
+/// From poses of the nine-joint face to those of another.
+struct Translation<'a> {
+    face: ControlTable,
+    controls: &'a ControlTable,
+    /// The first control of each shape that is known by its name.
+    by_shape: HashMap<&'static str, usize>,
+}
+
+impl<'a> Translation<'a> {
+    fn new(controls: &'a ControlTable) -> Self {
+        let mut by_shape = HashMap::new();
+        for (index, control) in controls.controls().iter().enumerate() {
+            if let Drive::Shape { shape } = &control.drives
+                && let Some((_, name)) = ShapeSet::find(shape)
+            {
+                by_shape.entry(name).or_insert(index);
+            }
+        }
+        Self { face: ControlTable::default_face(), controls, by_shape }
+    }
+
+    /// Says a pose in the controls of the other face; `false` where that cannot show it.
+    fn apply(&self, pose: &mut Pose) -> bool {
+        let value_of = |name: &str| self.face.index(name).and_then(|index| pose.value(index)).unwrap_or(0.0);
+        // Shapes that close an eye close it by both lids.
+        let open = |side: &str| (1.0 - value_of(&format!("lid.{side}.upper")) / 45.0).clamp(0.0, 1.0);
+        let moved = |(control, value): &(&Control, f32)| *value != control.default;
+        let of_face = pose.values.iter().map(|(index, value)| (&self.face.controls()[*index], *value));
+        let has_leader = of_face.clone().filter(moved).any(|(control, value)| leads(control, value));
+        let mut values: BTreeMap<usize, f32> = BTreeMap::new();
+        for (control, value) in of_face {
+            let name = control.name.as_str();
+            if let Some(here) = self.controls.index(name) {
+                let range = &self.controls.controls()[here];
+                values.insert(here, value.max(range.min).min(range.max));
+                continue;
+            }
+            let share = match name {
+                "lid.left.lower" => open("left"),
+                "lid.right.lower" => open("right"),
+                _ => 1.0,
+            };
+            let mut is_shown = !moved(&(control, value)) || has_leader && !leads(control, value);
+            for (full, shapes) in self.shapes_for(name) {
+                // The shapes of the other direction go to rest.
+                let weight = (value / full).clamp(0.0, 1.0);
+                is_shown |= weight > 0.0;
+                for shape in shapes {
+                    let sum = values.entry(shape).or_insert(0.0);
+                    *sum = sum.max(share * weight);
+                }
+            }
+            if !is_shown {
+                return false;
+            }
+        }
+        let timings = pose.timings.iter().flat_map(|(index, timing)| {
+            let name = self.face.controls()[*index].name.as_str();
+            let own = self.controls.index(name).into_iter();
+            own.chain(self.shapes_for(name).flat_map(|(_, shapes)| shapes)).map(|here| (here, *timing))
+        });
+        pose.timings = timings.collect();
+        pose.values = values.into_iter().collect();
+        true
+    }
+
+    /// The shapes that stand for a control in each of its directions, by their controls, and its value where they are there in full.
+    fn shapes_for(&self, control: &str) -> impl Iterator<Item = (f32, Vec<usize>)> {
+        STAND_INS.iter().filter(move |(name, ..)| *name == control).filter_map(|(_, full, ways)| {
+            let all = |way: &&[&str]| way.iter().map(|shape| self.by_shape.get(shape).copied()).collect();
+            Some((*full, ways.iter().find_map(all)?))
+        })
+    }
+}
+
+/// Whether a pose is nothing without this. Heads turn in most of them, and none is about that alone.
+fn leads(control: &Control, value: f32) -> bool {
+    let limit = if value < 0.0 { control.min } else { control.max };
+    !control.name.starts_with("head.") && (value / limit).abs() >= LEADS
+}
