@@ -250,7 +250,9 @@ fn the_default_scene_is_what_is_shown() {
         ["node 2", "node 3"].iter().all(|node| notes.iter().any(|note| note.contains(node))),
         "{notes:?}"
     );
-    assert_eq!(file.error(&rest.replace(r#""scene": 1"#, r#""scene": 2"#)).place, "scenes");
+    let lost = rest.replace(r#""scene": 1"#, r#""scene": 2"#);
+    assert_eq!(parts(&lost), ["child", "other", "loose"]);
+    assert!(file.scene(&lost).notes.iter().any(|note| note.text.contains("scene 2 is not there")));
     assert_eq!(file.error(&rest.replace(r#"{"nodes": [0]}"#, r#"{"nodes": [9]}"#)).place, "nodes");
 }
 

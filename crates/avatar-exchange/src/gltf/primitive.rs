@@ -86,14 +86,16 @@ impl Document<'_> {
     }
 
     /// For each node whether the default scene has it: the one that the file says, or else its first; all where there is none.
-    fn shown(&self, nodes: &[json::Node]) -> Result<Vec<bool>, ImportError> {
+    fn shown(&mut self, nodes: &[json::Node]) -> Result<Vec<bool>, ImportError> {
         let number = self.root.scene.map_or(0, |scene| scene.value());
-        if self.root.scenes.is_empty() && self.root.scene.is_none() {
+        let Some(scene) = self.root.scenes.get(number) else {
+            if self.root.scene.is_some() {
+                self.note("scene", format!("scene {number} is not there: all nodes are taken"));
+            }
             return Ok(vec![true; nodes.len()]);
-        }
+        };
+        let mut below: Vec<usize> = scene.nodes.iter().map(|node| node.value()).collect();
         let mut is_shown = vec![false; nodes.len()];
-        let mut below: Vec<usize> =
-            in_range("scenes", &self.root.scenes, number)?.nodes.iter().map(|node| node.value()).collect();
         while let Some(number) = below.pop() {
             let node = in_range("nodes", nodes, number)?;
             if !std::mem::replace(&mut is_shown[number], true) {
