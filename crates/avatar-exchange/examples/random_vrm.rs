@@ -197,7 +197,7 @@ fn glb(extensions: Value) -> Vec<u8> {
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "targets": vec![target; SHAPES] }] }]
     });
     let mut text = json.to_string();
-    while text.len() % 4 > 0 {
+    while !text.len().is_multiple_of(4) {
         text.push(' ');
     }
     let corners: Vec<u8> =

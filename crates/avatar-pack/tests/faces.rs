@@ -1,5 +1,10 @@
 //! Faces of other people: which of the default poses they can take, by which shapes, and where they are on a body.
-#![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    reason = "a test may panic and has a clock"
+)]
 
 use avatar_exchange::{Node, RawScene, Scene, ScenePart, Skin, Transform, Trs};
 use avatar_mesh::{Bounds, Mesh, Shape, Skinning};
@@ -199,6 +204,18 @@ fn without_a_head_the_face_is_where_shapes_are() {
     assert!((face.min.y - 19.65).abs() < 1e-5 && (face.max.y - 21.0).abs() < 1e-5, "{face:?}");
     assert_eq!(body(0.5).face, None, "there is no more than the face");
     assert_eq!(self::face(&[]).pack.face, None);
+}
+
+/// A second or two; where each shape looks at all others it takes minutes.
+#[test]
+fn time_grows_with_the_number_of_shapes() {
+    let names: Vec<String> = (0..100_000).map(|number| format!("shape {number}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let start = std::time::Instant::now();
+    let pack = face(&names).pack;
+    let took = start.elapsed();
+    assert!(pack.controls.controls().len() >= 100_000);
+    assert!(took < std::time::Duration::from_secs(30), "{took:?}");
 }
 
 /// A byte for a seed: xorshift.

@@ -5,7 +5,7 @@ use super::{ImportFailure, ImportReport};
 use avatar_exchange::Scene;
 use glam::Vec3;
 use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its hinge.
 const JUT: Vec3 = Vec3::new(0.0, 0.811_534_35, 0.584_304_75);
@@ -88,18 +88,16 @@ pub(super) fn controls(
 /// One control for all shapes, or sliders of shapes, of a name.
 fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table) {
     let mut counts = ShapeSet::ALL.map(|set| (set, 0));
-    let mut seen = HashSet::new();
+    // Several nodes may have one of a name: the control reaches whatever one of them does.
+    let mut ranges: HashMap<&str, (f32, f32, f32)> = HashMap::new();
+    for (shape, (own_min, own_max, own_rest)) in sliders.names.iter().zip(&sliders.ranges) {
+        let (min, max, rest) = ranges.entry(shape).or_default();
+        (*min, *max) = (min.min(*own_min), max.max(*own_max));
+        *rest = if own_rest.abs() > rest.abs() { *own_rest } else { *rest };
+    }
     for shape in &sliders.names {
-        if !seen.insert(shape) {
-            continue;
-        }
-        // Several nodes may have one of this name: the control reaches whatever one of them does.
-        let same = sliders.names.iter().zip(&sliders.ranges).filter(|(other, _)| *other == shape);
-        let (mut min, mut max, mut rest) = (0.0f32, 0.0f32, 0.0f32);
-        for (_, (own_min, own_max, own_rest)) in same {
-            (min, max) = (min.min(*own_min), max.max(*own_max));
-            rest = if own_rest.abs() > rest.abs() { *own_rest } else { rest };
-        }
+        // Each name once, where it is first.
+        let Some((min, max, rest)) = ranges.remove(shape.as_str()) else { continue };
         match ShapeSet::find(shape).map(|(set, _)| set) {
             Some(set) => {
                 counts.iter_mut().filter(|(other, _)| *other == set).for_each(|(_, count)| *count += 1)

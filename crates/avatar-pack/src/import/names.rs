@@ -1,4 +1,6 @@
+use std::collections::HashMap;
 use std::fmt;
+use std::sync::OnceLock;
 
 /// What a joint of a face does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -148,11 +150,7 @@ impl ShapeSet {
     /// stands before the last dot do not count, `_L` and `_R` stand for `Left` and `Right`.
     pub(super) fn find(name: &str) -> Option<(Self, &'static str)> {
         let last = name.rsplit(['.', ':']).next().unwrap_or(name);
-        let known = |name: &str| {
-            Self::ALL
-                .into_iter()
-                .find_map(|set| Some((set, *set.names().iter().find(|other| plain(other) == name)?)))
-        };
+        let known = |name: &str| by_plain_name().get(name).copied();
         let sided = || {
             let (stem, side) = last.split_at_checked(last.len().checked_sub(2)?)?;
             let side = match side {
@@ -165,6 +163,20 @@ impl ShapeSet {
         let viseme = || known(&format!("viseme{}", plain(last.strip_prefix("viseme_")?)));
         known(&plain(last)).or_else(sided).or_else(viseme)
     }
+}
+
+/// All sets' names without what does not count; of sets that share one, the first.
+fn by_plain_name() -> &'static HashMap<String, (ShapeSet, &'static str)> {
+    static NAMES: OnceLock<HashMap<String, (ShapeSet, &'static str)>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let mut names = HashMap::new();
+        for set in ShapeSet::ALL {
+            for name in set.names() {
+                names.entry(plain(name)).or_insert((set, *name));
+            }
+        }
+        names
+    })
 }
 
 /// Whether a part is one of those that MakeHuman's base mesh has for fitting clothes, hair and bones to it, which are not to be

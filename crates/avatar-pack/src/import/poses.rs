@@ -2,7 +2,7 @@
 
 use super::names::ShapeSet;
 use pose_anim::{Control, ControlTable, Drive, Pose, PoseSet};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// How much of its range a control moves at least in a pose that is nothing without it.
 const LEADS: f32 = 1.0 / 3.0;
@@ -48,9 +48,11 @@ pub(super) fn poses(controls: &ControlTable) -> PoseSet {
         Some(neutral) => neutral.values = rest.values,
         None => set.poses.insert(0, rest),
     }
+    let usual: HashSet<String> = set.iter().map(|pose| pose.name.clone()).collect();
     for (index, control) in controls.controls().iter().enumerate() {
         let is_shape = matches!(control.drives, Drive::Shape { .. });
-        if is_shape && set.get(&control.name).is_none() {
+        // Names of controls are unique.
+        if is_shape && !usual.contains(&control.name) {
             let pose = Pose::new(&control.name, vec![(index, control.max)]);
             set.poses.push(pose);
         }
