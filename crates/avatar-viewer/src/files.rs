@@ -1,9 +1,9 @@
 use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::{Format, TextFile};
-use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning};
+use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning, load_poses};
 use include_dir::{Dir, include_dir};
-use pose_anim::{ClipSet, PoseSet};
+use pose_anim::{ClipSet, ControlTable, PoseSet};
 use std::borrow::Cow;
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
@@ -92,6 +92,14 @@ impl Files {
             pack.clips = clips.map_err(|error| store.placed(store::CLIPS, &error))?;
         }
         Ok(pack)
+    }
+
+    /// The poses that the avatar has where its user made none.
+    pub(crate) fn usual_poses(&self, controls: &ControlTable) -> Result<PoseSet> {
+        match self {
+            Self::File(_, import) => Ok(import.pack.poses.clone()),
+            _ => Ok(load_poses(self, controls)?),
+        }
     }
 
     /// As [`Files::load_pack`], but where poses or clips hold a mistake there are the usual ones: a window tells of it itself.

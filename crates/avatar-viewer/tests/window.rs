@@ -113,6 +113,34 @@ fn clips_of_a_file_play_and_a_pose_ends_them() {
     desk.closes();
 }
 
+/// The window reads poses again a moment after it opened, and where there is no file of poses.
+#[test]
+fn a_file_keeps_the_poses_that_its_shapes_make() {
+    if !can_run() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_str().expect("a plain path").to_owned();
+    let write = |name: &str, text: &str| std::fs::write(at(name), text).expect("written");
+    write("face.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n");
+    std::fs::create_dir(at("targets")).expect("a folder");
+    write("targets/mouthSmileLeft.target", "1 1 0 0\n");
+    write("targets/mouthSmileRight.target", "3 -1 0 0\n");
+    let options = [&at("face.obj")[..], "--with", &at("targets"), "--size", "320x240", "--quality", "plain"];
+    let at_rest = render(&options);
+    let smiling = render(&[&options[..], &["--pose", "smile"]].concat());
+    assert_ne!(difference(&smiling, &at_rest), Some(0), "a smile shows");
+    let mut desk = Desk::open(&options);
+    desk.shows(&at_rest, "at first");
+    std::thread::sleep(Duration::from_millis(1500));
+    desk.key(&key_of("smile"));
+    desk.shows(&smiling, "a pose of the nine-joint face, by shapes");
+    desk.key(&key_of("neutral"));
+    desk.shows(&at_rest, "at rest again");
+    desk.key("Escape");
+    desk.closes();
+}
+
 #[test]
 fn a_window_that_was_hidden_or_had_no_room_shows_its_face_again() {
     if !can_run() {

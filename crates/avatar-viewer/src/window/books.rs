@@ -3,7 +3,6 @@
 use super::face::{Face, Playback};
 use crate::store;
 use anyhow::Result;
-use avatar_pack::load_poses;
 use pose_anim::{Clip, Key, Pose, Track};
 use pose_book::{BookError, PoseBook};
 
@@ -232,7 +231,7 @@ impl Face {
             // Without a file of its own a face has the usual poses.
             None => {
                 self.store.take(store::POSES, String::new());
-                let usual = load_poses(&self.files, &self.pack.controls)?;
+                let usual = self.files.usual_poses(&self.pack.controls)?;
                 if usual == self.pack.poses {
                     return Ok(false);
                 }
