@@ -158,7 +158,7 @@ fn leave_helpers_out(scene: &mut Scene, report: &mut ImportReport) {
     if left_out > 0 {
         report
             .notes
-            .push(format!("{left_out} parts of MakeHuman's base mesh that clothes and bones are fitted to"));
+            .push(format!("{left_out} parts of MakeHuman's base mesh, which clothes, hair and bones are fitted to, are left out"));
     }
 }
 
