@@ -1,13 +1,12 @@
 //! Sequences of OBJ files: one connectivity, a geometry for each time.
 
-use super::{ObjFaces, ObjFile, read_obj};
+use super::{ObjFile, read_obj};
 use crate::Resolve;
 use crate::text::stem;
 use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Note, Scene};
+use avatar_mesh::Shape;
 use avatar_mesh::coherence::{self, FaceMatch, Faces, Geometry};
-use avatar_mesh::{Mesh, Shape};
 use glam::Vec3;
-use std::ops::Range;
 
 /// A clip has the square of this many weights at most.
 const MAX_FRAMES: usize = 4096;
@@ -94,23 +93,22 @@ impl ObjFile {
             self.parts.iter().map(|part| vec![Vec3::ZERO; part.sources.len()]).collect();
         for (face, &part) in self.faces.parts.iter().enumerate() {
             let theirs = match &same {
-                FaceMatch::Same => face,
-                FaceMatch::Reordered { candidate_from_base, .. } => candidate_from_base[face] as usize,
+                FaceMatch::Same => Some(face),
+                FaceMatch::Reordered { candidate_from_base, .. } => {
+                    candidate_from_base.get(face).map(|place| *place as usize)
+                }
             };
-            let (ours, own) = (self.faces.range(face), &self.parts[part as usize].mesh);
-            let (range, mesh) = (other.faces.range(theirs), other.mesh_of(theirs));
-            let corners = ours.len();
-            // From where a face reads the same, whatever corner it begins at.
-            let [first, their_first] = [(&self.faces, &ours), (&other.faces, &range)]
-                .map(|(faces, range)| coherence::first_corner(&faces.corners[range.clone()]));
-            for k in 0..corners {
-                let vertex = self.faces.vertices[ours.start + (first + k) % corners] as usize;
-                let their_vertex = other.faces.vertices[range.start + (their_first + k) % corners] as usize;
-                normals[part as usize][vertex] = mesh.normals[their_vertex] - own.normals[vertex];
+            let theirs = theirs.and_then(|theirs| other.around(theirs));
+            let Some((ours, theirs)) = self.around(face).zip(theirs) else { continue };
+            let normals = normals.get_mut(part as usize).map_or(&mut [][..], Vec::as_mut_slice);
+            for ((vertex, own), (_, normal)) in ours.zip(theirs) {
+                normals.get_mut(vertex).into_iter().for_each(|change| *change = normal - own);
             }
         }
         for (part, normals) in self.parts.iter_mut().zip(normals) {
-            let offset = |&source: &u32| other.positions[source as usize] - self.positions[source as usize];
+            let [theirs, own] = [&other.positions, &self.positions]
+                .map(|positions| |source: u32| positions.get(source as usize).copied().unwrap_or_default());
+            let offset = |source: &u32| theirs(*source) - own(*source);
             let offsets: Vec<Vec3> = part.sources.iter().map(offset).collect();
             part.mesh.shapes.push(Shape::new(name, offsets).with_normals(normals));
         }
@@ -122,15 +120,14 @@ impl ObjFile {
         Geometry { file: &self.file, shape, positions: &self.positions, faces }
     }
 
-    fn mesh_of(&self, face: usize) -> &Mesh {
-        &self.parts[self.faces.parts[face] as usize].mesh
-    }
-}
-
-impl ObjFaces {
-    /// Where the corners of a face are.
-    fn range(&self, face: usize) -> Range<usize> {
-        let start = face.checked_sub(1).map_or(0, |before| self.ends[before]);
-        start as usize..self.ends[face] as usize
+    /// The vertices around a face and their normals, from where it reads the same whatever corner it begins at.
+    fn around(&self, face: usize) -> Option<impl Iterator<Item = (usize, Vec3)>> {
+        let corners = self.geometry("").faces.corners(face);
+        let end = *self.faces.ends.get(face)? as usize;
+        let vertices = self.faces.vertices.get(end.checked_sub(corners.len())?..end)?;
+        let mesh = &self.parts.get(*self.faces.parts.get(face)? as usize)?.mesh;
+        let (last, first) = vertices.split_at_checked(coherence::first_corner(corners))?;
+        let vertices = first.iter().chain(last).map(|vertex| *vertex as usize);
+        Some(vertices.filter_map(|vertex| Some((vertex, *mesh.normals.get(vertex)?))))
     }
 }
