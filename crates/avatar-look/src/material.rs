@@ -117,7 +117,7 @@ impl Material {
                 pore_density: 50.0,
                 ..matte
             },
-            PartKind::Teeth => Self {
+            PartKind::Surface => Self {
                 color: [0.78, 0.70, 0.56],
                 wrap: [0.2, 0.18, 0.15],
                 roughness_matte: 0.4,

@@ -5,7 +5,7 @@ use avatar_mesh::{FACE_PARTS, PartKind};
 /// The kinds of parts, by the names of their tables.
 pub(crate) const KINDS: [(&str, PartKind); 4] = [
     ("skin", PartKind::Skin),
-    ("teeth", PartKind::Teeth),
+    ("teeth", PartKind::Surface),
     ("eyeball", PartKind::Eyeball),
     ("cornea", PartKind::Cornea),
 ];
@@ -31,8 +31,8 @@ pub(crate) const KINDS: [(&str, PartKind); 4] = [
 ///     pupil = 0.6
 ///     "#,
 /// )?;
-/// let upper = materials.of("upper-jaw", PartKind::Teeth);
-/// let lower = materials.of("lower-jaw", PartKind::Teeth);
+/// let upper = materials.of("upper-jaw", PartKind::Surface);
+/// let lower = materials.of("lower-jaw", PartKind::Surface);
 /// assert_eq!((upper.color, upper.wetness), ([0.9, 0.85, 0.7], 0.8));
 /// assert_eq!((lower.color, lower.wetness), ([0.9, 0.85, 0.7], 0.5));
 /// assert_eq!(materials.of("left-eyeball", PartKind::Eyeball).iris.pupil, 0.6);
@@ -112,7 +112,7 @@ impl Materials {
 pub(crate) fn kind_index(kind: PartKind) -> usize {
     match kind {
         PartKind::Skin => 0,
-        PartKind::Teeth => 1,
+        PartKind::Surface => 1,
         PartKind::Eyeball => 2,
         PartKind::Cornea => 3,
     }

@@ -44,7 +44,7 @@ fn parts_go_over_kinds_go_over_defaults() {
     assert_eq!(materials.of("skin", PartKind::Skin).opacity, 0.5);
     assert_eq!(materials.of("another", PartKind::Eyeball).wetness, 0.5);
     // A part of the right name but another kind is not the one that the file means.
-    assert_eq!(materials.of("left-eyeball", PartKind::Teeth), Material::of(PartKind::Teeth));
+    assert_eq!(materials.of("left-eyeball", PartKind::Surface), Material::of(PartKind::Surface));
 }
 
 #[test]

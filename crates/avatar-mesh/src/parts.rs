@@ -3,8 +3,9 @@
 pub enum PartKind {
     /// Skin, deformed by bones and shapes.
     Skin,
-    /// Teeth, gums and tongue.
-    Teeth,
+    /// Every surface without a shading of its own: teeth, gums and tongue of a face; clothes and anything else of other
+    /// files.
+    Surface,
     /// Eyeball with iris and pupil.
     Eyeball,
     /// Transparent front of the eye.
@@ -40,8 +41,8 @@ const fn part(name: &'static str, stem: &'static str, kind: PartKind, follows: F
 /// The seven parts of a face in the raw format.
 pub const FACE_PARTS: [PartSpec; 7] = [
     part("skin", "MarsienneSkin", PartKind::Skin, Follows::Bones),
-    part("upper-jaw", "UpperJaw", PartKind::Teeth, Follows::Joint("HeadJoint")),
-    part("lower-jaw", "LowerJaw", PartKind::Teeth, Follows::Joint("JawJoint")),
+    part("upper-jaw", "UpperJaw", PartKind::Surface, Follows::Joint("HeadJoint")),
+    part("lower-jaw", "LowerJaw", PartKind::Surface, Follows::Joint("JawJoint")),
     part("right-eyeball", "RtEyeBall_smtt", PartKind::Eyeball, Follows::Joint("RtEyeJoint")),
     part("left-eyeball", "LtEyeBall_smtt", PartKind::Eyeball, Follows::Joint("LtEyeJoint")),
     part("right-cornea", "RtEyeTransp_smtt", PartKind::Cornea, Follows::Joint("RtEyeJoint")),

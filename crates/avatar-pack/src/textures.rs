@@ -136,7 +136,7 @@ impl Textures {
                 normal: self.get(Texture::SkinNormal),
                 thickness: self.get(Texture::SkinThickness),
             },
-            PartKind::Teeth => PartImages { color: self.get(Texture::Teeth), ..PartImages::default() },
+            PartKind::Surface => PartImages { color: self.get(Texture::Teeth), ..PartImages::default() },
             PartKind::Eyeball => PartImages { color: self.get(Texture::Eye(0)), ..PartImages::default() },
             PartKind::Cornea => PartImages::default(),
         }

@@ -57,7 +57,7 @@ fn a_pack_has_the_materials_of_its_file() {
         pack.materials.of(&part.name, part.kind)
     };
     assert_eq!((of("left-eyeball").iris.pupil, of("right-eyeball").iris.pupil), (0.2, 0.6));
-    let teeth = Materials::default().of("upper-jaw", PartKind::Teeth);
+    let teeth = Materials::default().of("upper-jaw", PartKind::Surface);
     assert_eq!((of("upper-jaw"), of("lower-jaw").wetness), (teeth, 0.1));
 }
 

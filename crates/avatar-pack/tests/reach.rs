@@ -55,7 +55,7 @@ fn controls_move_what_they_are_about() {
     let up = moved_parts(&pack, &reach, "eye.left.ud");
     assert_eq!(up, HashSet::from(["left-eyeball", "left-cornea", "skin"]));
     let turned: HashSet<_> = reach.moved(control(&pack, "head.turn")).collect();
-    for (index, part) in pack.parts.iter().enumerate().filter(|(_, part)| part.kind == PartKind::Teeth) {
+    for (index, part) in pack.parts.iter().enumerate().filter(|(_, part)| part.kind == PartKind::Surface) {
         assert!((0..part.mesh.positions.len()).all(|vertex| turned.contains(&(index, vertex))));
     }
     let skin = part(&pack, "skin");

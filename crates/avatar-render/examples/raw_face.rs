@@ -80,7 +80,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     gloss: skin_gloss.as_ref(),
                     ..PartTextures::default()
                 },
-                PartKind::Teeth => PartTextures { color: teeth_color.as_ref(), ..PartTextures::default() },
+                PartKind::Surface => PartTextures { color: teeth_color.as_ref(), ..PartTextures::default() },
                 PartKind::Eyeball => PartTextures { color: eye_color.as_ref(), ..PartTextures::default() },
                 PartKind::Cornea => PartTextures::default(),
             },

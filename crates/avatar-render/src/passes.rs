@@ -120,7 +120,7 @@ pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
     let mut order = vec![
         part(PartKind::Skin, "skin", programs.skin, fronts),
         // Rows of teeth are often open sheets: they are drawn from both sides.
-        part(PartKind::Teeth, "teeth", programs.teeth, None),
+        part(PartKind::Surface, "teeth", programs.teeth, None),
         // Eyeballs are closed: their back sides are never seen.
         part(PartKind::Eyeball, "eyeball", programs.eyeball, fronts),
         part(PartKind::Skin, "skin back", programs.skin_back, backs),

@@ -50,7 +50,7 @@ impl<'a> Frame<'a> {
                 let mut pass = self.begin(encoder, pass, Some(&targets.normals), Some(depth));
                 self.set_groups(&mut pass, &targets.for_prepass);
                 for (kind, pipeline) in
-                    [(PartKind::Skin, both), (PartKind::Teeth, both), (PartKind::Eyeball, front)]
+                    [(PartKind::Skin, both), (PartKind::Surface, both), (PartKind::Eyeball, front)]
                 {
                     pass.set_pipeline(pipeline);
                     self.draw_kind(&mut pass, kind);
@@ -125,7 +125,7 @@ impl<'a> Frame<'a> {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &renderer.shadow_group, &[offset]);
             // Corneas are clear.
-            for kind in [PartKind::Skin, PartKind::Teeth, PartKind::Eyeball] {
+            for kind in [PartKind::Skin, PartKind::Surface, PartKind::Eyeball] {
                 for (part, posed, _) in self.items(kind) {
                     pass.set_index_buffer(part.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
                     pass.set_vertex_buffer(0, posed.vertices.slice(..));

@@ -13,7 +13,7 @@ use common::{ball, gpu, model, part, plain};
 use glam::Vec3;
 use std::f32::consts::PI;
 
-const KINDS: [PartKind; 3] = [PartKind::Skin, PartKind::Teeth, PartKind::Eyeball];
+const KINDS: [PartKind; 3] = [PartKind::Skin, PartKind::Surface, PartKind::Eyeball];
 
 /// The levels, and each way of scattering with everything else at its best. Shadows matter to lamps only.
 fn terms() -> [(&'static str, Terms); 6] {
@@ -177,14 +177,14 @@ fn what_a_thin_part_lets_through_it_does_not_reflect() {
 fn a_lamp_of_radiance_one_lights_a_white_matte_surface_to_one() {
     let Some(gpu) = gpu() else { return };
     let mesh = common::square(Vec3::ZERO, 3.0);
-    let avatar = model(gpu, &[part(&mesh, PartKind::Teeth, PartTextures::default())]);
+    let avatar = model(gpu, &[part(&mesh, PartKind::Surface, PartTextures::default())]);
     let matte = Material {
         wetness: 0.0,
         reflectance: 0.0,
         wrap: [0.0; 3],
         roughness_matte: 1.0,
         roughness_glossy: 1.0,
-        ..white(PartKind::Teeth)
+        ..white(PartKind::Surface)
     };
     with_material(&avatar, &matte);
     for direction in [Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, -0.8, 0.6)] {

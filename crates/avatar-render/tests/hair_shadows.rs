@@ -59,7 +59,7 @@ fn sheet(others: &[PartDesc<'_>], strands: f32, radius: f32) -> (AvatarModel, Av
 fn curtain(strands: f32) -> (AvatarModel, AvatarState) {
     let gpu = gpu().expect("asked before");
     let (behind, before) = (square(Vec3::ZERO, 3.5), square(Vec3::new(2.5, 0.0, 2.0), 0.3));
-    let plate = |mesh| part(mesh, PartKind::Teeth, PartTextures::default());
+    let plate = |mesh| part(mesh, PartKind::Surface, PartTextures::default());
     let avatar = sheet(&[plate(&behind), plate(&before)], strands, RADIUS);
     let matte = Material {
         color: [1.0; 3],
@@ -67,7 +67,7 @@ fn curtain(strands: f32) -> (AvatarModel, AvatarState) {
         reflectance: 0.0,
         wetness: 0.0,
         back_light: 1.0,
-        ..Material::of(PartKind::Teeth)
+        ..Material::of(PartKind::Surface)
     };
     (0..2).for_each(|place| avatar.0.set_material(&gpu.queue, place, &matte).expect("a part"));
     avatar

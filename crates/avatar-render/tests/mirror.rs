@@ -72,7 +72,12 @@ fn head() -> [(PartKind, Mesh); 4] {
     let mut teeth = square(Vec3::new(-0.3, -0.35, 0.2), 0.25);
     teeth.positions.iter_mut().for_each(|p| p.z += 0.3 * p.x + 0.1 * p.y);
     let cornea = cap(Vec3::new(0.35, 0.25, 0.17), 0.2, 0.15);
-    [(PartKind::Skin, skin), (PartKind::Eyeball, mesh), (PartKind::Cornea, cornea), (PartKind::Teeth, teeth)]
+    [
+        (PartKind::Skin, skin),
+        (PartKind::Eyeball, mesh),
+        (PartKind::Cornea, cornea),
+        (PartKind::Surface, teeth),
+    ]
 }
 
 /// The part of a ball in front of its middle that is at most `widest` away from its axis.

@@ -70,7 +70,7 @@ fn textures_repeat_and_the_origin_is_at_the_top_left() {
     };
     let draw = |mesh: &Mesh| {
         let textures = PartTextures { color: Some(&texture), ..PartTextures::default() };
-        let (model, state) = model(gpu, &[part(mesh, PartKind::Teeth, textures)]);
+        let (model, state) = model(gpu, &[part(mesh, PartKind::Surface, textures)]);
         let scene = Scene { light: flat_light(), ..scene(4.0) };
         render_image(gpu, SIZE, SIZE, 1, &scene, &[(&model, &state)]).expect("a picture")
     };

@@ -38,14 +38,14 @@ fn avatar_of(scale: f32) -> (AvatarModel, AvatarState) {
     let gpu = gpu().expect("asked before");
     let (plate, above) = (square(Vec3::ZERO, PLATE * scale), ball(BALL * scale, RADIUS * scale, 32));
     let none = PartTextures::default();
-    let avatar = model(gpu, &[part(&plate, PartKind::Teeth, none), part(&above, PartKind::Teeth, none)]);
+    let avatar = model(gpu, &[part(&plate, PartKind::Surface, none), part(&above, PartKind::Surface, none)]);
     let matte = Material {
         color: [1.0; 3],
         wrap: [0.0; 3],
         reflectance: 0.0,
         wetness: 0.0,
         back_light: 1.0,
-        ..Material::of(PartKind::Teeth)
+        ..Material::of(PartKind::Surface)
     };
     for place in 0..2 {
         avatar.0.set_material(&gpu.queue, place, &matte).expect("a part");
@@ -142,7 +142,7 @@ fn the_key_casts_shadows_and_the_rim_soft_ones_and_the_fill_none() {
 fn nothing_that_faces_a_lamp_alone_is_in_its_own_shadow() {
     let Some(gpu) = gpu() else { return };
     let mesh = ball(Vec3::ZERO, 1.0, 48);
-    let avatar = model(gpu, &[part(&mesh, PartKind::Teeth, PartTextures::default())]);
+    let avatar = model(gpu, &[part(&mesh, PartKind::Surface, PartTextures::default())]);
     let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.2, 1.0);
     for toward in [Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.8, 0.6, 0.0)] {
         let draw = |shadows| light_of(with(shadows), SIZE, &lit_scene(camera, key_light(toward)), &avatar);
@@ -213,7 +213,7 @@ fn the_drawn_rim_is_hidden_by_what_stands_before_its_lamp() {
     let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.2, 1.0);
     let of = |meshes: &[&Mesh]| {
         let none = PartTextures::default();
-        let parts: Vec<_> = meshes.iter().map(|mesh| part(mesh, PartKind::Teeth, none)).collect();
+        let parts: Vec<_> = meshes.iter().map(|mesh| part(mesh, PartKind::Surface, none)).collect();
         let picture = light_of(Shading::Toon, SIZE, &lit_scene(camera, light), &model(gpu, &parts));
         // Across the middle. Some ambient light is always there.
         (0..SIZE).map(|x| picture.pixel(x, SIZE / 2).x).fold(0.0, f32::max)
@@ -229,7 +229,7 @@ fn edge(shadows: Shadows) -> (f32, f32) {
     let gpu = gpu().expect("asked before");
     let (plate, screen) = (square(Vec3::ZERO, PLATE), square(Vec3::new(-1.0, 0.0, 0.5), 1.0));
     let none = PartTextures::default();
-    let avatar = model(gpu, &[part(&plate, PartKind::Teeth, none), part(&screen, PartKind::Teeth, none)]);
+    let avatar = model(gpu, &[part(&plate, PartKind::Surface, none), part(&screen, PartKind::Surface, none)]);
     // The lamp is opposite; the screen's edge x = 0 throws its shadow to x = 0.5 · 0.75.
     let toward = Vec3::new(-0.6, 0.0, 0.8);
     let at = Vec3::new(0.375, 0.0, 0.0);

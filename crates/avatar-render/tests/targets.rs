@@ -124,7 +124,7 @@ fn formats_with_fewer_channels_hold_the_same_values() {
     use wgpu::TextureFormat::{R8Unorm, Rg8Unorm, Rgba8Unorm};
     let Some(gpu) = gpu() else { return };
     let mesh = ball(Vec3::ZERO, 1.0, 16);
-    let (model, state) = model(gpu, &[part(&mesh, PartKind::Teeth, PartTextures::default())]);
+    let (model, state) = model(gpu, &[part(&mesh, PartKind::Surface, PartTextures::default())]);
     let scene = Scene { background: [0.2, 0.3, 0.4, 1.0], ..scene(4.0) };
     let [one, two, four] = [R8Unorm, Rg8Unorm, Rgba8Unorm].map(|format| {
         let stage = Stage::new(gpu, shadings()[0].1, 32, format);

@@ -60,7 +60,7 @@ fn a_crease_is_darker_the_nearer_and_only_as_far_as_the_renderer_looks() {
     mesh.triangles.extend(floor.triangles.iter().map(|corners| corners.map(|i| i + 4)));
     // 5 % of the height of the skin.
     let radius = 0.05 * 2.0;
-    for kind in [PartKind::Skin, PartKind::Teeth] {
+    for kind in [PartKind::Skin, PartKind::Surface] {
         let avatar = of_one(&mesh, kind, dark(kind));
         let camera = Camera::orbit(Vec3::new(0.0, 0.1, 0.1), 6.0, 0.0, FRAC_PI_4, 0.12, 1.0);
         let picture = left(&avatar, camera);
@@ -80,7 +80,7 @@ fn a_crease_is_darker_the_nearer_and_only_as_far_as_the_renderer_looks() {
 fn neither_a_flat_plate_nor_the_middle_of_a_ball_hides_anything() {
     let Some(_) = gpu() else { return };
     let (plate, round) = (square(Vec3::ZERO, 1.0), ball(Vec3::ZERO, 1.0, 48));
-    for kind in [PartKind::Skin, PartKind::Teeth] {
+    for kind in [PartKind::Skin, PartKind::Surface] {
         let avatars = [&plate, &round].map(|mesh| of_one(mesh, kind, dark(kind)));
         for (yaw, pitch) in [(0.0, 0.0), (0.9, 0.3), (-1.2, -0.2)] {
             let camera = Camera::orbit(Vec3::ZERO, 8.0, yaw, pitch, 0.28, 1.0);
@@ -103,8 +103,8 @@ fn what_is_far_behind_is_not_darkened() {
     // Half the plate's height in front of it, ten times as far as the renderer looks.
     let (plate, before) = (square(Vec3::ZERO, 1.0), square(Vec3::new(0.0, 0.0, 1.0), 0.2));
     let none = PartTextures::default();
-    let avatar = model(gpu, &[part(&plate, PartKind::Skin, none), part(&before, PartKind::Teeth, none)]);
-    for (place, kind) in [PartKind::Skin, PartKind::Teeth].into_iter().enumerate() {
+    let avatar = model(gpu, &[part(&plate, PartKind::Skin, none), part(&before, PartKind::Surface, none)]);
+    for (place, kind) in [PartKind::Skin, PartKind::Surface].into_iter().enumerate() {
         avatar.0.set_material(&gpu.queue, place, &dark(kind)).expect("a part");
     }
     for yaw in [0.0, 0.4] {
@@ -130,8 +130,8 @@ fn matte_surfaces_take_their_light_from_where_they_look() {
     };
     // Its twin on the CPU is held against a sum over all directions.
     let irradiance = environment.irradiance();
-    let white = Material { color: [1.0; 3], ..dark(PartKind::Teeth) };
-    let avatar = of_one(&ball(Vec3::ZERO, 1.0, 64), PartKind::Teeth, white);
+    let white = Material { color: [1.0; 3], ..dark(PartKind::Surface) };
+    let avatar = of_one(&ball(Vec3::ZERO, 1.0, 64), PartKind::Surface, white);
     for (yaw, pitch) in [(0.0, 0.0), (2.0, 0.5), (-1.3, -0.9)] {
         let camera = Camera::orbit(Vec3::ZERO, 6.0, yaw, pitch, 0.36, 1.0);
         let scene = lit_scene(camera, bare_light(environment));
@@ -211,7 +211,7 @@ fn the_environment_is_reflected_where_a_mirror_would_show_it() {
         reflectance: 0.0,
         film_roughness: 0.05,
         back_light: 1.0,
-        ..Material::of(PartKind::Teeth)
+        ..Material::of(PartKind::Surface)
     };
     for toward in [Vec3::new(0.9, 0.3, 0.6), Vec3::new(-0.5, -0.2, 0.9), Vec3::new(-0.8, 0.6, -0.2)] {
         let panel = Panel { direction_world: toward, radius_rad: 0.3, radiance: [4.0; 3] };
@@ -221,7 +221,7 @@ fn the_environment_is_reflected_where_a_mirror_would_show_it() {
         };
         let draw = |reflections| {
             let terms = Terms { reflections, ..Terms::NONE };
-            shiny(PartKind::Teeth, film, terms, bare_light(environment))
+            shiny(PartKind::Surface, film, terms, bare_light(environment))
         };
         // The normal at which most of the panel is seen, weighted by the light.
         let middle = |weights: &[(Vec3, f32)]| {
@@ -301,11 +301,11 @@ fn the_mouth_is_warmer_than_the_room_and_darker_to_the_back_and_never_brighter()
     // Leans back: its upper edge is deep in the mouth.
     let mut mesh = square(Vec3::ZERO, 1.0);
     mesh.positions.iter_mut().for_each(|p| p.z -= 0.5 * p.y);
-    let white = |back_light| Material { color: [1.0; 3], back_light, ..dark(PartKind::Teeth) };
+    let white = |back_light| Material { color: [1.0; 3], back_light, ..dark(PartKind::Surface) };
     let camera = Camera::orbit(Vec3::ZERO, 8.0, 0.0, 0.0, 0.24, 1.0);
     let scene = lit_scene(camera, bare_light(Environment::uniform([1.0; 3])));
     let [open, mouth] = [1.0, 0.3].map(|back_light| {
-        let avatar = of_one(&mesh, PartKind::Teeth, white(back_light));
+        let avatar = of_one(&mesh, PartKind::Surface, white(back_light));
         let picture = light_of(Shading::Natural(Terms::NONE), SIZE, &scene, &avatar);
         [-0.9, -0.3, 0.3, 0.9].map(|y| picture.at(&camera, Vec3::new(0.0, y, -0.5 * y)))
     });

@@ -42,7 +42,7 @@ fn white() -> Material {
         wetness: 0.0,
         // Out of any mouth.
         back_light: 1.0,
-        ..Material::of(PartKind::Teeth)
+        ..Material::of(PartKind::Surface)
     }
 }
 
@@ -50,7 +50,7 @@ fn white() -> Material {
 fn the_chart_comes_out_as_computed_elsewhere() {
     let Some(gpu) = gpu() else { return };
     let mesh = square(Vec3::ZERO, 9.0);
-    let avatar = model(gpu, &[part(&mesh, PartKind::Teeth, PartTextures::default())]);
+    let avatar = model(gpu, &[part(&mesh, PartKind::Surface, PartTextures::default())]);
     avatar.0.set_material(&gpu.queue, 0, &white()).expect("a part");
     assert!(chart().count() > 200);
     for [light, by_neutral, by_agx] in chart() {
@@ -72,7 +72,7 @@ fn the_chart_comes_out_as_computed_elsewhere() {
 fn targets_of_8_bits_hold_the_chart_to_one_step_however_they_encode() {
     let Some(gpu) = gpu() else { return };
     let mesh = square(Vec3::ZERO, 9.0);
-    let avatar = model(gpu, &[part(&mesh, PartKind::Teeth, PartTextures::default())]);
+    let avatar = model(gpu, &[part(&mesh, PartKind::Surface, PartTextures::default())]);
     avatar.0.set_material(&gpu.queue, 0, &white()).expect("a part");
     let formats = [
         (wgpu::TextureFormat::Rgba8UnormSrgb, [0, 1, 2]),

@@ -75,7 +75,7 @@ fn every_view_shows_the_side_that_faces_it() {
 fn a_ball_is_seen_from_all_sides_and_never_its_inside() {
     let Some(gpu) = gpu() else { return };
     for (way, mesh) in both_windings(ball(Vec3::ZERO, 1.0, 16)) {
-        for kind in [PartKind::Skin, PartKind::Eyeball, PartKind::Teeth] {
+        for kind in [PartKind::Skin, PartKind::Eyeball, PartKind::Surface] {
             let avatar = model(gpu, &[part(&mesh, kind, PartTextures::default())]);
             for (name, shading) in shadings() {
                 for (yaw, pitch) in [(0.3, 0.0), (-FRAC_PI_2, 0.0), (PI, 0.0), (0.0, -1.4)] {
@@ -106,7 +106,7 @@ fn skin_and_teeth_are_seen_from_behind_and_teeth_are_lit_there() {
                     let avatar = model(gpu, &[part(&sheet, kind, PartTextures::default())]);
                     light_of(shading, SIZE, &scene, &avatar).middle().x
                 };
-                let (teeth, skin) = (seen(PartKind::Teeth), seen(PartKind::Skin));
+                let (teeth, skin) = (seen(PartKind::Surface), seen(PartKind::Skin));
                 assert!(teeth > 0.6, "{name}, {way}, {yaw}: {teeth}");
                 // The inside of the skin is a hollow that lamps do not reach: dark, but there, and not all outline.
                 assert!((0.04..0.15).contains(&skin), "{name}, {way}, {yaw}: {skin}");
@@ -128,7 +128,7 @@ fn a_mirrored_part_with_the_indices_of_the_other_is_its_mirror_picture() {
         ..bare_light(Environment { sky: [0.4; 3], ..Environment::uniform([0.1; 3]) })
     };
     let scene = lit_scene(Camera::orbit(Vec3::ZERO, 4.0, 0.0, 0.0, 0.6, 1.0), light);
-    for kind in [PartKind::Eyeball, PartKind::Cornea, PartKind::Skin, PartKind::Teeth] {
+    for kind in [PartKind::Eyeball, PartKind::Cornea, PartKind::Skin, PartKind::Surface] {
         let [one, other] =
             [&left, &right].map(|mesh| model(gpu, &[part(mesh, kind, PartTextures::default())]));
         for (name, shading) in shadings() {

@@ -108,7 +108,7 @@ fn kind_of(scene: &Scene, part: &ScenePart, name: &str) -> PartKind {
     match says(&["skin", "face", "head", "body"]) && !says(&other) && !is_metal {
         true => PartKind::Skin,
         // Also for all that is no part of a face: opaque, seen from both sides.
-        false => PartKind::Teeth,
+        false => PartKind::Surface,
     }
 }
 

@@ -59,7 +59,7 @@ fn chosen<'a>(pack: &Pack, textures: &'a Textures, parts: &Parts) -> Vec<(Textur
         let skin = spec.kind == PartKind::Skin;
         let color = match spec.kind {
             PartKind::Skin => Some(Texture::SkinColor),
-            PartKind::Teeth => Some(Texture::Teeth),
+            PartKind::Surface => Some(Texture::Teeth),
             PartKind::Eyeball => Some(Texture::Eye(0)),
             PartKind::Cornea => None,
         };
