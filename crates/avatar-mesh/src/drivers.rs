@@ -219,6 +219,16 @@ impl ShapeDrivers {
         Ok(Self { driver_count: drivers.len(), shape_count: shapes.len(), steps, factors })
     }
 
+    /// Number of drivers, which is that of the values that [`Self::run`] takes.
+    pub fn driver_count(&self) -> usize {
+        self.driver_count
+    }
+
+    /// Number of shapes, which is that of the weights that [`Self::run`] writes.
+    pub fn shape_count(&self) -> usize {
+        self.shape_count
+    }
+
     /// Writes the weight of each shape. Values may be any numbers.
     ///
     /// # Errors

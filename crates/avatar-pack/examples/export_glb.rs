@@ -35,11 +35,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn means_of(pack: &Pack) -> Result<String, Box<dyn Error>> {
     let mut lines = String::new();
     let mut state = FaceState::new(pack);
-    for pose in &pack.poses.poses {
-        let mut values = pack.controls.defaults();
+    for pose in &pack.poses().poses {
+        let mut values = pack.controls().defaults();
         pose.values.iter().for_each(|(control, value)| values[*control] = *value);
         state.pose(pack, &values)?;
-        for (number, part) in pack.parts.iter().enumerate() {
+        for (number, part) in pack.parts().iter().enumerate() {
             let positions = state.deform(pack, number)?.positions;
             let sum: DVec3 = positions.iter().map(|position| position.as_dvec3()).sum();
             let DVec3 { x, y, z } = sum / positions.len() as f64;

@@ -1,4 +1,4 @@
-use crate::SourceError;
+use crate::{ContentsError, SourceError};
 use avatar_look::LookError;
 use avatar_mesh::{MeshError, MeshWarning};
 use pose_anim::{BindError, TomlError};
@@ -56,6 +56,9 @@ pub enum PackProblem {
     /// A control names a joint or shape that the pack does not have.
     #[error("{0}")]
     Bind(BindError),
+    /// What the files say does not agree.
+    #[error("{0}")]
+    Contents(ContentsError),
 }
 
 /// Something that was mended or replaced while a pack was loaded; the face can be shown all the same.

@@ -28,16 +28,16 @@ use std::io::Cursor;
 /// takes it.
 pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut scene = RawScene { nodes: joints(pack), ..RawScene::default() };
-    let joint_from_mesh = pack.palette.iter().map(|bone| bone.joint_from_mesh);
+    let joint_from_mesh = pack.palette().iter().map(|bone| bone.joint_from_mesh);
     scene.skins.push(Skin {
         name: "palette".to_owned(),
-        joints: pack.palette.iter().map(|bone| bone.joint.index()).collect(),
+        joints: pack.palette().iter().map(|bone| bone.joint.index()).collect(),
         inverse_binds: joint_from_mesh.collect(),
     });
     let mut images = Images::default();
     let rest = weights_of_defaults(pack);
     let mut shapes_of_nodes = Vec::new();
-    for (number, part) in pack.parts.iter().enumerate() {
+    for (number, part) in pack.parts().iter().enumerate() {
         let kept = kept_shapes(part);
         let node = scene.nodes.len();
         let weights = kept.iter().map(|shape| rest.get(*shape).copied().unwrap_or(0.0)).collect();
@@ -56,10 +56,10 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut note =
         |text: &str| scene.notes.push(Note { place: "the avatar".to_owned(), text: text.to_owned() });
     note("controls, couplings and times of poses are left out");
-    if pack.sliders.is_some() {
+    if pack.sliders().is_some() {
         note("sliders are left out: in-between shapes have weights of their own");
     }
-    if pack.hair.is_some() {
+    if pack.hair().is_some() {
         note("hair is left out");
     }
     scene
@@ -67,7 +67,7 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
 
 /// A node per joint, in the order of the rig, so that positions are the same.
 fn joints(pack: &Pack) -> Vec<Node> {
-    let rig = &pack.rig;
+    let rig = pack.rig();
     let joint = |((name, parent), bind): ((&String, &Option<rig_core::JointId>), &Affine3A)| Node {
         name: name.clone(),
         parent: parent.map(|parent| parent.index()),
@@ -110,7 +110,7 @@ fn mesh(pack: &Pack, part: &Part, kept: &[usize]) -> Mesh {
     let mut mesh = part.mesh.clone();
     mesh.shapes = kept.iter().filter_map(|number| part.mesh.shapes.get(*number).cloned()).collect();
     for (shape, number) in mesh.shapes.iter_mut().zip(kept) {
-        if let Some(name) = pack.shapes.get(*number) {
+        if let Some(name) = pack.shapes().get(*number) {
             shape.name.clone_from(name);
         }
     }
@@ -133,13 +133,13 @@ fn mesh(pack: &Pack, part: &Part, kept: &[usize]) -> Mesh {
 /// Joints and weights where control values take them, after the couplings.
 fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
     let mut effective = vec![0.0; values.len()];
-    pack.binding.couple(values, &mut effective);
-    let (mut locals, mut weights) = (pack.rig.locals(), vec![0.0; pack.shapes.len()]);
-    match &pack.sliders {
-        None => pack.binding.apply(&effective, &mut locals, &mut weights).ok()?,
+    pack.binding().couple(values, &mut effective);
+    let (mut locals, mut weights) = (pack.rig().locals(), vec![0.0; pack.shapes().len()]);
+    match pack.sliders() {
+        None => pack.binding().apply(&effective, &mut locals, &mut weights).ok()?,
         Some(sliders) => {
             let mut values = vec![0.0; sliders.names.len()];
-            pack.binding.apply(&effective, &mut locals, &mut values).ok()?;
+            pack.binding().apply(&effective, &mut locals, &mut values).ok()?;
             sliders.drivers.run(&values, &mut weights).ok()?;
         }
     }
@@ -147,18 +147,18 @@ fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
 }
 
 fn weights_of_defaults(pack: &Pack) -> Vec<f32> {
-    posed(pack, &pack.controls.defaults()).map(|(_, weights)| weights).unwrap_or_default()
+    posed(pack, &pack.controls().defaults()).map(|(_, weights)| weights).unwrap_or_default()
 }
 
 fn clips(pack: &Pack, nodes: &[Node], shapes: &[(usize, Vec<usize>)], notes: &mut Vec<Note>) -> Vec<Clip> {
-    let driven: BTreeSet<usize> = (pack.controls.controls().iter())
+    let driven: BTreeSet<usize> = (pack.controls().controls().iter())
         .filter_map(|control| match &control.drives {
-            Drive::Joint { joint, .. } => Some(pack.rig.joint(joint)?.index()),
+            Drive::Joint { joint, .. } => Some(pack.rig().joint(joint)?.index()),
             _ => None,
         })
         .collect();
     let mut clips = Vec::new();
-    for pose in &pack.poses.poses {
+    for pose in &pack.poses().poses {
         match clip(pack, pose, nodes, &driven, shapes) {
             Some(clip) => clips.push(clip),
             None => {
@@ -178,7 +178,7 @@ fn clip(
     driven: &BTreeSet<usize>,
     shapes: &[(usize, Vec<usize>)],
 ) -> Option<Clip> {
-    let mut values = pack.controls.defaults();
+    let mut values = pack.controls().defaults();
     for (control, value) in &pose.values {
         *values.get_mut(*control)? = *value;
     }
@@ -194,7 +194,7 @@ fn clip(
         });
     };
     for &joint in driven {
-        let (bind, local) = (pack.rig.parent_from_joint().get(joint)?, locals.get(joint)?);
+        let (bind, local) = (pack.rig().parent_from_joint().get(joint)?, locals.get(joint)?);
         let Transform::Trs(rest) = nodes.get(joint)?.local else { continue };
         let moved = trs(widen(*bind) * widen(*local));
         // The joint at rest is at rest to the bit.
@@ -216,7 +216,7 @@ fn material<'a>(
     images: &mut Images<'a>,
     notes: &mut Vec<Note>,
 ) -> Material {
-    let part = &pack.parts[number];
+    let part = &pack.parts()[number];
     let from = pack.material(number);
     let pictures = textures.of_part(number, part.kind);
     let mut take = |picture: Option<&'a RgbaImage>, what: &str, change: Option<Change>| {

@@ -45,16 +45,16 @@ impl FaceState {
     /// A state for this pack, at bind pose.
     pub fn new(pack: &Pack) -> Self {
         let rest = |bone: &PaletteBone| {
-            let world_from_joint = pack.rig.world_from_bind().get(bone.joint.index());
+            let world_from_joint = pack.rig().world_from_bind().get(bone.joint.index());
             world_from_joint.map_or(Affine3A::IDENTITY, |w| *w * bone.joint_from_mesh)
         };
         Self {
-            effective: pack.controls.defaults(),
-            locals: pack.rig.locals(),
-            sliders: vec![0.0; pack.sliders.as_ref().map_or(0, |sliders| sliders.names.len())],
-            pose: pack.rig.pose(),
-            bones: pack.palette.iter().map(rest).collect(),
-            weights: vec![0.0; pack.shapes.len()],
+            effective: pack.controls().defaults(),
+            locals: pack.rig().locals(),
+            sliders: vec![0.0; pack.sliders().map_or(0, |sliders| sliders.names.len())],
+            pose: pack.rig().pose(),
+            bones: pack.palette().iter().map(rest).collect(),
+            weights: vec![0.0; pack.shapes().len()],
         }
     }
 
@@ -120,17 +120,17 @@ impl FaceState {
         values: &[f32],
         adjust: impl FnOnce(&mut [f32]),
     ) -> Result<(), FaceError> {
-        let expected = pack.controls.controls().len();
+        let expected = pack.controls().controls().len();
         if values.len() != expected || self.effective.len() != expected {
             return Err(FaceError::ValueCount { expected, found: values.len() });
         }
-        pack.binding.couple(values, &mut self.effective);
+        pack.binding().couple(values, &mut self.effective);
         adjust(&mut self.effective);
         self.locals.as_mut_slice().fill(Affine3A::IDENTITY);
-        match &pack.sliders {
-            None => pack.binding.apply(&self.effective, &mut self.locals, &mut self.weights)?,
+        match pack.sliders() {
+            None => pack.binding().apply(&self.effective, &mut self.locals, &mut self.weights)?,
             Some(sliders) => {
-                pack.binding.apply(&self.effective, &mut self.locals, &mut self.sliders)?;
+                pack.binding().apply(&self.effective, &mut self.locals, &mut self.sliders)?;
                 sliders.drivers.run(&self.sliders, &mut self.weights)?;
             }
         }
@@ -139,9 +139,9 @@ impl FaceState {
 
     /// `L` to world and bone matrices.
     fn update(&mut self, pack: &Pack) -> Result<(), FaceError> {
-        pack.rig.update(self.locals.as_slice(), &mut self.pose)?;
+        pack.rig().update(self.locals.as_slice(), &mut self.pose)?;
         let joints = self.pose.world_from_joint();
-        for (bone, PaletteBone { joint, joint_from_mesh }) in self.bones.iter_mut().zip(&pack.palette) {
+        for (bone, PaletteBone { joint, joint_from_mesh }) in self.bones.iter_mut().zip(pack.palette()) {
             let unknown = UnknownJoint { index: joint.index(), joints: joints.len() };
             *bone = *joints.get(joint.index()).ok_or(unknown)? * *joint_from_mesh;
         }
@@ -162,8 +162,9 @@ impl FaceState {
     /// # Errors
     /// A part that the pack does not have, or a state of another pack.
     pub fn deform(&self, pack: &Pack, part: usize) -> Result<Deformed, DeformError> {
-        let missing = DeformError::VertexCount { what: "the parts", expected: pack.parts.len(), found: part };
-        let Part { mesh, bone, .. } = pack.parts.get(part).ok_or(missing)?;
+        let missing =
+            DeformError::VertexCount { what: "the parts", expected: pack.parts().len(), found: part };
+        let Part { mesh, bone, .. } = pack.parts().get(part).ok_or(missing)?;
         let bones = match bone {
             Some(bone) => self.bones.get(*bone..=*bone).unwrap_or_default(),
             None => &self.bones,

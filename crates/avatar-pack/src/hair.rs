@@ -11,12 +11,12 @@ impl Pack {
         let image = textures.get(Texture::HairDensity)?;
         let reds = image.pixels().map(|pixel| pixel.0[0]).collect();
         let density = DensityMap::new(image.width(), image.height(), reds)?;
-        let skin = self.parts.iter().position(|part| part.kind == PartKind::Skin)?;
-        let eyes: Vec<Bounds> = (self.parts.iter())
+        let skin = self.parts().iter().position(|part| part.kind == PartKind::Skin)?;
+        let eyes: Vec<Bounds> = (self.parts().iter())
             .filter(|part| part.kind == PartKind::Eyeball)
             .filter_map(|part| part.mesh.bounds())
             .collect();
-        let mesh = &self.parts[skin].mesh;
+        let mesh = &self.parts()[skin].mesh;
         Some((skin, Groom::new(mesh, &density, &eyes, hair.style, hair.strands(), hair.seed)))
     }
 }

@@ -34,6 +34,7 @@ mod face;
 pub mod gaze;
 mod hair;
 mod import;
+mod load;
 mod pack;
 mod pick;
 mod raw;
@@ -51,7 +52,8 @@ pub use import::{
     Import, ImportFailure, ImportReport, MotionAt, MotionError, MotionSampler, Role, SceneMotion, ShapeSet,
     Sliders,
 };
-pub use pack::{Pack, PaletteBone, Part, load_clips, load_hair, load_materials, load_poses};
+pub use load::{load_clips, load_hair, load_materials, load_poses};
+pub use pack::{ContentsError, Pack, PackContents, PaletteBone, Part};
 pub use pick::Hit;
 pub use raw::{RawError, RawFiles, raw_files};
 pub use reach::Reach;

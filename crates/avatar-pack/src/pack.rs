@@ -1,45 +1,48 @@
-use crate::{PackError, PackProblem, SceneMotion, Sliders, Source, Warning};
+use crate::{SceneMotion, Sliders, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
-use avatar_mesh::{
-    Bounds, FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, Mesh, MeshError, PartKind, PartSpec, Winding, raw,
-};
+use avatar_mesh::{Bounds, Mesh, PartKind};
 use glam::Affine3A;
-use pose_anim::{Binding, ClipSet, ControlTable, PoseSet};
+use pose_anim::{BindError, Binding, ClipSet, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
-use std::borrow::Cow;
-
-/// The rig's file, under the two names that it has in the wild.
-const RIG_FILES: [&str; 2] = ["Transformations.xml", "Transformationen.xml"];
 
 /// A face, ready to be posed: everything of a pack but its textures.
+///
+/// What it holds agrees: every index of a joint, bone, shape, slider or control that occurs in it is in range. Hence its
+/// fields are private; [`Pack::into_contents`] takes it apart and [`Pack::new`] puts it together again.
 #[derive(Clone, Debug)]
 pub struct Pack {
+    contents: PackContents,
+    binding: Binding,
+}
+
+/// What a [`Pack`] is made of: to be filled in, then checked by [`Pack::new`].
+#[derive(Clone, Debug)]
+pub struct PackContents {
     /// The joints.
     pub rig: Rig,
-    /// The parts; of a pack in the raw format in the order of [`FACE_PARTS`].
+    /// The parts; of a pack in the raw format in the order of [`avatar_mesh::FACE_PARTS`].
     pub parts: Vec<Part>,
-    /// What each bone index of the meshes means; in the raw format in the order of [`FACE_BONES`].
+    /// What each bone index of the meshes means; in the raw format in the order of [`avatar_mesh::FACE_BONES`].
     pub palette: Vec<PaletteBone>,
     /// Names of the blend shapes, in the order of the blend weights.
     pub shapes: Vec<String>,
     /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have none.
     pub sliders: Option<Sliders>,
-    /// The controls, from `controls.toml` or the default table.
+    /// The controls: of joints, and of sliders, or shapes where there are no sliders.
     pub controls: ControlTable,
-    /// The controls, bound to this rig and to these sliders, or shapes where there are none.
-    pub binding: Binding,
-    /// The poses, from `poses.toml` or the default set.
+    /// The poses, as values of the controls.
     pub poses: PoseSet,
-    /// Clips of controls, from `clips.toml`.
+    /// Clips, as tracks of the controls.
     pub clips: ClipSet,
-    /// The looks of the parts, from `materials.toml` or the defaults.
+    /// The looks of those parts that have none of their own.
     pub materials: Materials,
-    /// The hair, from `hair.toml`; `None` where there is none of that name.
+    /// The hair; `None` where the pack does not say which.
     pub hair: Option<Hair>,
     /// The clips of a file of an interchange format, of whole joints; packs in the raw format have none.
     pub motion: Option<SceneMotion>,
-    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind pose in world space.
+    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind pose in
+    /// world space.
     pub face: Option<Bounds>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
@@ -50,7 +53,8 @@ pub struct Pack {
 pub struct PaletteBone {
     /// The joint.
     pub joint: JointId,
-    /// From the space that the meshes' vertices are in to the joint's at bind pose: `W⁻¹` where meshes are in world space.
+    /// From the space that the meshes' vertices are in to the joint's at bind pose: `W⁻¹` where meshes are in world
+    /// space.
     pub joint_from_mesh: Affine3A,
 }
 
@@ -73,77 +77,177 @@ pub struct Part {
     pub bounds: Option<Bounds>,
 }
 
-/// The poses that a pack says, or the default set: what [`Pack::load`] takes for [`Pack::poses`], alone.
-///
-/// # Errors
-/// A file of that name that is unreadable or not as its format demands, and where in it.
-pub fn load_poses(source: &impl Source, controls: &ControlTable) -> Result<PoseSet, PackError> {
-    match read_text(source, "poses.toml")? {
-        None => Ok(PoseSet::default_face(controls)),
-        Some(text) => PoseSet::from_toml(&text, controls)
-            .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error))),
-    }
-}
-
-/// The clips that a pack says; none without `clips.toml`.
-///
-/// # Errors
-/// A file of that name that is unreadable or not as its format demands, and where in it.
-pub fn load_clips(source: &impl Source, controls: &ControlTable) -> Result<ClipSet, PackError> {
-    match read_text(source, "clips.toml")? {
-        None => Ok(ClipSet::default()),
-        Some(text) => ClipSet::from_toml(&text, controls)
-            .map_err(|error| at(source, "clips.toml", PackProblem::Toml(error))),
-    }
+/// Why the contents of a pack do not agree.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ContentsError {
+    /// A control of a joint, slider or shape that the pack does not have.
+    #[error(transparent)]
+    Bind(#[from] BindError),
+    /// An index that is out of range.
+    #[error("{place}: expected the index of one of {count} {what}, found {found}")]
+    Index {
+        /// Where it stands, such as `part "skin"`.
+        place: String,
+        /// What it counts: `joints`, `bones`, `sliders` or `controls`.
+        what: &'static str,
+        /// How many of these there are.
+        count: usize,
+        /// The index.
+        found: usize,
+    },
+    /// A list that does not have one entry for each of something.
+    #[error("{place}: expected {expected} {what}, found {found}")]
+    Count {
+        /// Where it stands, such as `part "skin"`.
+        place: String,
+        /// What is counted, such as `shapes at most`.
+        what: &'static str,
+        /// How many there may be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
 }
 
 impl Pack {
-    /// Loads a pack in the raw format.
+    /// Puts a pack together, and binds its controls to its joints and to its sliders, or shapes where it has no sliders.
     ///
     /// # Errors
-    /// The first file that is missing, unreadable or not as the format demands, and where in it.
-    pub fn load(source: &impl Source) -> Result<Self, PackError> {
-        let (rig_file, rig) = load_rig(source)?;
-        let palette = load_palette(source, rig_file, &rig)?;
-        let mut warnings = Vec::new();
-        let parts = FACE_PARTS
-            .iter()
-            .map(|spec| load_part(source, *spec, &mut warnings))
-            .collect::<Result<Vec<_>, _>>()?;
+    /// The first contradiction: an index out of range, a list of the wrong length, a control of something that is missing.
+    pub fn new(contents: PackContents) -> Result<Self, ContentsError> {
+        check(&contents)?;
+        check_poses(&contents.poses, &contents.controls)?;
+        check_clips(&contents.clips, &contents.controls)?;
+        let driven = contents.sliders.as_ref().map_or(&contents.shapes, |sliders| &sliders.names);
+        let driven: Vec<&str> = driven.iter().map(String::as_str).collect();
+        let binding = contents.controls.bind(&contents.rig, &driven)?;
+        Ok(Self { contents, binding })
+    }
 
-        let (controls, binding) = load_controls(source, &rig)?;
-        let poses = load_poses(source, &controls)?;
-        let clips = load_clips(source, &controls)?;
-        let materials = load_materials(source)?;
-        let hair = load_hair(source)?;
-        let shapes = FACE_SHAPES.map(str::to_owned).into();
-        Ok(Self {
-            rig,
-            parts,
-            palette,
-            shapes,
-            sliders: None,
-            controls,
-            binding,
-            poses,
-            clips,
-            materials,
-            hair,
-            motion: None,
-            face: None,
-            warnings,
-        })
+    /// Takes the pack apart, to change something of it and make another pack.
+    pub fn into_contents(self) -> PackContents {
+        self.contents
+    }
+
+    /// The joints.
+    pub fn rig(&self) -> &Rig {
+        &self.contents.rig
+    }
+
+    /// The parts; of a pack in the raw format in the order of [`avatar_mesh::FACE_PARTS`].
+    pub fn parts(&self) -> &[Part] {
+        &self.contents.parts
+    }
+
+    /// What each bone index of the meshes means; in the raw format in the order of [`avatar_mesh::FACE_BONES`].
+    pub fn palette(&self) -> &[PaletteBone] {
+        &self.contents.palette
+    }
+
+    /// Names of the blend shapes, in the order of the blend weights.
+    pub fn shapes(&self) -> &[String] {
+        &self.contents.shapes
+    }
+
+    /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have none.
+    pub fn sliders(&self) -> Option<&Sliders> {
+        self.contents.sliders.as_ref()
+    }
+
+    /// The controls, from `controls.toml` or the default table.
+    pub fn controls(&self) -> &ControlTable {
+        &self.contents.controls
+    }
+
+    /// The controls, bound to this rig and to these sliders, or shapes where there are no sliders.
+    pub fn binding(&self) -> &Binding {
+        &self.binding
+    }
+
+    /// The poses, from `poses.toml` or the default set.
+    pub fn poses(&self) -> &PoseSet {
+        &self.contents.poses
+    }
+
+    /// Replaces the poses.
+    ///
+    /// # Errors
+    /// A pose of a control that the pack does not have; the poses then stay as they were.
+    pub fn set_poses(&mut self, poses: PoseSet) -> Result<(), ContentsError> {
+        check_poses(&poses, &self.contents.controls)?;
+        self.contents.poses = poses;
+        Ok(())
+    }
+
+    /// Clips of controls, from `clips.toml`.
+    pub fn clips(&self) -> &ClipSet {
+        &self.contents.clips
+    }
+
+    /// Replaces the clips of controls.
+    ///
+    /// # Errors
+    /// A track of a control that the pack does not have; the clips then stay as they were.
+    pub fn set_clips(&mut self, clips: ClipSet) -> Result<(), ContentsError> {
+        check_clips(&clips, &self.contents.controls)?;
+        self.contents.clips = clips;
+        Ok(())
+    }
+
+    /// The looks of those parts that have none of their own, from `materials.toml` or the defaults.
+    pub fn materials(&self) -> &Materials {
+        &self.contents.materials
+    }
+
+    /// Replaces the looks of those parts that have none of their own.
+    pub fn set_materials(&mut self, materials: Materials) {
+        self.contents.materials = materials;
+    }
+
+    /// The hair, from `hair.toml`; `None` without that file.
+    pub fn hair(&self) -> Option<&Hair> {
+        self.contents.hair.as_ref()
+    }
+
+    /// Replaces the hair.
+    pub fn set_hair(&mut self, hair: Option<Hair>) {
+        self.contents.hair = hair;
+    }
+
+    /// The clips of a file of an interchange format, of whole joints; packs in the raw format have none.
+    pub fn motion(&self) -> Option<&SceneMotion> {
+        self.contents.motion.as_ref()
+    }
+
+    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind pose in
+    /// world space.
+    pub fn face(&self) -> Option<Bounds> {
+        self.contents.face
+    }
+
+    /// What was mended while loading.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.contents.warnings
+    }
+
+    /// Sets the boxes around the parts and the face, which are measured in a pack that is otherwise complete.
+    pub(crate) fn set_measures(&mut self, parts: Vec<Option<Bounds>>, face: Option<Bounds>) {
+        for (part, bounds) in self.contents.parts.iter_mut().zip(parts) {
+            part.bounds = bounds;
+        }
+        self.contents.face = face;
     }
 
     /// The part of this name.
     pub fn part(&self, name: &str) -> Option<&Part> {
-        self.parts.iter().find(|part| part.name == name)
+        self.parts().iter().find(|part| part.name == name)
     }
 
     /// Whether a shape, by its place in [`Pack::shapes`], moves with controls that drive this name.
     pub fn follows(&self, shape: usize, driven: &str) -> bool {
-        match &self.sliders {
-            None => self.shapes.get(shape).is_some_and(|name| name == driven),
+        match self.sliders() {
+            None => self.shapes().get(shape).is_some_and(|name| name == driven),
             Some(sliders) => {
                 let followed = sliders.of_shapes.get(shape).map_or(&[][..], Vec::as_slice);
                 followed.iter().any(|slider| sliders.names.get(*slider).is_some_and(|name| name == driven))
@@ -153,135 +257,85 @@ impl Pack {
 
     /// The looks of the part of this index; the default ones of skin where there is no such part.
     pub fn material(&self, part: usize) -> Material {
-        match self.parts.get(part) {
-            Some(part) => part.material.unwrap_or_else(|| self.materials.of(&part.name, part.kind)),
+        match self.parts().get(part) {
+            Some(part) => part.material.unwrap_or_else(|| self.materials().of(&part.name, part.kind)),
             None => Material::of(PartKind::Skin),
         }
     }
 
     /// The box around all parts at bind pose.
     pub fn bounds(&self) -> Option<Bounds> {
-        self.parts.iter().filter_map(|part| part.bounds).reduce(Bounds::union)
+        self.parts().iter().filter_map(|part| part.bounds).reduce(Bounds::union)
     }
 }
 
-fn at(source: &impl Source, name: &str, problem: PackProblem) -> PackError {
-    PackError { file: source.locate(name), problem: problem.into() }
-}
-
-fn read<'a>(source: &'a impl Source, name: &str) -> Result<Option<Cow<'a, [u8]>>, PackError> {
-    source.read(name).map_err(|error| at(source, name, PackProblem::Unreadable(error)))
-}
-
-fn read_needed<'a>(source: &'a impl Source, name: &str) -> Result<Cow<'a, [u8]>, PackError> {
-    read(source, name)?.ok_or_else(|| at(source, name, PackProblem::Missing(name.to_owned())))
-}
-
-fn read_text(source: &impl Source, name: &str) -> Result<Option<String>, PackError> {
-    let Some(bytes) = read(source, name)? else { return Ok(None) };
-    match std::str::from_utf8(&bytes) {
-        Ok(text) => Ok(Some(text.strip_prefix('\u{feff}').unwrap_or(text).to_owned())),
-        Err(error) => Err(at(source, name, PackProblem::NotText { offset: error.valid_up_to() })),
+fn check(contents: &PackContents) -> Result<(), ContentsError> {
+    let PackContents { rig, parts, palette, shapes, sliders, .. } = contents;
+    for (bone, PaletteBone { joint, .. }) in palette.iter().enumerate() {
+        in_range(joint.index(), rig.len(), "joints", || format!("bone {bone}"))?;
     }
-}
-
-fn load_rig(source: &impl Source) -> Result<(&'static str, Rig), PackError> {
-    for name in RIG_FILES {
-        if let Some(bytes) = read(source, name)? {
-            let rig = Rig::from_xml(&bytes).map_err(|error| at(source, name, PackProblem::Rig(error)))?;
-            return Ok((name, rig));
+    for part in parts {
+        let place = || format!("part {:?}", part.name);
+        let skinned = part.mesh.skinning.iter().flat_map(|skinning| skinning.bones.as_flattened());
+        if let Some(most) = skinned.map(|bone| usize::from(*bone)).chain(part.bone).max() {
+            in_range(most, palette.len(), "bones", place)?;
+        }
+        let found = part.mesh.shapes.len();
+        if found > shapes.len() {
+            return Err(ContentsError::Count {
+                place: place(),
+                what: "shapes at most",
+                expected: shapes.len(),
+                found,
+            });
         }
     }
-    Err(at(source, RIG_FILES[0], PackProblem::Missing(RIG_FILES.join(" or "))))
-}
-
-fn load_palette(source: &impl Source, rig_file: &str, rig: &Rig) -> Result<Vec<PaletteBone>, PackError> {
-    let bone = |name: &&str| {
-        let joint = rig.joint(name).ok_or_else(|| {
-            let problem =
-                PackProblem::MissingJoint { joint: (*name).to_owned(), found: rig.names().to_vec() };
-            at(source, rig_file, problem)
-        })?;
-        Ok(PaletteBone { joint, joint_from_mesh: rig.bind_from_world()[joint.index()] })
-    };
-    FACE_BONES.iter().map(bone).collect()
-}
-
-fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) -> Result<Part, PackError> {
-    let (vertex_file, index_file) = (format!("{}_VB.raw", spec.stem), format!("{}_IB.raw", spec.stem));
-    let vertices = read_needed(source, &vertex_file)?;
-    let indices = read_needed(source, &index_file)?;
-    let blame = |error: MeshError| {
-        let file = match error {
-            MeshError::PartialElement { element: "triangles", .. } | MeshError::IndexOutOfRange { .. } => {
-                &index_file
-            }
-            _ => &vertex_file,
-        };
-        at(source, file, PackProblem::Mesh(error))
-    };
-    let (mut mesh, bone) = match spec.follows {
-        Follows::Bones => (raw::read_skin(&vertices, &indices).map_err(blame)?, None),
-        Follows::Joint(joint) => {
-            let bone = FACE_BONES.iter().position(|name| *name == joint);
-            (raw::read_rigid(&vertices, &indices).map_err(blame)?, bone)
+    let Some(sliders) = sliders else { return Ok(()) };
+    let drivers = &sliders.drivers;
+    for (what, expected, found) in [
+        ("lists of the sliders that a shape follows", shapes.len(), sliders.of_shapes.len()),
+        ("shapes that the rules move", shapes.len(), drivers.shape_count()),
+        ("sliders that the rules read", sliders.names.len(), drivers.driver_count()),
+    ] {
+        if expected != found {
+            return Err(ContentsError::Count { place: "the sliders".to_owned(), what, expected, found });
         }
-    };
-    for warning in mesh.validate(FACE_BONES.len()).map_err(blame)? {
-        warnings.push(Warning::Mesh { file: source.locate(&vertex_file), warning });
     }
-    let winding = Winding::of(&mesh);
-    if winding.is_inside_out() {
-        warnings.push(Warning::InsideOut {
-            part: spec.name.to_owned(),
-            contradicting: winding.contradicting,
-            triangles: mesh.triangles.len(),
-        });
-    }
-    Ok(Part {
-        name: spec.name.to_owned(),
-        kind: spec.kind,
-        bounds: mesh.bounds(),
-        mesh,
-        bytes: vertices.len() + indices.len(),
-        bone,
-        material: None,
-    })
-}
-
-/// Reads the looks of a pack's parts: `materials.toml`, or the defaults where there is none. [`Pack::load`] calls it;
-/// by itself it serves programs that take over a changed file while they run.
-///
-/// # Errors
-/// A file that cannot be read, or that is not as its format demands, and where in it.
-pub fn load_materials(source: &impl Source) -> Result<Materials, PackError> {
-    let file = "materials.toml";
-    match read_text(source, file)? {
-        None => Ok(Materials::default()),
-        Some(text) => Materials::from_toml(&text).map_err(|error| at(source, file, PackProblem::Look(error))),
-    }
-}
-
-/// Reads which hair a pack has: `hair.toml`, or `None` where there is none. [`Pack::load`] calls it; by itself it serves
-/// programs that take over a changed file while they run.
-///
-/// # Errors
-/// A file that cannot be read, or that is not as its format demands, and where in it.
-pub fn load_hair(source: &impl Source) -> Result<Option<Hair>, PackError> {
-    let file = "hair.toml";
-    let hair = read_text(source, file)?.map(|text| Hair::from_toml(&text)).transpose();
-    hair.map_err(|error| at(source, file, PackProblem::Hair(error)))
-}
-
-fn load_controls(source: &impl Source, rig: &Rig) -> Result<(ControlTable, Binding), PackError> {
-    let file = "controls.toml";
-    let controls = match read_text(source, file)? {
-        None => ControlTable::default_face(),
-        Some(text) => {
-            ControlTable::from_toml(&text).map_err(|error| at(source, file, PackProblem::Toml(error)))?
+    for (shape, followed) in shapes.iter().zip(&sliders.of_shapes) {
+        for slider in followed {
+            in_range(*slider, sliders.names.len(), "sliders", || format!("shape {shape:?}"))?;
         }
-    };
-    let binding = controls.bind(rig, &FACE_SHAPES);
-    let binding = binding.map_err(|error| at(source, file, PackProblem::Bind(error)))?;
-    Ok((controls, binding))
+    }
+    Ok(())
+}
+
+fn check_poses(poses: &PoseSet, controls: &ControlTable) -> Result<(), ContentsError> {
+    for pose in poses {
+        let used = pose.values.iter().map(|(control, _)| control);
+        for control in used.chain(pose.timings.iter().map(|(control, _)| control)) {
+            in_range(*control, controls.len(), "controls", || format!("pose {:?}", pose.name))?;
+        }
+    }
+    Ok(())
+}
+
+fn check_clips(clips: &ClipSet, controls: &ControlTable) -> Result<(), ContentsError> {
+    for clip in &clips.clips {
+        for track in clip.tracks() {
+            in_range(track.control(), controls.len(), "controls", || format!("clip {:?}", clip.name))?;
+        }
+    }
+    Ok(())
+}
+
+fn in_range(
+    found: usize,
+    count: usize,
+    what: &'static str,
+    place: impl Fn() -> String,
+) -> Result<(), ContentsError> {
+    match found < count {
+        true => Ok(()),
+        false => Err(ContentsError::Index { place: place(), what, count, found }),
+    }
 }

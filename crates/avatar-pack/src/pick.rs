@@ -20,7 +20,7 @@ impl Pack {
     /// A plain loop over all triangles (Möller & Trumbore 1997): about a millisecond for fifty thousand. Allocates nothing.
     pub fn hit(&self, deformed: &[Deformed], origin: Vec3, direction: Vec3) -> Option<Hit> {
         let mut first: Option<Hit> = None;
-        for (index, (part, Deformed { positions, .. })) in self.parts.iter().zip(deformed).enumerate() {
+        for (index, (part, Deformed { positions, .. })) in self.parts().iter().zip(deformed).enumerate() {
             if part.kind == PartKind::Cornea {
                 continue;
             }

@@ -42,23 +42,23 @@ impl Reach {
     /// enough to be left to a thread beside the one that draws.
     pub fn new(pack: &Pack) -> Self {
         let mut state = FaceState::new(pack);
-        let mut values = pack.controls.defaults();
+        let mut values = pack.controls().defaults();
         // With values of the right number, all finite, nothing fails; what did would count as not moved.
         let _ = state.pose(pack, &values);
         let rest = state.clone();
-        let used: Vec<Vec<usize>> = pack.parts.iter().map(used_bones).collect();
+        let used: Vec<Vec<usize>> = pack.parts().iter().map(used_bones).collect();
         let at_rest: Vec<Vec<Vec3>> =
-            (0..pack.parts.len()).map(|part| positions(pack, &rest, part)).collect();
+            (0..pack.parts().len()).map(|part| positions(pack, &rest, part)).collect();
         let face = Face::of(pack, &at_rest);
         let mut ways: Vec<Vec<f32>> = at_rest.iter().map(|part| vec![0.0; part.len()]).collect();
         let mut controls = Vec::with_capacity(values.len());
-        for (index, control) in pack.controls.controls().iter().enumerate() {
+        for (index, control) in pack.controls().controls().iter().enumerate() {
             ways.iter_mut().for_each(|part| part.fill(0.0));
             for end in [control.min, control.max].into_iter().filter(|end| *end != control.default) {
                 values[index] = end;
                 let _ = state.pose(pack, &values);
                 for (part, ways) in ways.iter_mut().enumerate() {
-                    if !differs(&pack.parts[part], &used[part], &rest, &state) {
+                    if !differs(&pack.parts()[part], &used[part], &rest, &state) {
                         continue;
                     }
                     let moved = positions(pack, &state, part);
@@ -121,7 +121,7 @@ struct Face {
 
 impl Face {
     fn of(pack: &Pack, positions: &[Vec<Vec3>]) -> Self {
-        let mut is_face: Vec<Vec<bool>> = pack.parts.iter().map(|part| on_head(pack, part)).collect();
+        let mut is_face: Vec<Vec<bool>> = pack.parts().iter().map(|part| on_head(pack, part)).collect();
         if !is_face.iter().flatten().any(|is_face| *is_face) {
             is_face.iter_mut().for_each(|part| part.fill(true));
         }
@@ -134,22 +134,22 @@ impl Face {
 
 /// Per vertex whether most of its weight is on the joint of `head.turn` and what hangs from it.
 fn on_head(pack: &Pack, part: &Part) -> Vec<bool> {
-    let control = pack.controls.index("head.turn").and_then(|index| pack.controls.controls().get(index));
+    let control = pack.controls().index("head.turn").and_then(|index| pack.controls().controls().get(index));
     let head = control.and_then(|control| match &control.drives {
-        pose_anim::Drive::Joint { joint, .. } => pack.rig.joint(joint),
+        pose_anim::Drive::Joint { joint, .. } => pack.rig().joint(joint),
         pose_anim::Drive::Shape { .. } => None,
     });
     let is_head = |bone: usize| {
-        let mut joint = pack.palette.get(bone).map(|bone| bone.joint);
+        let mut joint = pack.palette().get(bone).map(|bone| bone.joint);
         while joint.is_some() && joint != head {
-            joint = joint.and_then(|joint| pack.rig.parents().get(joint.index()).copied().flatten());
+            joint = joint.and_then(|joint| pack.rig().parents().get(joint.index()).copied().flatten());
         }
         joint.is_some()
     };
     let count = part.mesh.positions.len();
     match (&part.mesh.skinning, part.bone) {
         (Some(skinning), None) => {
-            let bones: Vec<bool> = (0..pack.palette.len()).map(is_head).collect();
+            let bones: Vec<bool> = (0..pack.palette().len()).map(is_head).collect();
             let weight = |(bones_of, weights): (&[u16; 4], &[f32; 4])| {
                 let both = bones_of.iter().zip(weights);
                 let on_head = both.filter(|(bone, _)| bones.get(usize::from(**bone)) == Some(&true));

@@ -60,21 +60,21 @@ fn comes_back(source: &MemorySource) -> Worst {
     let size = (bounds.max - bounds.min).max_element().max(1.0);
     let mut worst = Worst { rig: 0.0, vertices: 0.0, normals: 0.0, compared: 0 };
 
-    for (name, bind) in pack.rig.names().iter().zip(pack.rig.world_from_bind()) {
-        let joint = import.pack.rig.joint(name).expect("a joint of this name");
-        let found = import.pack.rig.world_from_bind()[joint.index()];
+    for (name, bind) in pack.rig().names().iter().zip(pack.rig().world_from_bind()) {
+        let joint = import.pack.rig().joint(name).expect("a joint of this name");
+        let found = import.pack.rig().world_from_bind()[joint.index()];
         let of_axes =
             (found.matrix3 - bind.matrix3).to_cols_array().into_iter().fold(0.0, |m: f32, x| m.max(x.abs()));
         let of_place = (found.translation - bind.translation).abs().max_element() / size;
         worst.rig = worst.rig.max(of_axes).max(of_place);
     }
     assert!(worst.rig <= TOLERANCE, "{}", worst.rig);
-    assert_eq!(import.pack.shapes, pack.shapes);
-    let names: Vec<_> = pack.poses.iter().map(|pose| pose.name.clone()).collect();
-    assert_eq!(import.pack.motion.as_ref().expect("clips").clips(), names);
-    assert_eq!(import.pack.palette.len(), pack.palette.len());
+    assert_eq!(import.pack.shapes(), pack.shapes());
+    let names: Vec<_> = pack.poses().iter().map(|pose| pose.name.clone()).collect();
+    assert_eq!(import.pack.motion().expect("clips").clips(), names);
+    assert_eq!(import.pack.palette().len(), pack.palette().len());
 
-    for (number, (part, found)) in pack.parts.iter().zip(&import.pack.parts).enumerate() {
+    for (number, (part, found)) in pack.parts().iter().zip(import.pack.parts()).enumerate() {
         assert_eq!(found.name, part.name);
         assert_eq!(found.mesh.positions, part.mesh.positions, "{}", part.name);
         assert_eq!(found.mesh.uvs, part.mesh.uvs, "{}", part.name);
@@ -91,15 +91,15 @@ fn comes_back(source: &MemorySource) -> Worst {
 
     let mut own = FaceState::new(&pack);
     let mut other = FaceState::new(&import.pack);
-    for pose in pack.poses.iter() {
-        let mut values = pack.controls.defaults();
+    for pose in pack.poses().iter() {
+        let mut values = pack.controls().defaults();
         pose.values.iter().for_each(|(control, value)| values[*control] = *value);
         own.pose(&pack, &values).expect("a pose of the pack");
-        let at = import.pack.motion.as_ref().expect("clips").at(&pose.name, 0.0).expect("a clip");
-        let defaults = import.pack.controls.defaults();
+        let at = import.pack.motion().expect("clips").at(&pose.name, 0.0).expect("a clip");
+        let defaults = import.pack.controls().defaults();
         other.pose_with(&import.pack, &defaults, |_| {}, &at.locals).expect("a clip's pose");
         other.set_weights(&at.weights);
-        for part in 0..pack.parts.len() {
+        for part in 0..pack.parts().len() {
             let (a, b) =
                 (own.deform(&pack, part).expect("a part"), other.deform(&import.pack, part).expect("a part"));
             assert_eq!(a.positions.len(), b.positions.len());
@@ -170,22 +170,22 @@ fn an_import_comes_back() {
     scene.nodes[scene.parts[jaw].node].weights = vec![0.0];
     scene.clips.clear();
     let first = again(&scene);
-    assert_eq!(first.pack.shapes, ["SSmile", "Frown", "Drop"]);
+    assert_eq!(first.pack.shapes(), ["SSmile", "Frown", "Drop"]);
     let second = again(&export(&first.pack, &first.textures));
-    assert_eq!(second.pack.shapes, first.pack.shapes);
-    let drop = first.pack.controls.index("Drop").expect("a control");
+    assert_eq!(second.pack.shapes(), first.pack.shapes());
+    let drop = first.pack.controls().index("Drop").expect("a control");
     let state = |import: &Import| {
-        let mut values = import.pack.controls.defaults();
+        let mut values = import.pack.controls().defaults();
         values[drop] = 1.0;
         let mut state = FaceState::new(&import.pack);
         state.pose(&import.pack, &values).expect("a pose");
         state.deform(&import.pack, jaw).expect("a part").positions
     };
-    assert_eq!(second.pack.controls.index("Drop"), Some(drop));
+    assert_eq!(second.pack.controls().index("Drop"), Some(drop));
     let (a, b) = (state(&first), state(&second));
     assert_eq!(a.len(), b.len());
     let worst = a.iter().zip(&b).fold(0.0f32, |worst, (a, b)| worst.max((*a - *b).abs().max_element()));
-    let rest = &first.pack.parts[jaw].mesh.positions;
+    let rest = &first.pack.parts()[jaw].mesh.positions;
     let moved = a.iter().zip(rest).all(|(a, rest)| (*a - *rest).length() > 0.5);
     assert!(moved && worst <= 25.0 * TOLERANCE, "{worst}");
 }
@@ -201,7 +201,8 @@ fn looks_and_rest_are_those_of_the_pack() {
     assert!(skin.base_color_texture.is_some() && skin.metallic == 0.0, "{skin:?}");
     assert_eq!(skin.base_color, [1.0; 4]);
     let cornea = material("left-cornea");
-    let look = pack.material(pack.parts.iter().position(|part| part.name == "left-cornea").expect("a part"));
+    let look =
+        pack.material(pack.parts().iter().position(|part| part.name == "left-cornea").expect("a part"));
     let [r, g, b] = look.color;
     assert_eq!((cornea.alpha_mode, cornea.base_color), (AlphaMode::Blend, [r, g, b, look.opacity]));
     // Both eyes have one picture.

@@ -39,8 +39,8 @@ fn face(shapes: &[&str]) -> Import {
 }
 
 fn values(pack: &Pack, pose: &str) -> Vec<(String, f32)> {
-    let pose = pack.poses.get(pose).unwrap_or_else(|| panic!("a pose {pose}"));
-    let name = |index: usize| pack.controls.controls()[index].name.clone();
+    let pose = pack.poses().get(pose).unwrap_or_else(|| panic!("a pose {pose}"));
+    let name = |index: usize| pack.controls().controls()[index].name.clone();
     pose.values.iter().map(|(index, value)| (name(*index), *value)).collect()
 }
 
@@ -81,24 +81,24 @@ fn the_default_poses_are_there_for_shapes_of_arkit() {
         let found = value(&pack, pose, control);
         assert!((found - expected).abs() < 1e-6, "{pose}, {control}: expected {expected}, found {found}");
     }
-    assert_eq!(pack.poses.by_key("1").map(|pose| pose.name.as_str()), Some("smile"));
+    assert_eq!(pack.poses().by_key("1").map(|pose| pose.name.as_str()), Some("smile"));
     // All weights are weights.
-    for pose in &pack.poses {
+    for pose in pack.poses() {
         assert!(pose.values.iter().all(|(_, value)| (0.0..=1.0).contains(value)), "{pose:?}");
     }
     // Timings are those of the controls that the shapes stand for.
     assert!(
-        pack.poses
+        pack.poses()
             .iter()
             .flat_map(|pose| &pose.timings)
-            .all(|(index, _)| *index < pack.controls.controls().len())
+            .all(|(index, _)| *index < pack.controls().controls().len())
     );
 }
 
 #[test]
 fn a_pose_is_not_offered_without_what_it_lives_by() {
     let names = |shapes: &[&str]| -> Vec<String> {
-        face(shapes).pack.poses.iter().map(|pose| pose.name.clone()).collect()
+        face(shapes).pack.poses().iter().map(|pose| pose.name.clone()).collect()
     };
     // Half a smile is none, and nothing else here is in the default poses.
     assert_eq!(names(&["mouthSmileLeft", "cheekPuff"]), ["neutral", "mouthSmileLeft", "cheekPuff"]);
@@ -114,7 +114,7 @@ fn a_pose_is_not_offered_without_what_it_lives_by() {
 #[test]
 fn neutral_puts_everything_to_rest() {
     let pack = face(&["jawOpen", "cheekPuff", "wings"]).pack;
-    let names: Vec<&str> = pack.controls.controls().iter().map(|control| control.name.as_str()).collect();
+    let names: Vec<&str> = pack.controls().controls().iter().map(|control| control.name.as_str()).collect();
     assert!(["jawOpen", "cheekPuff", "wings"].iter().all(|name| names.contains(name)), "{names:?}");
     assert_eq!(
         values(&pack, "neutral"),
@@ -127,11 +127,11 @@ fn makehuman_smiles_by_pulling_the_corners_of_the_mouth() {
     let import = face(ShapeSet::MakeHuman.names());
     assert_eq!(import.report.shape_sets, [(ShapeSet::MakeHuman, 34)]);
     let pack = &import.pack;
-    assert!(pack.controls.index("mouth-corner-puller").is_none());
+    assert!(pack.controls().index("mouth-corner-puller").is_none());
     assert_eq!(value(pack, "smile", "smile"), 0.85);
     assert_eq!(value(pack, "wink-right", "eye-right-closure"), 1.0);
     assert_eq!(value(pack, "yawn", "mouth-open"), 1.0);
-    assert!(pack.poses.get("look-left").is_none(), "its eyes are not moved by shapes");
+    assert!(pack.poses().get("look-left").is_none(), "its eyes are not moved by shapes");
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn what_makehuman_fits_clothes_to_is_not_shown() {
     let parts = |groups: &[&str]| -> (Vec<String>, Vec<String>) {
         let parts = groups.iter().map(|name| ScenePart::rigid(name, 0, mesh(&[Vec3::ZERO], &[]))).collect();
         let import = import(RawScene { nodes: vec![Node::default()], parts, ..RawScene::default() });
-        (import.pack.parts.iter().map(|part| part.name.clone()).collect(), import.report.notes)
+        (import.pack.parts().iter().map(|part| part.name.clone()).collect(), import.report.notes)
     };
     let (shown, notes) = parts(&groups);
     assert_eq!(shown, ["body", "helper-l-eye"]);
@@ -184,7 +184,7 @@ fn the_face_of_a_body_is_its_head() {
     };
     let pack = import(scene).pack;
     let expected = Bounds { min: Vec3::new(0.0, 17.0, 0.0), max: Vec3::new(1.0, 21.0, 0.0) };
-    let face = pack.face.expect("a face");
+    let face = pack.face().expect("a face");
     assert!(face.min.abs_diff_eq(expected.min, 1e-5) && face.max.abs_diff_eq(expected.max, 1e-5), "{face:?}");
 }
 
@@ -200,10 +200,10 @@ fn without_a_head_the_face_is_where_shapes_are() {
         .pack
     };
     // The moved triangle and a third of its height more, where there is something.
-    let face = body(20.0).face.expect("a face");
+    let face = body(20.0).face().expect("a face");
     assert!((face.min.y - 19.65).abs() < 1e-5 && (face.max.y - 21.0).abs() < 1e-5, "{face:?}");
-    assert_eq!(body(0.5).face, None, "there is no more than the face");
-    assert_eq!(self::face(&[]).pack.face, None);
+    assert_eq!(body(0.5).face(), None, "there is no more than the face");
+    assert_eq!(self::face(&[]).pack.face(), None);
 }
 
 /// A second or two; where each shape looks at all others it takes minutes.
@@ -214,7 +214,7 @@ fn time_grows_with_the_number_of_shapes() {
     let start = std::time::Instant::now();
     let pack = face(&names).pack;
     let took = start.elapsed();
-    assert!(pack.controls.controls().len() >= 100_000);
+    assert!(pack.controls().controls().len() >= 100_000);
     assert!(took < std::time::Duration::from_secs(30), "{took:?}");
 }
 
@@ -265,12 +265,12 @@ fn damaged_files_are_avatars_or_errors() {
         avatars += 1;
         let pack = &import.pack;
         let mut state = FaceState::new(pack);
-        for pose in &pack.poses {
-            let mut values = pack.controls.defaults();
+        for pose in pack.poses() {
+            let mut values = pack.controls().defaults();
             pose.values.iter().for_each(|(control, value)| values[*control] = *value);
             if state.pose(pack, &values).is_ok() {
                 // Numbers that are too large are told.
-                (0..pack.parts.len()).for_each(|part| _ = state.deform(pack, part));
+                (0..pack.parts().len()).for_each(|part| _ = state.deform(pack, part));
             }
         }
     }

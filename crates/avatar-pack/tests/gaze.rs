@@ -42,11 +42,11 @@ fn with(pack: &Pack, values: &[f32], changes: &[(usize, f32)]) -> (Vec<f32>, Fac
 }
 
 fn set(pack: &Pack, name: &str, value: f32) -> (usize, f32) {
-    (pack.controls.index(name).expect(name), value)
+    (pack.controls().index(name).expect(name), value)
 }
 
 fn joint(pack: &Pack, state: &FaceState, name: &str) -> glam::Affine3A {
-    state.rig_pose().world_from_joint()[pack.rig.joint(name).expect(name).index()]
+    state.rig_pose().world_from_joint()[pack.rig().joint(name).expect(name).index()]
 }
 
 fn degrees(a: DVec3, b: DVec3) -> f64 {
@@ -60,7 +60,7 @@ fn miss(pack: &Pack, state: &FaceState, eye: &str, target: Vec3) -> f64 {
 }
 
 fn found(pack: &Pack, out: &[(usize, f32)], name: &str) -> f32 {
-    let control = pack.controls.index(name).expect(name);
+    let control = pack.controls().index(name).expect(name);
     out.iter().find(|(other, _)| *other == control).expect(name).1
 }
 
@@ -86,14 +86,14 @@ fn both_eyes_hit_what_is_within_range_however_the_head_is_turned() {
             // Where the eyes were does not matter.
             set(&pack, "eye.left.lr", 30.0 * random.next()),
         ];
-        let (values, state) = with(&pack, &pack.controls.defaults(), &head);
+        let (values, state) = with(&pack, &pack.controls().defaults(), &head);
         // In the head's frame at bind pose: 20° to either side, 18° up or down, from 25 to 1000 units away.
         let (side, up) = ((20.0 * random.next()).to_radians(), (18.0 * random.next()).to_radians());
         let away = 25.0 * 40f32.powf(0.5 + 0.5 * random.next());
-        let left = pack.rig.joint("LtEyeJoint").expect("an eye").index();
-        let middle = Vec3::from(pack.rig.world_from_bind()[left].translation) * Vec3::new(0.0, 1.0, 1.0);
+        let left = pack.rig().joint("LtEyeJoint").expect("an eye").index();
+        let middle = Vec3::from(pack.rig().world_from_bind()[left].translation) * Vec3::new(0.0, 1.0, 1.0);
         let there = middle + away * Vec3::new(side.sin(), up.tan() * side.cos(), side.cos());
-        let head = pack.rig.joint("HeadJoint").expect("a head").index();
+        let head = pack.rig().joint("HeadJoint").expect("a head").index();
         let target = state.rig_pose().posed_from_bind()[head].transform_point3(there);
         gaze.look_at(&pack, &values, target, &mut out).expect("values fit");
         let (_, state) = with(&pack, &values, &out);
@@ -107,7 +107,7 @@ fn both_eyes_hit_what_is_within_range_however_the_head_is_turned() {
 #[test]
 fn near_things_are_squinted_at_and_far_ones_are_not() {
     let pack = marsienne();
-    let rest = pack.controls.defaults();
+    let rest = pack.controls().defaults();
     let (_, state) = with(&pack, &rest, &[]);
     let eyes = ["LtEyeJoint", "RtEyeJoint"].map(|eye| Vec3::from(joint(&pack, &state, eye).translation));
     let middle = 0.5 * (eyes[0] + eyes[1]);
@@ -124,7 +124,7 @@ fn near_things_are_squinted_at_and_far_ones_are_not() {
 #[test]
 fn a_mirrored_target_mirrors_the_eyes() {
     let pack = marsienne();
-    let rest = pack.controls.defaults();
+    let rest = pack.controls().defaults();
     let mut random = Random(7);
     for _ in 0..50 {
         let target = 80.0 * Vec3::new(random.next(), random.next(), random.next());
@@ -139,7 +139,7 @@ fn a_mirrored_target_mirrors_the_eyes() {
 #[test]
 fn beyond_the_range_eyes_stay_at_the_nearest_limit() {
     let pack = marsienne();
-    let rest = pack.controls.defaults();
+    let rest = pack.controls().defaults();
     let middle = {
         let (_, state) = with(&pack, &rest, &[]);
         Vec3::from(joint(&pack, &state, "LtEyeJoint").translation) * Vec3::new(0.0, 1.0, 1.0)
@@ -175,7 +175,7 @@ fn beyond_the_range_eyes_stay_at_the_nearest_limit() {
 #[test]
 fn eyes_never_part() {
     let pack = marsienne();
-    let rest = pack.controls.defaults();
+    let rest = pack.controls().defaults();
     let mut random = Random(3);
     for _ in 0..300 {
         let target = 60.0 * Vec3::new(random.next(), random.next(), random.next());
@@ -201,7 +201,7 @@ fn the_head_goes_its_share_of_the_way() {
                 set(&pack, "head.turn", 50.0 * random.next()),
                 set(&pack, "head.bend", 10.0 * random.next()),
             ];
-            let (values, _) = with(&pack, &pack.controls.defaults(), &already);
+            let (values, _) = with(&pack, &pack.controls().defaults(), &already);
             let target = Vec3::new(40.0 * random.next(), 20.0 * random.next(), 60.0 + 20.0 * random.next());
             gaze.face_toward(&pack, &values, target, share, &mut out).expect("values fit");
             assert_eq!(out.len(), 2);
@@ -224,16 +224,22 @@ fn the_head_goes_its_share_of_the_way() {
     }
 }
 
+/// The pack with other controls, and without the poses of its own.
+fn with_controls(pack: Pack, controls: Vec<pose_anim::Control>) -> Pack {
+    let mut contents = pack.into_contents();
+    contents.controls = pose_anim::ControlTable::new(controls).expect("a table");
+    (contents.poses, contents.clips) = Default::default();
+    Pack::new(contents).expect("a pack")
+}
+
 #[test]
 fn one_control_of_another_axis_is_enough_and_none_is_none() {
-    let mut pack = marsienne();
-    let mut controls = pack.controls.controls().to_vec();
+    let pack = marsienne();
+    let mut controls = pack.controls().controls().to_vec();
     controls.retain(|control| control.name == "eye.right.lr" || control.name == "smile");
     let pose_anim::Drive::Joint { axis, .. } = &mut controls[0].drives else { panic!("a joint") };
     *axis = -*axis;
-    let shapes = ["SSmile", "Frown"];
-    pack.controls = pose_anim::ControlTable::new(controls.clone()).expect("a table");
-    pack.binding = pack.controls.bind(&pack.rig, &shapes).expect("a binding");
+    let pack = with_controls(pack, controls.clone());
     let mut out = Vec::new();
     let mut gaze = Gaze::new(&pack).expect("an eye");
     gaze.look_at(&pack, &[0.0; 2], Vec3::new(-3.27 + 100.0, 0.0, 300.0), &mut out).expect("values fit");
@@ -245,7 +251,6 @@ fn one_control_of_another_axis_is_enough_and_none_is_none() {
     assert!(out.is_empty(), "no head to turn");
     assert!(gaze.look_at(&pack, &[0.0; 3], Vec3::X, &mut out).is_err());
 
-    pack.controls = pose_anim::ControlTable::new(controls.split_off(1)).expect("a table");
-    pack.binding = pack.controls.bind(&pack.rig, &shapes).expect("a binding");
+    let pack = with_controls(pack, controls.split_off(1));
     assert!(Gaze::new(&pack).is_none());
 }

@@ -50,15 +50,15 @@ fn a_pack_has_the_hair_of_its_file_or_none() {
     assert_eq!(load_hair(&MemorySource::default()), Ok(None));
     assert_eq!(load_hair(&only("")), Ok(Some(Hair::default())));
     assert_eq!(load_hair(&only("\u{feff}")), Ok(Some(Hair::default())));
-    assert_eq!(Pack::load(&golden()).expect("a good pack").hair, None);
+    assert_eq!(Pack::load(&golden()).expect("a good pack").hair(), None);
 
     let mut source = golden();
     source.files.insert(FILE.into(), "\u{feff}preset = 'curly'\nseed = 7\n[scalp]\ncurl_turns = 2\n".into());
     let pack = Pack::load(&source).expect("a good pack");
     let mut style = Style::CURLY;
     style.scalp.curl_turns = 2.0;
-    assert_eq!(pack.hair, Some(Hair { style, density: 1.0, seed: 7 }));
-    assert_eq!(load_hair(&source).expect("sound"), pack.hair, "by itself as with the pack");
+    assert_eq!(pack.hair(), Some(&Hair { style, density: 1.0, seed: 7 }));
+    assert_eq!(load_hair(&source).expect("sound").as_ref(), pack.hair(), "by itself as with the pack");
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn brows_and_lashes_grow_where_they_are_painted_and_nowhere_else() {
     assert!(textures.get(Texture::HairDensity).is_some());
     let hair = Hair { style: Style::SHORT, density: 0.5, seed: 3 };
     let (skin, groom) = pack.groom(&textures, &hair).expect("hair");
-    assert_eq!(pack.parts[skin].name, "skin");
+    assert_eq!(pack.parts()[skin].name, "skin");
     let mut counts = [0; 3];
     for (region, pixel, _) in places(&pack, &groom) {
         let painted = match (pixel.x, pixel.y) {

@@ -42,7 +42,7 @@ fn without_the_file_the_defaults_hold() {
     assert_eq!(load_materials(&MemorySource::default()), Ok(Materials::default()));
     assert_eq!(load_materials(&only("")), Ok(Materials::default()));
     assert_eq!(load_materials(&only("\u{feff}")), Ok(Materials::default()));
-    assert_eq!(Pack::load(&golden()).expect("a good pack").materials, Materials::default());
+    assert_eq!(Pack::load(&golden()).expect("a good pack").materials(), &Materials::default());
 }
 
 #[test]
@@ -51,10 +51,10 @@ fn a_pack_has_the_materials_of_its_file() {
     let mut source = golden();
     source.files.insert(FILE.into(), format!("\u{feff}{text}").into());
     let pack = Pack::load(&source).expect("a good pack");
-    assert_eq!(load_materials(&source).as_ref(), Ok(&pack.materials), "by itself as with the pack");
+    assert_eq!(load_materials(&source).as_ref(), Ok(pack.materials()), "by itself as with the pack");
     let of = |name: &str| {
         let part = pack.part(name).expect("a part");
-        pack.materials.of(&part.name, part.kind)
+        pack.materials().of(&part.name, part.kind)
     };
     assert_eq!((of("left-eyeball").iris.pupil, of("right-eyeball").iris.pupil), (0.2, 0.6));
     let teeth = Materials::default().of("upper-jaw", PartKind::Surface);
@@ -68,8 +68,8 @@ fn every_part_takes_its_own_table() {
         let text = format!("[{}]\nreflectance = 0.25\n", spec.name);
         source.files.insert(FILE.into(), text.into());
         let pack = Pack::load(&source).expect("a good pack");
-        let changed: Vec<_> = (pack.parts.iter())
-            .filter(|part| pack.materials.of(&part.name, part.kind).reflectance == 0.25)
+        let changed: Vec<_> = (pack.parts().iter())
+            .filter(|part| pack.materials().of(&part.name, part.kind).reflectance == 0.25)
             .map(|part| part.name.as_str())
             .collect();
         assert_eq!(changed, [spec.name]);

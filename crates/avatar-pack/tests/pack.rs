@@ -33,13 +33,13 @@ fn png(width: u32, height: u32) -> Vec<u8> {
 #[test]
 fn a_pack_is_whole() {
     let pack = Pack::load(&golden()).expect("a good pack");
-    assert_eq!(pack.parts.len(), 7);
-    assert_eq!(pack.palette.len(), 9);
+    assert_eq!(pack.parts().len(), 7);
+    assert_eq!(pack.palette().len(), 9);
     let names: Vec<_> =
-        pack.palette.iter().map(|bone| pack.rig.names()[bone.joint.index()].as_str()).collect();
+        pack.palette().iter().map(|bone| pack.rig().names()[bone.joint.index()].as_str()).collect();
     assert_eq!(names, avatar_mesh::FACE_BONES);
-    assert_eq!(pack.controls.controls().len(), 15);
-    assert!(pack.poses.iter().count() >= 16);
+    assert_eq!(pack.controls().controls().len(), 15);
+    assert!(pack.poses().iter().count() >= 16);
     assert_eq!(pack.part("left-cornea").and_then(|part| part.bone), Some(7));
     assert!(pack.part("skin").is_some_and(|part| part.bone.is_none()));
     let skin = pack.part("skin").expect("a skin").mesh.bounds().expect("vertices");
@@ -71,8 +71,8 @@ fn own_controls_and_poses_replace_the_defaults() {
     let poses = "\u{feff}[[pose]]\nname = \"yes\"\nkey = \"y\"\n[pose.controls]\nnod = 8\n";
     source.files.insert("poses.toml".into(), poses.into());
     let pack = Pack::load(&source).expect("a good pack");
-    assert_eq!(pack.controls.controls().len(), 1);
-    assert_eq!(pack.poses.get("yes").expect("the pose").values, [(0, 8.0)]);
+    assert_eq!(pack.controls().controls().len(), 1);
+    assert_eq!(pack.poses().get("yes").expect("the pose").values, [(0, 8.0)]);
 
     let mut face = FaceState::new(&pack);
     face.pose(&pack, &[8.0]).expect("one value");
@@ -146,7 +146,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 fn the_state_at_rest_is_the_bind_pose() {
     let pack = Pack::load(&golden()).expect("a good pack");
     let mut face = FaceState::new(&pack);
-    face.pose(&pack, &pack.controls.defaults()).expect("values fit");
+    face.pose(&pack, &pack.controls().defaults()).expect("values fit");
     for bone in face.bones() {
         assert!(bone.abs_diff_eq(glam::Affine3A::IDENTITY, 1e-4), "{bone}");
     }

@@ -31,7 +31,7 @@ const TGA: [u8; 24] = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 0, 10
 #[test]
 fn a_picture_that_does_not_say_what_it_is_goes_by_its_name() {
     let import = with_picture("textures/duckCM.TGA", &TGA);
-    let kind = import.pack.parts[0].kind;
+    let kind = import.pack.parts()[0].kind;
     let color = import.textures.of_part(0, kind).color.expect("a picture");
     assert_eq!(
         (color.dimensions(), color.as_raw().as_slice()),
@@ -46,16 +46,16 @@ fn a_picture_that_does_not_say_what_it_is_goes_by_its_name() {
 #[test]
 fn pictures_that_gltf_does_not_know_become_png() {
     let import = with_picture("duckCM.tga", &TGA);
-    let scene = import.pack.motion.as_ref().expect("the scene").scene();
+    let scene = import.pack.motion().expect("the scene").scene();
     let portable = portable_pictures(scene);
     let again = Import::from_scene(portable.clone().into_owned()).expect("an avatar");
     assert_eq!(portable.images[0].mime, "image/png");
     assert!(portable.images[0].bytes.starts_with(b"\x89PNG"));
-    let color = |import: &Import| import.textures.of_part(0, import.pack.parts[0].kind).color.cloned();
+    let color = |import: &Import| import.textures.of_part(0, import.pack.parts()[0].kind).color.cloned();
     assert_eq!(color(&again), color(&import));
     // What is one already, and what is none, stays.
     assert!(matches!(portable_pictures(&portable), Cow::Borrowed(_)));
     let nothing = with_picture("duck", &TGA);
-    let scene = nothing.pack.motion.as_ref().expect("the scene").scene();
+    let scene = nothing.pack.motion().expect("the scene").scene();
     assert_eq!(portable_pictures(scene).images[0].bytes, TGA);
 }

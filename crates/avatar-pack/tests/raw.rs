@@ -41,9 +41,9 @@ fn imported(raw: RawScene) -> Import {
 
 /// All vertices of a pose by the names of its controls, in the order of the parts.
 fn posed(pack: &Pack, values: &[(&str, f32)], parts: &[usize]) -> Vec<Vec3> {
-    let mut all = pack.controls.defaults();
+    let mut all = pack.controls().defaults();
     for (name, value) in values {
-        all[pack.controls.index(name).unwrap_or_else(|| panic!("the control {name}"))] = *value;
+        all[pack.controls().index(name).unwrap_or_else(|| panic!("the control {name}"))] = *value;
     }
     let mut state = FaceState::new(pack);
     state.pose(pack, &all).expect("a pose");
@@ -59,7 +59,7 @@ fn agree(a: &[Vec3], b: &[Vec3], size: f32, what: &str) {
 
 /// Every control at both ends of its range, alone, and all at once at a third of theirs.
 fn poses(pack: &Pack) -> Vec<Vec<(&str, f32)>> {
-    let controls = pack.controls.controls();
+    let controls = pack.controls().controls();
     let ends = controls.iter().flat_map(|c| [vec![(c.name.as_str(), c.min)], vec![(c.name.as_str(), c.max)]]);
     let third = controls.iter().map(|c| (c.name.as_str(), (c.min + 2.0 * c.max) / 3.0)).collect();
     ends.chain([third]).collect()
@@ -72,21 +72,22 @@ fn a_pack_of_the_format_comes_back_to_the_bit() {
         let (mut pack, textures) = (Pack::load(&own).expect("a pack"), Textures::load(&own));
         let clips = "[[clip]]\nname = 'nod'\nkey = 'n'\nwrap = 'loop'\n[clip.tracks]\n'head.bow' = \
             [{ t = 0, v = 0.3, slopes = [0, -1.5] }, { t = 0.1, v = 2, transition = 'sine-in' }, { t = 1.7, v = 0 }]";
-        pack.clips = ClipSet::from_toml(clips, &pack.controls).expect("clips");
+        let clips = ClipSet::from_toml(clips, pack.controls()).expect("clips");
+        pack.set_clips(clips).expect("clips of these controls");
         let files = raw_files(&pack, &textures).expect("files");
         assert_eq!(files.notes, [""; 0], "{folder}");
         let (written, again) = loaded(&files);
-        assert_eq!(again.clips, pack.clips);
+        assert_eq!(again.clips(), pack.clips());
         for spec in FACE_PARTS {
             for end in ["_VB.raw", "_IB.raw"] {
                 let name = format!("{}{end}", spec.stem);
                 assert!(own.files[&name] == written.files[&name], "{folder}/{name}");
             }
         }
-        assert_eq!(again.rig.names(), pack.rig.names());
-        assert_eq!(again.rig.parent_from_joint(), pack.rig.parent_from_joint());
-        assert_eq!((&again.controls, &again.poses), (&pack.controls, &pack.poses), "{folder}");
-        assert_eq!((&again.materials, &again.hair), (&pack.materials, &pack.hair), "{folder}");
+        assert_eq!(again.rig().names(), pack.rig().names());
+        assert_eq!(again.rig().parent_from_joint(), pack.rig().parent_from_joint());
+        assert_eq!((again.controls(), again.poses()), (pack.controls(), pack.poses()), "{folder}");
+        assert_eq!((again.materials(), again.hair()), (pack.materials(), pack.hair()), "{folder}");
         let pictures = Textures::load(&written);
         for texture in Texture::ALL {
             assert!(pictures.get(texture) == textures.get(texture), "{folder}: {texture:?}");
@@ -103,8 +104,8 @@ fn an_avatar_that_went_through_glb_is_the_same_in_all_poses() {
     let import = Import::from_scene(scene).expect("an avatar");
     let files = raw_files(&import.pack, &import.textures).expect("files");
     let (written, again) = loaded(&files);
-    let names: Vec<_> = again.rig.names().to_vec();
-    assert_eq!(names, pack.rig.names());
+    let names: Vec<_> = again.rig().names().to_vec();
+    assert_eq!(names, pack.rig().names());
     for spec in FACE_PARTS {
         let name = format!("{}_VB.raw", spec.stem);
         let (a, b) = (&own.files[&name], &written.files[&name]);
@@ -115,13 +116,13 @@ fn an_avatar_that_went_through_glb_is_the_same_in_all_poses() {
     // The couplings of the pack are no part of a GLB: what it has of them is compared.
     let all: Vec<usize> = (0..FACE_PARTS.len()).collect();
     for pose in poses(&pack) {
-        let mut values = pack.controls.defaults();
+        let mut values = pack.controls().defaults();
         for (name, value) in &pose {
-            values[pack.controls.index(name).expect("a control")] = *value;
+            values[pack.controls().index(name).expect("a control")] = *value;
         }
         let mut effective = values.clone();
-        pack.binding.couple(&values, &mut effective);
-        let named: Vec<(&str, f32)> = pack.controls.names().zip(effective).collect();
+        pack.binding().couple(&values, &mut effective);
+        let named: Vec<(&str, f32)> = pack.controls().names().zip(effective).collect();
         let of_pack = posed(&pack, &pose, &all);
         agree(&of_pack, &posed(&import.pack, &named, &all), size, &format!("GLB, {pose:?}"));
         agree(&of_pack, &posed(&again, &named, &all), size, &format!("folder, {pose:?}"));
@@ -208,12 +209,12 @@ fn a_head_of_another_format_takes_its_places() {
     let (_, again) = loaded(&files);
     // Teeth and iris are parts at nodes of their own: they follow the known joints above.
     let place = |name: &str| FACE_PARTS.iter().position(|part| part.name == name).expect("a part");
-    let count = |name: &str| again.parts[place(name)].mesh.positions.len();
+    let count = |name: &str| again.parts()[place(name)].mesh.positions.len();
     assert_eq!((count("skin"), count("lower-jaw"), count("left-eyeball")), (4, 4, 4));
     let control = |name: &str, value: f32| (name.to_owned(), value);
     let mut poses = vec![vec![]];
     let follows = |name: &str| name.starts_with("LowerTeeth.") || name.starts_with("LeftIris.");
-    for c in import.pack.controls.controls().iter().filter(|c| !follows(&c.name)) {
+    for c in import.pack.controls().controls().iter().filter(|c| !follows(&c.name)) {
         poses.push(vec![control(&c.name, c.max / 2.0)]);
     }
     assert!(poses.len() > 12, "{}", poses.len());
@@ -225,11 +226,11 @@ fn a_head_of_another_format_takes_its_places() {
         );
         agree(&a, &b, 2.0, &format!("{pose:?}"));
     }
-    let joint = |name: &str| again.rig.joint(name).is_some();
+    let joint = |name: &str| again.rig().joint(name).is_some();
     assert!(joint("HeadJoint") && joint("JawJoint") && joint("LtEyeJoint") && joint("NeckJoint"));
     // `mouthSmile` is the face's own shape by its meaning, the other one takes what is left.
     let drives = |name: &str| {
-        let control = &again.controls.controls()[again.controls.index(name).expect("a control")];
+        let control = &again.controls().controls()[again.controls().index(name).expect("a control")];
         format!("{:?}", control.drives)
     };
     assert!(drives("smile").contains("SSmile") && drives("Key 1").contains("Frown"));
@@ -267,7 +268,7 @@ fn parts_that_follow_known_joints_become_the_rigid_ones() {
     let files = raw_files(&import.pack, &import.textures).expect("files");
     let (_, again) = loaded(&files);
     let place = |name: &str| FACE_PARTS.iter().position(|part| part.name == name).expect("a part");
-    let count = |name: &str| again.parts[place(name)].mesh.positions.len();
+    let count = |name: &str| again.parts()[place(name)].mesh.positions.len();
     assert_eq!(
         (count("skin"), count("lower-jaw"), count("left-eyeball"), count("right-eyeball")),
         (4, 4, 4, 1)

@@ -26,22 +26,22 @@ fn marsienne() -> Pack {
 }
 
 fn part(pack: &Pack, name: &str) -> usize {
-    pack.parts.iter().position(|part| part.name == name).expect(name)
+    pack.parts().iter().position(|part| part.name == name).expect(name)
 }
 
 fn control(pack: &Pack, name: &str) -> usize {
-    pack.controls.index(name).expect(name)
+    pack.controls().index(name).expect(name)
 }
 
 /// The names of the parts that a control moves.
 fn moved_parts<'a>(pack: &'a Pack, reach: &Reach, name: &str) -> HashSet<&'a str> {
-    reach.moved(control(pack, name)).map(|(part, _)| pack.parts[part].name.as_str()).collect()
+    reach.moved(control(pack, name)).map(|(part, _)| pack.parts()[part].name.as_str()).collect()
 }
 
 fn deformed(pack: &Pack, values: &[f32]) -> Vec<Deformed> {
     let mut state = FaceState::new(pack);
     state.pose(pack, values).expect("values fit");
-    (0..pack.parts.len()).map(|part| state.deform(pack, part).expect("a part")).collect()
+    (0..pack.parts().len()).map(|part| state.deform(pack, part).expect("a part")).collect()
 }
 
 #[test]
@@ -55,13 +55,13 @@ fn controls_move_what_they_are_about() {
     let up = moved_parts(&pack, &reach, "eye.left.ud");
     assert_eq!(up, HashSet::from(["left-eyeball", "left-cornea", "skin"]));
     let turned: HashSet<_> = reach.moved(control(&pack, "head.turn")).collect();
-    for (index, part) in pack.parts.iter().enumerate().filter(|(_, part)| part.kind == PartKind::Surface) {
+    for (index, part) in pack.parts().iter().enumerate().filter(|(_, part)| part.kind == PartKind::Surface) {
         assert!((0..part.mesh.positions.len()).all(|vertex| turned.contains(&(index, vertex))));
     }
     let skin = part(&pack, "skin");
     let forehead = |position: &&Vec3| position.y > 5.0 && position.z > 0.0;
-    assert!(pack.parts[skin].mesh.positions.iter().filter(forehead).count() > 100);
-    for (vertex, _) in pack.parts[skin].mesh.positions.iter().enumerate().filter(|(_, p)| forehead(p)) {
+    assert!(pack.parts()[skin].mesh.positions.iter().filter(forehead).count() > 100);
+    for (vertex, _) in pack.parts()[skin].mesh.positions.iter().enumerate().filter(|(_, p)| forehead(p)) {
         assert!(turned.contains(&(skin, vertex)), "{vertex}");
     }
     assert_eq!(reach.moved(99).count(), 0);
@@ -71,15 +71,15 @@ fn controls_move_what_they_are_about() {
 fn moved_is_what_the_deformed_face_says() {
     let pack = marsienne();
     let reach = Reach::new(&pack);
-    let rest = deformed(&pack, &pack.controls.defaults());
+    let rest = deformed(&pack, &pack.controls().defaults());
     let ends = |name: &str| {
         let index = control(&pack, name);
         let at = |value: f32| {
-            let mut values = pack.controls.defaults();
+            let mut values = pack.controls().defaults();
             values[index] = value;
             deformed(&pack, &values)
         };
-        [at(pack.controls.controls()[index].min), at(pack.controls.controls()[index].max)]
+        [at(pack.controls().controls()[index].min), at(pack.controls().controls()[index].max)]
     };
     // The height of what is above the neck, from the other end: the threshold lies between its share of these.
     let all = pack.bounds().expect("vertices");
@@ -115,11 +115,11 @@ fn the_mouth_s_corner_is_about_smiles_first_and_about_heads_last() {
     let pack = marsienne();
     let reach = Reach::new(&pack);
     let skin = part(&pack, "skin");
-    let smile = &pack.parts[skin].mesh.shapes[0].positions;
+    let smile = &pack.parts()[skin].mesh.shapes[0].positions;
     let (corner, _) = { smile.iter() }.max_by(|a, b| a.1.length().total_cmp(&b.1.length())).expect("a smile");
     let mut out = vec![99];
     reach.controls_at(skin, corner, &mut out);
-    let names: Vec<_> = out.iter().map(|index| pack.controls.controls()[*index].name.as_str()).collect();
+    let names: Vec<_> = out.iter().map(|index| pack.controls().controls()[*index].name.as_str()).collect();
     assert!(matches!(names[0], "smile" | "frown"), "{names:?}");
     let head = &names[names.len() - 3..];
     assert!(head.iter().all(|name| name.starts_with("head.")), "{names:?}");
@@ -127,7 +127,7 @@ fn the_mouth_s_corner_is_about_smiles_first_and_about_heads_last() {
     assert!(!names.iter().any(|name| name.starts_with("eye.") || name.starts_with("lid.")));
 
     reach.controls_at(part(&pack, "left-eyeball"), 0, &mut out);
-    let names: Vec<_> = out.iter().map(|index| pack.controls.controls()[*index].name.as_str()).collect();
+    let names: Vec<_> = out.iter().map(|index| pack.controls().controls()[*index].name.as_str()).collect();
     assert!(names[..names.len() - 3].iter().all(|name| name.starts_with("eye.left.")), "{names:?}");
     reach.controls_at(99, 0, &mut out);
     assert!(out.is_empty());
@@ -136,7 +136,7 @@ fn the_mouth_s_corner_is_about_smiles_first_and_about_heads_last() {
 #[test]
 fn a_ray_hits_the_side_that_it_comes_from() {
     let pack = marsienne();
-    let mut values = pack.controls.defaults();
+    let mut values = pack.controls().defaults();
     for turned in [0.0, 50.0] {
         values[control(&pack, "head.turn")] = turned;
         let face = deformed(&pack, &values);
@@ -159,11 +159,11 @@ fn a_ray_hits_the_side_that_it_comes_from() {
     }
     values[control(&pack, "head.turn")] = 0.0;
     let face = deformed(&pack, &values);
-    let eye = pack.rig.joint("LtEyeJoint").expect("an eye").index();
-    let eye = Vec3::from(pack.rig.world_from_bind()[eye].translation);
+    let eye = pack.rig().joint("LtEyeJoint").expect("an eye").index();
+    let eye = Vec3::from(pack.rig().world_from_bind()[eye].translation);
     // Half the way, in a direction twice as long; the cornea before the eyeball is looked through.
     let hit = pack.hit(&face, eye + 50.0 * Vec3::Z, -2.0 * Vec3::Z).expect("the eye");
-    assert_eq!(pack.parts[hit.part].name, "left-eyeball");
+    assert_eq!(pack.parts()[hit.part].name, "left-eyeball");
     assert!(hit.distance > 20.0 && hit.distance < 25.0, "{hit:?}");
     assert_eq!(pack.hit(&face[..0], eye + 50.0 * Vec3::Z, Vec3::NEG_Z), None, "no part is deformed");
 }

@@ -76,9 +76,9 @@ fn avatar() -> Import {
 }
 
 fn weights(import: &Import, values: &[(&str, f32)]) -> Vec<f32> {
-    let mut all = import.pack.controls.defaults();
+    let mut all = import.pack.controls().defaults();
     for (name, value) in values {
-        all[import.pack.controls.index(name).unwrap_or_else(|| panic!("the control {name}"))] = *value;
+        all[import.pack.controls().index(name).unwrap_or_else(|| panic!("the control {name}"))] = *value;
     }
     let mut state = FaceState::new(&import.pack);
     state.pose(&import.pack, &all).expect("a pose");
@@ -89,18 +89,18 @@ fn weights(import: &Import, values: &[(&str, f32)]) -> Vec<f32> {
 fn a_slider_is_one_control() {
     let import = avatar();
     let pack = &import.pack;
-    assert_eq!(pack.shapes, ["shut", "shut@50", "shut", "smile", "squint"]);
-    let of_shapes: Vec<&str> = pack.controls.names().filter(|name| !name.contains('.')).collect();
+    assert_eq!(pack.shapes(), ["shut", "shut@50", "shut", "smile", "squint"]);
+    let of_shapes: Vec<&str> = pack.controls().names().filter(|name| !name.contains('.')).collect();
     assert_eq!(of_shapes, ["shut", "smile"]);
     // At rest the file's weights, and the brow's shape with the slider of its name.
     assert_eq!(weights(&import, &[]), [0.75, 0.5, 0.5, 0.0, 0.0]);
     assert_eq!(weights(&import, &[("shut", 0.25)]), [0.25, 0.5, 0.0, 0.0, 0.0]);
     assert_eq!(weights(&import, &[("shut", 1.0), ("smile", 0.5)]), [1.0, 0.0, 1.0, 0.5, 0.5]);
-    let control = pack.controls.index("shut").expect("a control");
-    assert_eq!(pack.controls.controls()[control].default, 0.75);
+    let control = pack.controls().index("shut").expect("a control");
+    assert_eq!(pack.controls().controls()[control].default, 0.75);
     // Offsets by hand: 0.75 of the way is half of each shape.
     let mut state = FaceState::new(pack);
-    state.pose(pack, &pack.controls.defaults()).expect("a pose");
+    state.pose(pack, &pack.controls().defaults()).expect("a pose");
     let lids = state.deform(pack, 1).expect("the lids");
     assert_eq!(lids.positions[0], Vec3::new(0.0, 0.5, 0.5));
     for (shape, follows) in [(0, true), (1, true), (2, true), (3, false), (4, true)] {
@@ -111,7 +111,7 @@ fn a_slider_is_one_control() {
 #[test]
 fn clips_set_the_shapes_themselves() {
     let import = avatar();
-    let at = import.pack.motion.as_ref().expect("clips").at("half", 0.0).expect("the clip");
+    let at = import.pack.motion().expect("clips").at("half", 0.0).expect("the clip");
     assert_eq!(at.weights, [(1, 1.0), (2, 0.0)]);
 }
 
@@ -119,12 +119,12 @@ fn clips_set_the_shapes_themselves() {
 fn a_clip_is_approached_from_the_face_of_the_controls() {
     let import = avatar();
     let pack = &import.pack;
-    let motion = pack.motion.as_ref().expect("clips");
+    let motion = pack.motion().expect("clips");
     let mut sampler = motion.sampler(0).expect("the clip");
     assert!(motion.sampler(1).is_err());
     let clip = motion.sample(&mut sampler, 0.0).clone();
     assert_eq!(clip, motion.at("half", 0.0).expect("the clip"));
-    let values = pack.controls.defaults();
+    let values = pack.controls().defaults();
     let mut state = FaceState::new(pack);
     // The clip sets the second shape to 1 and the third to 0; both rest at 0.5.
     for (share, expected) in [
@@ -137,7 +137,7 @@ fn a_clip_is_approached_from_the_face_of_the_controls() {
         assert_eq!(state.weights(), expected, "{share}");
     }
     // Half the way of a quarter turn is an eighth, and half of a shift is half of it.
-    let joint = pack.rig.joint("brow").expect("a joint");
+    let joint = pack.rig().joint("brow").expect("a joint");
     let turned = Affine3A::from_rotation_translation(Quat::from_rotation_y(FRAC_PI_2), Vec3::X);
     let turn = MotionAt { locals: vec![(joint, turned)], weights: Vec::new() };
     state.pose_toward(pack, &values, &turn, 0.5).expect("a pose");

@@ -32,20 +32,20 @@ fn bones_and_expressions_are_those_of_the_file() {
     let Import { pack, report, .. } = Import::from_vrm(model).expect("an avatar");
     let named = |name: &str| name.to_owned();
     assert_eq!(report.joints, [(Role::Head, named("b")), (Role::LeftEye, named("c"))]);
-    let control = |name: &str| pack.controls.index(name).expect(name);
+    let control = |name: &str| pack.controls().index(name).expect(name);
     control("head.turn");
     control("eye.left.ud");
-    let happy = pack.poses.get("happy").expect("a pose");
+    let happy = pack.poses().get("happy").expect("a pose");
     assert_eq!((happy.value(control("mouth")), happy.value(control("brows"))), (Some(1.0), Some(0.5)));
-    let angry = pack.poses.get("angry").expect("a pose");
+    let angry = pack.poses().get("angry").expect("a pose");
     assert_eq!((angry.value(control("mouth")), angry.value(control("brows"))), (Some(0.0), Some(0.25)));
     // Shapes of one name move as one, at both nodes.
-    let mut values = pack.controls.defaults();
+    let mut values = pack.controls().defaults();
     happy.values.iter().for_each(|(control, value)| values[*control] = *value);
     let mut state = FaceState::new(&pack);
     state.pose(&pack, &values).expect("a pose");
     assert_eq!(
-        (pack.shapes.join(" ").as_str(), state.weights()),
+        (pack.shapes().join(" ").as_str(), state.weights()),
         ("mouth brows mouth brows", &[1.0, 0.5, 1.0, 0.5][..])
     );
 }
@@ -71,7 +71,7 @@ fn the_controls_of_the_eyes_look_as_far_as_the_file_says() {
         avatar_exchange::vrm::read("nina.vrm", &glb(&looking), &mut |_| Err(String::new())).expect("a VRM");
     let look_at = model.vrm.look_at.expect("how it looks");
     let Import { pack, .. } = Import::from_vrm(model).expect("an avatar");
-    let control = |name: &str| pack.controls.controls()[pack.controls.index(name).expect(name)].clone();
+    let control = |name: &str| pack.controls().controls()[pack.controls().index(name).expect(name)].clone();
     let range = |name: &str| (control(name).min, control(name).max);
     assert_eq!((range("eye.left.lr"), range("eye.right.lr")), ((-9.0, 20.0), (-20.0, 9.0)));
     assert_eq!((range("eye.left.ud"), range("eye.right.ud")), ((-6.0, 5.0), (-6.0, 5.0)));
@@ -85,9 +85,9 @@ fn the_controls_of_the_eyes_look_as_far_as_the_file_says() {
     let down = gaze_values(&look_at, gaze(0.0, 30.0)).map(|(_, value)| value);
     assert_eq!(down, [-3.0, 0.0, -3.0, 0.0]);
     for (gaze, towards) in [(gaze(30.0, 0.0), 0), (gaze(0.0, 30.0), 1)] {
-        let mut values = pack.controls.defaults();
+        let mut values = pack.controls().defaults();
         for (name, value) in gaze_values(&look_at, gaze) {
-            values[pack.controls.index(name).expect(name)] = value;
+            values[pack.controls().index(name).expect(name)] = value;
         }
         let mut state = FaceState::new(&pack);
         state.pose(&pack, &values).expect("a pose");
@@ -95,8 +95,8 @@ fn the_controls_of_the_eyes_look_as_far_as_the_file_says() {
         let (yaw, pitch) = (expected.0.to_radians(), expected.1.to_radians());
         // What the eye saw straight ahead, whatever way its own axes lie.
         let forward = glam::Vec3::new(yaw.sin() * pitch.cos(), -pitch.sin(), yaw.cos() * pitch.cos());
-        let joint = pack.rig.joint("c").expect("the left eye").index();
-        let (now, rest) = (state.rig_pose().world_from_joint()[joint], pack.rig.world_from_bind()[joint]);
+        let joint = pack.rig().joint("c").expect("the left eye").index();
+        let (now, rest) = (state.rig_pose().world_from_joint()[joint], pack.rig().world_from_bind()[joint]);
         let seen = now.transform_vector3(rest.inverse().transform_vector3(glam::Vec3::Z));
         assert!(seen.abs_diff_eq(forward, 1e-6), "{seen} {forward}");
     }

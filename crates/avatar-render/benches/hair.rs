@@ -110,7 +110,7 @@ fn avatar(
     style: Style,
     strands: f32,
 ) -> (AvatarModel, AvatarState, Scene, usize) {
-    let skin = &pack.parts[0];
+    let skin = &pack.parts()[0];
     let part = PartDesc {
         label: "skin",
         mesh: &skin.mesh,
@@ -118,7 +118,8 @@ fn avatar(
         bones: PartBones::PerVertex,
         textures: PartTextures::default(),
     };
-    let mut model = AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette.len()).expect("a model");
+    let mut model =
+        AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette().len()).expect("a model");
     let eyes: Vec<_> =
         ["right-eyeball", "left-eyeball"].iter().filter_map(|name| pack.part(name)?.mesh.bounds()).collect();
     let groom = Groom::new(&skin.mesh, density, &eyes, style, strands, 1);

@@ -176,14 +176,14 @@ fn avatar(gpu: &Gpu) -> (AvatarModel, AvatarState, Scene) {
         height: image.height(),
         rgba: image.as_raw().clone(),
     };
-    let images: Vec<[Option<Image>; 5]> = (pack.parts.iter().enumerate())
+    let images: Vec<[Option<Image>; 5]> = (pack.parts().iter().enumerate())
         .map(|(index, part)| {
             let PartImages { color, occlusion, gloss, normal, thickness } =
                 textures.of_part(index, part.kind);
             [color, occlusion, gloss, normal, thickness].map(|of| of.map(image))
         })
         .collect();
-    let parts: Vec<PartDesc<'_>> = (pack.parts.iter().zip(&images))
+    let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&images))
         .map(|(part, [color, occlusion, gloss, normal, thickness])| PartDesc {
             label: &part.name,
             mesh: &part.mesh,
@@ -198,11 +198,11 @@ fn avatar(gpu: &Gpu) -> (AvatarModel, AvatarState, Scene) {
             },
         })
         .collect();
-    let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, pack.palette.len()).expect("a model");
+    let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, pack.palette().len()).expect("a model");
     let mut state = AvatarState::new(&gpu.device, &model);
     let mut face = FaceState::new(&pack);
-    let mut values = pack.controls.defaults();
-    let smile = pack.poses.get("smile").expect("a smile");
+    let mut values = pack.controls().defaults();
+    let smile = pack.poses().get("smile").expect("a smile");
     smile.values.iter().for_each(|&(control, value)| values[control] = value);
     face.pose(&pack, &values).expect("a pose");
     state.set(&gpu.queue, face.bones(), face.weights()).expect("lengths fit");

@@ -37,19 +37,19 @@ fn avatar() -> (Pack, DensityMap) {
 fn groom(pack: &Pack, density: &DensityMap, style: Style, strands: f32) -> Groom {
     let eyes: Vec<_> =
         ["right-eyeball", "left-eyeball"].iter().filter_map(|name| pack.part(name)?.mesh.bounds()).collect();
-    Groom::new(&pack.parts[0].mesh, density, &eyes, style, strands, 7)
+    Groom::new(&pack.parts()[0].mesh, density, &eyes, style, strands, 7)
 }
 
 /// The skin alone, without hair.
 fn bald(gpu: &Gpu, pack: &Pack) -> AvatarModel {
     let part = PartDesc {
         label: "skin",
-        mesh: &pack.parts[0].mesh,
-        kind: pack.parts[0].kind,
+        mesh: &pack.parts()[0].mesh,
+        kind: pack.parts()[0].kind,
         bones: PartBones::PerVertex,
         textures: PartTextures::default(),
     };
-    AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette.len()).expect("a model")
+    AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette().len()).expect("a model")
 }
 
 /// A head with hair on the GPU, and what its face does.
@@ -66,7 +66,7 @@ struct Head<'a> {
 
 impl<'a> Head<'a> {
     fn new(gpu: &'a Gpu, pack: &'a Pack, groom: &Groom) -> Self {
-        let skin = &pack.parts[0].mesh;
+        let skin = &pack.parts()[0].mesh;
         let mut model = bald(gpu, pack);
         model.set_hair(&gpu.device, &gpu.queue, 0, Some(groom)).expect("hair");
         Self {
@@ -86,7 +86,7 @@ impl<'a> Head<'a> {
         let (pack, gpu) = (self.pack, self.gpu);
         self.face.pose(pack, values).expect("a pose");
         self.state.set(&gpu.queue, self.face.bones(), self.face.weights()).expect("lengths fit");
-        let skin = &pack.parts[0].mesh;
+        let skin = &pack.parts()[0].mesh;
         deform(skin, self.face.bones(), self.face.weights(), &mut self.posed).expect("lengths fit");
         let Self { deformer, grower, model, state, .. } = self;
         grower.run(&gpu.device, &gpu.queue, deformer, model, state).expect("strands")
@@ -123,8 +123,8 @@ fn triangle(posed: &Deformed, root: &Root) -> Triangle {
 
 /// All of a face's poses, whole.
 fn poses(pack: &Pack) -> Vec<(String, Vec<f32>)> {
-    let whole = pack.poses.iter().map(|pose| {
-        let mut values = pack.controls.defaults();
+    let whole = pack.poses().iter().map(|pose| {
+        let mut values = pack.controls().defaults();
         pose.values.iter().for_each(|&(control, value)| values[control] = value);
         (pose.name.clone(), values)
     });
@@ -170,7 +170,7 @@ fn strands_stand_on_the_skin_in_any_pose() {
         (bits >> 8) as f32 / (1u32 << 24) as f32
     };
     for pose in 0..200 {
-        let values: Vec<f32> = (pack.controls.controls().iter())
+        let values: Vec<f32> = (pack.controls().controls().iter())
             .map(|control| control.min + (control.max - control.min) * unit())
             .collect();
         let strands = head.strands(&values);
@@ -188,7 +188,7 @@ fn no_strand_is_under_the_skin_in_any_pose_of_the_pack() {
         assert!(groom.roots.len() > 20, "{name}: {}", groom.roots.len());
         for (pose, values) in poses(&pack) {
             let strands = head.strands(&values);
-            let nearest = Nearest::new(&head.posed.positions, &pack.parts[0].mesh.triangles);
+            let nearest = Nearest::new(&head.posed.positions, &pack.parts()[0].mesh.triangles);
             for (i, points) in strands.iter().enumerate() {
                 for (k, point) in points.iter().enumerate() {
                     let depth = nearest.depth(*point) / groom.height;
@@ -206,7 +206,7 @@ fn there_may_be_far_more_strands_than_a_head_has() {
     let groom = groom(&pack, &density, Style::SHORT, 400_000.0);
     assert!(groom.roots.len() > 150_000, "{}", groom.roots.len());
     let mut head = Head::new(gpu, &pack, &groom);
-    let strands = head.strands(&pack.controls.defaults());
+    let strands = head.strands(&pack.controls().defaults());
     head.assert_stands(&groom, &strands, "defaults");
     let scene = scene(70.0);
     for share in [0.0, 0.5, 1.0] {
@@ -219,7 +219,7 @@ fn there_may_be_far_more_strands_than_a_head_has() {
 fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
     let Some(gpu) = gpu() else { return };
     let (pack, density) = avatar();
-    let skin = &pack.parts[0].mesh;
+    let skin = &pack.parts()[0].mesh;
     let mut model = bald(gpu, &pack);
     let scene = scene(70.0);
     let draw = |model: &AvatarModel| {
@@ -257,7 +257,7 @@ fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
     let wrong = Groom { lengths: groom.lengths[1..].to_vec(), ..groom.clone() };
     assert_eq!(refuse(wrong), HairError::Incomplete { strand: strands - 1 });
     let wrong = Groom { head_bone: 77, ..groom.clone() };
-    assert_eq!(refuse(wrong), HairError::Bone { found: 77, bones: pack.palette.len() as u32 });
+    assert_eq!(refuse(wrong), HairError::Bone { found: 77, bones: pack.palette().len() as u32 });
     let mut wrong = groom.clone();
     wrong.field.distances.pop();
     assert!(matches!(refuse(wrong), HairError::Field { .. }));

@@ -41,7 +41,7 @@ impl<'a> Stage<'a> {
     }
 
     fn turn(&mut self, degrees: f32) {
-        let controls = &self.head.pack.controls;
+        let controls = self.head.pack.controls();
         let mut values = controls.defaults();
         values[controls.index("head.turn").expect("a head that turns")] = degrees;
         self.face.pose(&self.head.pack, &values).expect("a pose");
@@ -126,7 +126,7 @@ fn tips_lag_settle_and_move_alike_at_every_frame_rate() {
 fn hair_that_swings_stays_outside_of_the_head() {
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let skin = &head.pack.parts[0].mesh;
+    let skin = &head.pack.parts()[0].mesh;
     let height = skin.bounds().expect("a skin").size().y;
     let mut posed = skin.deformed();
     for style in [Style::BOB, Style::LONG, Style::CURLY] {

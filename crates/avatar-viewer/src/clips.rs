@@ -16,15 +16,15 @@ pub(crate) enum FoundClip<'a> {
 
 /// Looks a clip up.
 pub(crate) fn find<'a>(pack: &'a Pack, name: &'a str) -> Result<FoundClip<'a>> {
-    if let Some(clip) = pack.clips.get(name) {
+    if let Some(clip) = pack.clips().get(name) {
         return Ok(FoundClip::Controls(clip));
     }
-    match &pack.motion {
+    match pack.motion() {
         Some(motion) => {
             motion.duration_secs(name).map_err(|error| usage(error.to_string()))?;
             Ok(FoundClip::File(name))
         }
-        None => Err(unknown("clip", name, pack.clips.clips.iter().map(|clip| clip.name.as_str()))),
+        None => Err(unknown("clip", name, pack.clips().clips.iter().map(|clip| clip.name.as_str()))),
     }
 }
 
@@ -33,7 +33,7 @@ impl FoundClip<'_> {
     pub(crate) fn duration_secs(&self, pack: &Pack) -> f64 {
         match self {
             Self::File(name) => {
-                let secs = pack.motion.as_ref().and_then(|motion| motion.duration_secs(name).ok());
+                let secs = pack.motion().and_then(|motion| motion.duration_secs(name).ok());
                 secs.map_or(0.0, f64::from)
             }
             Self::Controls(clip) if clip.wrap == Wrap::PingPong => 2.0 * clip.duration_secs(),
@@ -51,13 +51,13 @@ impl FoundClip<'_> {
         match self {
             Self::Controls(clip) => {
                 clip.sample(time_secs, values);
-                for (value, control) in values.iter_mut().zip(pack.controls.controls()) {
+                for (value, control) in values.iter_mut().zip(pack.controls().controls()) {
                     *value = value.clamp(control.min, control.max);
                 }
                 Ok(MotionAt::default())
             }
             Self::File(name) => {
-                let at = pack.motion.as_ref().map(|motion| motion.at(name, time_secs as f32)).transpose();
+                let at = pack.motion().map(|motion| motion.at(name, time_secs as f32)).transpose();
                 Ok(at.map_err(|error| usage(error.to_string()))?.unwrap_or_default())
             }
         }
@@ -65,7 +65,7 @@ impl FoundClip<'_> {
 
     /// The face at a time of the clip, and nothing else.
     pub(crate) fn face(&self, pack: &Pack, time_secs: f64) -> Result<FaceChoice> {
-        let mut values = pack.controls.defaults();
+        let mut values = pack.controls().defaults();
         let set = self.at(pack, time_secs, &mut values)?;
         Ok(FaceChoice::of_values(values).with_motion(set))
     }

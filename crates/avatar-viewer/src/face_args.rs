@@ -104,7 +104,7 @@ impl FaceChoice {
     /// A clip of a file at a time, only to be described.
     pub(crate) fn of_clip(pack: &Pack, clip: &str, time_secs: f64) -> Self {
         let start = vec![format!("clip={clip}"), format!("time={time_secs}")];
-        Self { start, ..Self::of_values(pack.controls.defaults()) }
+        Self { start, ..Self::of_values(pack.controls().defaults()) }
     }
 
     /// The same, with what a clip of a file sets.
@@ -115,11 +115,11 @@ impl FaceChoice {
     /// The choice as a line of `pose=NAME`, `clip=NAME`, `time=SECONDS`, `CONTROL=VALUE` and `rotate=JOINT=…`, apart by semicolons: what the
     /// options of these names (and `--set`) take. A face at rest is an empty line.
     pub(crate) fn describe(&self, pack: &Pack) -> String {
-        let defaults = pack.controls.defaults();
+        let defaults = pack.controls().defaults();
         let base = if self.start.is_empty() { &defaults } else { &self.values };
         let mut entries = self.start.clone();
         let values = self.start_values();
-        for ((control, value), base) in pack.controls.controls().iter().zip(&values).zip(base) {
+        for ((control, value), base) in pack.controls().controls().iter().zip(&values).zip(base) {
             if value != base {
                 entries.push(format!("{}={value}", control.name));
             }
@@ -157,7 +157,7 @@ impl FaceArgs {
     /// Looks all names up. `matches` tells the order in which options were given: where `--set` and `--rotate`
     /// concern one joint, the later one wins.
     pub(crate) fn resolve(&self, pack: &Pack, matches: &ArgMatches) -> Result<FaceChoice> {
-        let mut values = pack.controls.defaults();
+        let mut values = pack.controls().defaults();
         if let Some(name) = &self.pose {
             let pose = usage::pose(pack, name)?;
             pose.values.iter().for_each(|&(control, value)| values[control] = value);
@@ -173,9 +173,9 @@ impl FaceArgs {
         }
         self.start_from_clip(pack, &mut choice)?;
         for (rotation, position) in self.rotate.iter().zip(positions("rotate")) {
-            let joint = pack.rig.joint(&rotation.joint);
+            let joint = pack.rig().joint(&rotation.joint);
             let joint = joint.ok_or_else(|| {
-                unknown("joint", &rotation.joint, pack.rig.names().iter().map(String::as_str))
+                unknown("joint", &rotation.joint, pack.rig().names().iter().map(String::as_str))
             })?;
             if !driven_later.iter().any(|&(driven, later)| driven == Some(joint) && later > position) {
                 choice.locals.push((joint, product(&rotation.factors)));
@@ -191,12 +191,13 @@ impl FaceArgs {
         let at = clips::find(pack, clip)?.at(pack, self.time.into(), &mut choice.values)?;
         choice.start = vec![format!("clip={clip}"), format!("time={}", self.time)];
         let set = |control: &Control| {
-            choice.settings.iter().any(|(index, _)| pack.controls.index(&control.name) == Some(*index))
+            choice.settings.iter().any(|(index, _)| pack.controls().index(&control.name) == Some(*index))
         };
-        let driven: Vec<&Control> = pack.controls.controls().iter().filter(|control| set(control)).collect();
+        let driven: Vec<&Control> =
+            pack.controls().controls().iter().filter(|control| set(control)).collect();
         let is_joint_set = |joint: JointId| {
             driven.iter().any(|control| match &control.drives {
-                Drive::Joint { joint: name, .. } => pack.rig.joint(name) == Some(joint),
+                Drive::Joint { joint: name, .. } => pack.rig().joint(name) == Some(joint),
                 Drive::Shape { .. } => false,
             })
         };
@@ -214,9 +215,9 @@ impl FaceArgs {
     }
 
     fn setting(&self, pack: &Pack, setting: &Setting) -> Result<(usize, f32)> {
-        let controls = pack.controls.controls();
-        let index = pack.controls.index(&setting.control).ok_or_else(|| {
-            let nearest = pack.controls.nearest(&setting.control);
+        let controls = pack.controls().controls();
+        let index = pack.controls().index(&setting.control).ok_or_else(|| {
+            let nearest = pack.controls().nearest(&setting.control);
             let hint = nearest.map(|name| format!(" (did you mean {name:?}?)")).unwrap_or_default();
             let names: Vec<_> = controls.iter().map(|control| control.name.as_str()).collect();
             let names = names.join(", ");
@@ -239,8 +240,8 @@ impl FaceArgs {
 }
 
 fn joint_of(pack: &Pack, control: usize) -> Option<JointId> {
-    match &pack.controls.controls()[control].drives {
-        Drive::Joint { joint, .. } => pack.rig.joint(joint),
+    match &pack.controls().controls()[control].drives {
+        Drive::Joint { joint, .. } => pack.rig().joint(joint),
         Drive::Shape { .. } => None,
     }
 }

@@ -62,7 +62,7 @@ impl Files {
     pub(crate) fn load_pack(&self) -> Result<Pack> {
         let pack = self.read_pack()?;
         // A part that is turned around needs nobody's attention; `info` tells.
-        let told = pack.warnings.iter().filter(|warning| !matches!(warning, Warning::InsideOut { .. }));
+        let told = pack.warnings().iter().filter(|warning| !matches!(warning, Warning::InsideOut { .. }));
         told.for_each(|warning| eprintln!("warning: {warning}"));
         Ok(pack)
     }
@@ -84,12 +84,12 @@ impl Files {
         // Such an avatar has no folder of its own: what its user has made is elsewhere.
         let store = Store::of(self);
         if let Some(text) = store.read(store::POSES)? {
-            let poses = PoseSet::from_toml(&text, &pack.controls);
-            pack.poses = poses.map_err(|error| store.placed(store::POSES, &error))?;
+            let poses = PoseSet::from_toml(&text, pack.controls());
+            pack.set_poses(poses.map_err(|error| store.placed(store::POSES, &error))?)?;
         }
         if let Some(text) = store.read(store::CLIPS)? {
-            let clips = ClipSet::from_toml(&text, &pack.controls);
-            pack.clips = clips.map_err(|error| store.placed(store::CLIPS, &error))?;
+            let clips = ClipSet::from_toml(&text, pack.controls());
+            pack.set_clips(clips.map_err(|error| store.placed(store::CLIPS, &error))?)?;
         }
         Ok(pack)
     }
@@ -97,7 +97,7 @@ impl Files {
     /// The poses that the avatar has where its user made none.
     pub(crate) fn usual_poses(&self, controls: &ControlTable) -> Result<PoseSet> {
         match self {
-            Self::File(_, import) => Ok(import.pack.poses.clone()),
+            Self::File(_, import) => Ok(import.pack.poses().clone()),
             _ => Ok(load_poses(self, controls)?),
         }
     }

@@ -34,7 +34,7 @@ impl Offscreen {
     /// Opens the best adapter and uploads the avatar.
     pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let gpu = open_blocking(GpuOptions::default())?;
-        let hair = look.hair.choose(pack.hair.as_ref());
+        let hair = look.hair.choose(pack.hair());
         let model = scene::upload(pack, textures, &gpu.device, &gpu.queue, hair)?;
         let mut avatar = AvatarState::new(&gpu.device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));

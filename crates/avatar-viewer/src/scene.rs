@@ -62,11 +62,11 @@ pub(crate) fn scene(
     background: [u8; 4],
     light: Light,
 ) -> Scene {
-    let (framed, nearer) = match (view.frame, pack.face) {
+    let (framed, nearer) = match (view.frame, pack.face()) {
         (Frame::Whole, _) | (Frame::FaceOfBody, None) => (None, 1.0),
         (Frame::FaceOfBody | Frame::Face, Some(face)) => (Some(face), 1.0),
         (Frame::Face, None) => (None, FACE_DISTANCE),
-        (Frame::Part(part), _) => (pack.parts.get(part).and_then(|part| part.bounds), 1.0),
+        (Frame::Part(part), _) => (pack.parts().get(part).and_then(|part| part.bounds), 1.0),
     };
     let bounds =
         framed.or_else(|| pack.bounds()).unwrap_or(Bounds { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE });
@@ -75,7 +75,7 @@ pub(crate) fn scene(
     // The distance is that of the front view, so that the head does not grow and shrink as the camera goes round.
     let across = bounds.size().x.max(bounds.size().z);
     // A head is round: the corners of its box that are nearest to the camera are empty. Other files hold anything.
-    let is_head = pack.motion.is_none() || framed == pack.face && framed.is_some();
+    let is_head = pack.motion().is_none() || framed == pack.face() && framed.is_some();
     let roundness = if is_head { ROUNDNESS } else { 1.0 };
     let half = glam::Vec3::new(across, bounds.size().y, across * roundness) / 2.0;
     let round = Bounds { min: bounds.center() - half, max: bounds.center() + half };
@@ -103,14 +103,14 @@ pub(crate) fn upload(
         height: image.height(),
         rgba: image.as_raw().clone(),
     };
-    let images: Vec<[Option<Image>; 5]> = (pack.parts.iter().enumerate())
+    let images: Vec<[Option<Image>; 5]> = (pack.parts().iter().enumerate())
         .map(|(index, part)| {
             let PartImages { color, occlusion, gloss, normal, thickness } =
                 textures.of_part(index, part.kind);
             [color, occlusion, gloss, normal, thickness].map(|of| of.map(image))
         })
         .collect();
-    let parts: Vec<PartDesc<'_>> = (pack.parts.iter().zip(&images))
+    let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&images))
         .map(|(part, [color, occlusion, gloss, normal, thickness])| PartDesc {
             label: &part.name,
             mesh: &part.mesh,
@@ -125,7 +125,7 @@ pub(crate) fn upload(
             },
         })
         .collect();
-    let mut model = AvatarModel::new(device, queue, &parts, pack.palette.len())?;
+    let mut model = AvatarModel::new(device, queue, &parts, pack.palette().len())?;
     set_hair(pack, textures, &mut model, device, queue, hair)?;
     set_materials(pack, &model, queue)?;
     Ok(model)
@@ -141,7 +141,7 @@ pub(crate) fn set_hair(
     hair: Option<Hair>,
 ) -> Result<()> {
     let groom = hair.and_then(|hair| pack.groom(textures, &hair));
-    let Some(skin) = pack.parts.iter().position(|part| part.kind == PartKind::Skin) else {
+    let Some(skin) = pack.parts().iter().position(|part| part.kind == PartKind::Skin) else {
         return Ok(());
     };
     let density = hair.map_or(0.0, |hair| hair.density);
@@ -159,7 +159,7 @@ pub(crate) fn set_hair(
 /// # Errors
 /// A model with fewer parts than the pack has.
 pub(crate) fn set_materials(pack: &Pack, model: &AvatarModel, queue: &wgpu::Queue) -> Result<()> {
-    for index in 0..pack.parts.len() {
+    for index in 0..pack.parts().len() {
         model.set_material(queue, index, &pack.material(index))?;
     }
     Ok(())

@@ -26,7 +26,7 @@ impl Script {
 
     /// The motion from its beginning, at rest.
     pub(crate) fn motion(&self, pack: &Pack) -> Motion<'_> {
-        let pressed = Player::new(&pack.controls);
+        let pressed = Player::new(pack.controls());
         Motion { presses: &self.0, pressed_secs: 0.0, now: pressed.clone(), pressed }
     }
 

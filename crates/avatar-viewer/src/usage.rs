@@ -20,19 +20,19 @@ pub(crate) fn unknown<'a>(what: &str, found: &str, names: impl Iterator<Item = &
 
 /// The place of the part of this name.
 pub(crate) fn part(pack: &Pack, name: &str) -> anyhow::Result<usize> {
-    let names = || pack.parts.iter().map(|part| part.name.as_str());
+    let names = || pack.parts().iter().map(|part| part.name.as_str());
     names().position(|other| other == name).ok_or_else(|| unknown("part", name, names()))
 }
 
 /// The pose of this name, or a mixture such as `smile:0.5 wink-left`.
 pub(crate) fn pose(pack: &Pack, text: &str) -> anyhow::Result<Pose> {
     // A name in a file may hold what separates a mixture's parts.
-    if let Some(pose) = pack.poses.get(text) {
+    if let Some(pose) = pack.poses().get(text) {
         return Ok(pose.clone());
     }
-    pack.poses.mix(text, &pack.controls).map_err(|error| match error {
+    pack.poses().mix(text, pack.controls()).map_err(|error| match error {
         MixError::UnknownPose { name, .. } => {
-            unknown("pose", &name, pack.poses.iter().map(|pose| pose.name.as_str()))
+            unknown("pose", &name, pack.poses().iter().map(|pose| pose.name.as_str()))
         }
         other => usage(other.to_string()),
     })

@@ -61,7 +61,7 @@ impl Gaze {
         let mut eyes: Vec<Turned> = EYES.iter().filter_map(|names| Turned::of(pack, *names)).collect();
         let middle = eyes.iter().map(|eye| eye.origin).sum::<Vec3>() / eyes.len().max(1) as f32;
         let mut head = Turned::of(pack, HEAD).map(|head| Turned { origin: middle, ..head });
-        let (mut state, mut values) = (FaceState::new(pack), pack.controls.defaults());
+        let (mut state, mut values) = (FaceState::new(pack), pack.controls().defaults());
         for turned in eyes.iter_mut().chain(&mut head) {
             turned.reach_rad = turned.reach(pack, &mut state, &mut values).ok()?;
         }
@@ -152,12 +152,12 @@ impl Gaze {
 
 impl Turned {
     fn of(pack: &Pack, names: [&str; 2]) -> Option<Self> {
-        let table = pack.controls.controls();
+        let table = pack.controls().controls();
         let turning = |name: &str| {
-            let control = pack.controls.index(name)?;
+            let control = pack.controls().index(name)?;
             match &table.get(control)?.drives {
                 Drive::Joint { joint, kind: JointMotion::Rotation, .. } => {
-                    Some((control, pack.rig.joint(joint)?.index()))
+                    Some((control, pack.rig().joint(joint)?.index()))
                 }
                 _ => None,
             }
@@ -171,7 +171,7 @@ impl Turned {
             Some(Unknown { min: *min, max: *max, start: *default })
         };
         let unknowns = controls.map(|control| control.and_then(unknown).unwrap_or_default());
-        let origin = pack.rig.world_from_bind().get(joint)?.translation.into();
+        let origin = pack.rig().world_from_bind().get(joint)?.translation.into();
         Some(Self { controls, unknowns, joint, origin, reach_rad: 0.0 })
     }
 

@@ -21,14 +21,14 @@ pub(super) struct Measure {
 
 impl Measure {
     pub(super) fn new(pack: &Pack, head: Option<JointId>) -> Self {
-        let parents = pack.rig.parents();
+        let parents = pack.rig().parents();
         // A rig has its parents before their children, so that this ends.
         let below = |joint: JointId| {
             std::iter::successors(Some(joint), |joint| parents.get(joint.index()).copied().flatten())
                 .any(|joint| Some(joint) == head)
         };
         let is_head = match head {
-            Some(_) => pack.palette.iter().map(|bone| below(bone.joint)).collect(),
+            Some(_) => pack.palette().iter().map(|bone| below(bone.joint)).collect(),
             None => Vec::new(),
         };
         Self { is_head, found: None }

@@ -18,12 +18,12 @@ pub use sliders::Sliders;
 #[cfg(feature = "vrm")]
 pub use vrm::gaze_values;
 
-use crate::{FaceError, FaceState, Pack, Textures, Warning};
+use crate::{ContentsError, FaceError, FaceState, Pack, PackContents, Textures, Warning};
 use avatar_exchange::Scene;
 use avatar_look::Materials;
 use avatar_mesh::drivers::DriversError;
 use avatar_mesh::{Bounds, DeformError};
-use pose_anim::{BindError, ControlError};
+use pose_anim::ControlError;
 use rig_core::{JointId, RigError};
 use std::fmt;
 
@@ -62,9 +62,9 @@ pub enum ImportFailure {
     /// Controls that contradict each other.
     #[error(transparent)]
     Control(#[from] ControlError),
-    /// Controls that do not fit the rig.
+    /// Parts that do not fit together, or controls that do not fit the rig.
     #[error(transparent)]
-    Bind(#[from] BindError),
+    Contents(#[from] ContentsError),
     /// Shapes at so many nodes that the list that all parts share has no room.
     #[error(
         "node {node:?}: expected at most {most} places for shapes of other nodes in all parts together, found more"
@@ -120,13 +120,11 @@ impl Import {
         shapes.check(&scene)?;
         let sliders = sliders::Wanted::of(&scene, &shapes)?;
         let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
-        let names: Vec<&str> = sliders.names.iter().map(String::as_str).collect();
-        let binding = controls.bind(&joints.rig, &names)?;
         let (parts, textures) = parts::parts(&scene, &shapes, &mut report);
         let poses = poses::poses(&controls);
         let head =
             joints.roles.iter().find(|(role, _)| *role == Role::Head).map(|(_, node)| joints.of_node[*node]);
-        let mut pack = Pack {
+        let mut pack = Pack::new(PackContents {
             face: None,
             palette: joints.palette,
             rig: joints.rig,
@@ -134,16 +132,14 @@ impl Import {
             shapes: shapes.names,
             sliders: sliders.sliders,
             controls,
-            binding,
             poses,
             clips: pose_anim::ClipSet::default(),
             materials: Materials::default(),
             hair: None,
             motion: Some(SceneMotion::new(scene, joints.of_node, joints.node_from_parent, shapes.first)),
-            warnings: Vec::new(),
-        };
+            warnings: report.notes.iter().cloned().map(Warning::Import).collect(),
+        })?;
         measure(&mut pack, head)?;
-        pack.warnings = report.notes.iter().cloned().map(Warning::Import).collect();
         Ok(Self { pack, textures, report })
     }
 }
@@ -165,15 +161,17 @@ fn leave_helpers_out(scene: &mut Scene, report: &mut ImportReport) {
 /// Boxes around the parts and the face at rest.
 fn measure(pack: &mut Pack, head: Option<JointId>) -> Result<(), ImportFailure> {
     let mut state = FaceState::new(pack);
-    state.pose(pack, &pack.controls.defaults())?;
+    state.pose(pack, &pack.controls().defaults())?;
     let mut face = face::Measure::new(pack, head);
-    for index in 0..pack.parts.len() {
-        let failed = |problem| ImportFailure::Deform { part: pack.parts[index].name.clone(), problem };
+    let mut bounds = Vec::with_capacity(pack.parts().len());
+    for (index, part) in pack.parts().iter().enumerate() {
+        let failed = |problem| ImportFailure::Deform { part: part.name.clone(), problem };
         let positions = &state.deform(pack, index).map_err(failed)?.positions;
-        face.add(&pack.parts[index], positions);
-        pack.parts[index].bounds = Bounds::of(positions);
+        face.add(part, positions);
+        bounds.push(Bounds::of(positions));
     }
-    pack.face = face.finish(pack.bounds());
+    let whole = bounds.iter().flatten().copied().reduce(Bounds::union);
+    pack.set_measures(bounds, face.finish(whole));
     Ok(())
 }
 

@@ -23,17 +23,19 @@ impl Import {
             bones.into_iter().filter_map(|(role, bone)| Some((role, vrm.bone(bone)?))).collect();
         let turning = vrm.look_at.filter(|look_at| look_at.kind == LookAtKind::Bone);
         let mut import = Self::with_roles(scene, &known, turning.map(|look_at| eye_ranges(&look_at)))?;
-        let poses: Vec<Pose> =
+        let expressions: Vec<Pose> =
             vrm.expressions.iter().map(|expression| pose(&import.pack, &vrm, &expression.name)).collect();
-        for pose in poses {
+        let mut poses = import.pack.poses().clone();
+        for pose in expressions {
             // The usual pose of that name keeps its place and its key.
-            match import.pack.poses.poses.iter_mut().find(|other| other.name == pose.name) {
+            match poses.poses.iter_mut().find(|other| other.name == pose.name) {
                 // An expression that moves nothing says no more than the usual face.
                 Some(_) if pose.values.is_empty() => {}
                 Some(other) => other.values = pose.values,
-                None => import.pack.poses.poses.push(pose),
+                None => poses.poses.push(pose),
             }
         }
+        import.pack.set_poses(poses)?;
         Ok(import)
     }
 }
@@ -63,10 +65,10 @@ fn eye_ranges(look_at: &LookAt) -> EyeRanges {
 fn pose(pack: &Pack, vrm: &Vrm, expression: &str) -> Pose {
     let mut values = Vec::new();
     for ((node, shape), weight) in expression_weights(vrm, &[(expression, 1.0)]).by_shape {
-        let name = pack.motion.as_ref().and_then(|motion| pack.shapes.get(motion.shape(node, shape)?));
+        let name = pack.motion().and_then(|motion| pack.shapes().get(motion.shape(node, shape)?));
         let drives =
             |drives: &Drive| matches!((drives, name), (Drive::Shape { shape }, Some(name)) if shape == name);
-        let Some(control) = pack.controls.controls().iter().position(|control| drives(&control.drives))
+        let Some(control) = pack.controls().controls().iter().position(|control| drives(&control.drives))
         else {
             continue;
         };

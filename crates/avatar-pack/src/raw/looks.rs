@@ -8,10 +8,10 @@ use std::io::Cursor;
 
 /// The looks of the avatar's parts at the parts that they became.
 pub(super) fn materials(pack: &Pack, parts: &Parts) -> Materials {
-    let mut materials = pack.materials.clone();
+    let mut materials = pack.materials().clone();
     for (spec, look) in FACE_PARTS.iter().zip(&parts.looks) {
         let Some(index) = look else { continue };
-        let part = &pack.parts[*index];
+        let part = &pack.parts()[*index];
         // Looks of a kind that it was not meant for would show what is not there.
         match part.material {
             Some(material) => materials.set(spec.name, material),
@@ -38,7 +38,7 @@ pub(super) fn pictures(
         written.map_err(|error| RawError::Picture { file: file.clone(), problem: error.to_string() })?;
         files.push((file, bytes.into_inner()));
     }
-    for (index, part) in pack.parts.iter().enumerate() {
+    for (index, part) in pack.parts().iter().enumerate() {
         let of_part = textures.of_part(index, part.kind);
         let named = [("colour", of_part.color), ("relief", of_part.normal), ("occlusion", of_part.occlusion)];
         for (what, picture) in named.into_iter().filter_map(|(what, picture)| Some((what, picture?))) {
@@ -54,7 +54,7 @@ pub(super) fn pictures(
 fn chosen<'a>(pack: &Pack, textures: &'a Textures, parts: &Parts) -> Vec<(Texture, &'a RgbaImage)> {
     let mut chosen: Vec<(Texture, &RgbaImage)> = Vec::new();
     for (spec, look) in FACE_PARTS.iter().zip(&parts.looks) {
-        let Some(part) = look.and_then(|index| Some((index, pack.parts.get(index)?))) else { continue };
+        let Some(part) = look.and_then(|index| Some((index, pack.parts().get(index)?))) else { continue };
         let of_part = textures.of_part(part.0, part.1.kind);
         let skin = spec.kind == PartKind::Skin;
         let color = match spec.kind {

@@ -88,11 +88,11 @@ pub enum RawError {
 /// # Errors
 /// What moves and has no place in the format. What is only looks, or clips of whole joints, is left out with a note.
 pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError> {
-    if pack.parts.iter().all(|part| part.mesh.positions.is_empty()) {
+    if pack.parts().iter().all(|part| part.mesh.positions.is_empty()) {
         return Err(RawError::NoMesh);
     }
     let mut notes = Vec::new();
-    if let Some(sliders) = &pack.sliders {
+    if let Some(sliders) = pack.sliders() {
         return Err(RawError::InBetween { sliders: sliders.names.clone() });
     }
     let shapes = shapes::Places::of(pack)?;
@@ -111,7 +111,7 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     if !clips.clips.is_empty() {
         files.push(("clips.toml".to_owned(), clips.to_toml(&controls).into_bytes()));
     }
-    if let Some(hair) = &pack.hair {
+    if let Some(hair) = pack.hair() {
         files.push(("hair.toml".to_owned(), hair.to_toml().into_bytes()));
     }
     for (spec, mesh) in FACE_PARTS.iter().zip(&meshes.meshes) {
@@ -119,7 +119,7 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
         files.push((format!("{}_IB.raw", spec.stem), write_triangles(mesh)));
     }
     looks::pictures(pack, textures, &meshes, &mut files, &mut notes)?;
-    if let Some(motion) = pack.motion.as_ref().filter(|motion| !motion.clips().is_empty()) {
+    if let Some(motion) = pack.motion().filter(|motion| !motion.clips().is_empty()) {
         notes.push(format!("clips are left out: {}", motion.clips().join(", ")));
     }
     // Whatever is promised here is what the reader says.
@@ -136,11 +136,11 @@ fn controls(
     notes: &mut Vec<String>,
 ) -> Result<(ControlTable, Vec<Option<usize>>), RawError> {
     let (mut controls, mut kept, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
-    for control in pack.controls.controls() {
+    for control in pack.controls().controls() {
         let drives = match &control.drives {
             Drive::Joint { joint, axis, kind } => {
                 let turns = |joint: &usize| bones.instead.get(*joint) == Some(&None);
-                let joint = pack.rig.joint(joint).map(|joint| joint.index()).filter(turns);
+                let joint = pack.rig().joint(joint).map(|joint| joint.index()).filter(turns);
                 let name = joint.and_then(|joint| bones.names.get(joint));
                 name.map(|name| Drive::Joint { joint: name.clone(), axis: *axis, kind: *kind })
             }
@@ -159,7 +159,7 @@ fn controls(
         notes.push(format!("controls that move nothing are left out: {}", left_out.join(", ")));
     }
     let place = |control: usize| kept.get(control).copied().flatten();
-    let couplings = pack.controls.couplings().iter().filter_map(|coupling| {
+    let couplings = pack.controls().couplings().iter().filter_map(|coupling| {
         Some(Coupling { from: place(coupling.from)?, to: place(coupling.to)?, ..*coupling })
     });
     let couplings = couplings.collect();
@@ -170,7 +170,7 @@ fn controls(
 fn poses(pack: &Pack, controls: &ControlTable, kept: &[Option<usize>]) -> PoseSet {
     let place = |control: usize| kept.get(control).copied().flatten();
     let mut set = PoseSet::default();
-    for pose in pack.poses.iter() {
+    for pose in pack.poses().iter() {
         let mut own: Pose = pose.clone();
         own.values = (pose.values.iter())
             .filter_map(|(index, value)| {
@@ -190,7 +190,7 @@ fn poses(pack: &Pack, controls: &ControlTable, kept: &[Option<usize>]) -> PoseSe
 fn clips(pack: &Pack, kept: &[Option<usize>]) -> ClipSet {
     let place = |control: usize| kept.get(control).copied().flatten();
     let mut set = ClipSet::default();
-    for clip in &pack.clips.clips {
+    for clip in &pack.clips().clips {
         let track = |track: &Track| Track::new(place(track.control())?, track.keys().to_vec()).ok();
         // Tracks of a clip are of different controls, here as there.
         let Ok(mut own) = Clip::new(clip.name.clone(), clip.tracks().iter().filter_map(track).collect())

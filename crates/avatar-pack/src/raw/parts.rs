@@ -14,7 +14,7 @@ pub(super) struct Parts {
 
 impl Parts {
     pub(super) fn of(pack: &Pack, bones: &Bones, shapes: &Places<'_>, notes: &mut Vec<String>) -> Self {
-        let filled = || pack.parts.iter().enumerate().filter(|(_, part)| !part.mesh.positions.is_empty());
+        let filled = || pack.parts().iter().enumerate().filter(|(_, part)| !part.mesh.positions.is_empty());
         let places: Vec<(usize, usize)> =
             filled().map(|(index, part)| (index, place_of(part, bones))).collect();
         let (mut meshes, mut looks) = (Vec::new(), Vec::new());
@@ -22,7 +22,7 @@ impl Parts {
             let members: Vec<usize> =
                 places.iter().filter(|(_, other)| *other == place).map(|(index, _)| *index).collect();
             let score = |index: &&usize| {
-                let part = &pack.parts[**index];
+                let part = &pack.parts()[**index];
                 let is_named = part.name == spec.name;
                 let is_kind = part.kind == spec.kind;
                 (is_named, is_kind, part.mesh.positions.len(), std::cmp::Reverse(**index))
@@ -30,7 +30,7 @@ impl Parts {
             let look = members.iter().max_by_key(score).copied();
             let mut merged = Merged::default();
             for index in members {
-                let part = &pack.parts[index];
+                let part = &pack.parts()[index];
                 let first = merged.len();
                 let unfit = merged.append(pack, part, bones, shapes);
                 if part.name != spec.name {

@@ -14,16 +14,16 @@ impl<'a> Places<'a> {
     /// none.
     pub(super) fn of(pack: &'a Pack) -> Result<Self, RawError> {
         let mut moving: Vec<&str> = Vec::new();
-        for (index, name) in pack.shapes.iter().enumerate() {
+        for (index, name) in pack.shapes().iter().enumerate() {
             let moves = |part: &crate::Part| {
                 part.mesh.shapes.get(index).is_some_and(|shape| shape.moved_vertices() > 0)
             };
             let is_driven = pack
-                .controls
+                .controls()
                 .controls()
                 .iter()
                 .any(|control| matches!(&control.drives, Drive::Shape { shape } if shape == name));
-            if is_driven && !moving.contains(&name.as_str()) && pack.parts.iter().any(moves) {
+            if is_driven && !moving.contains(&name.as_str()) && pack.parts().iter().any(moves) {
                 moving.push(name);
             }
         }

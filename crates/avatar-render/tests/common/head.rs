@@ -38,7 +38,7 @@ impl Head {
     }
 
     fn skin(&self) -> &Mesh {
-        &self.pack.parts[0].mesh
+        &self.pack.parts()[0].mesh
     }
 
     /// The skin with this hair, at bind pose.
@@ -46,12 +46,12 @@ impl Head {
         let part = PartDesc {
             label: "skin",
             mesh: self.skin(),
-            kind: self.pack.parts[0].kind,
+            kind: self.pack.parts()[0].kind,
             bones: PartBones::PerVertex,
             textures: PartTextures::default(),
         };
         let mut model =
-            AvatarModel::new(&gpu.device, &gpu.queue, &[part], self.pack.palette.len()).expect("a model");
+            AvatarModel::new(&gpu.device, &gpu.queue, &[part], self.pack.palette().len()).expect("a model");
         let eyes: Vec<_> = ["right-eyeball", "left-eyeball"]
             .iter()
             .filter_map(|name| self.pack.part(name)?.mesh.bounds())

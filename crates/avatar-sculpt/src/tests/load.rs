@@ -12,9 +12,9 @@ fn loaded() -> Pack {
 
 /// Values of all controls, with some set.
 fn values(pack: &Pack, set: &[(&str, f32)]) -> Vec<f32> {
-    let mut values = pack.controls.defaults();
+    let mut values = pack.controls().defaults();
     for (name, value) in set {
-        values[pack.controls.index(name).unwrap()] = *value;
+        values[pack.controls().index(name).unwrap()] = *value;
     }
     values
 }
@@ -32,8 +32,8 @@ fn posed(pack: &Pack, set: &[(&str, f32)]) -> Vec<DVec3> {
 #[test]
 fn the_pack_loads_without_a_warning() {
     let pack = loaded();
-    assert!(pack.warnings.is_empty(), "{:?}", pack.warnings);
-    assert_eq!(pack.rig.len(), 9);
+    assert!(pack.warnings().is_empty(), "{:?}", pack.warnings());
+    assert_eq!(pack.rig().len(), 9);
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub(super) fn run(args: &BonesArgs, matches: &ArgMatches) -> Result<()> {
     let mut state = FaceState::new(&pack);
     args.face.resolve(&pack, matches)?.apply(&pack, &mut state)?;
 
-    let rig = &pack.rig;
+    let rig = pack.rig();
     let joints = rig.joints().map(|joint| Joint {
         name: &rig.names()[joint.index()],
         parent: rig.parents()[joint.index()].map(|parent| rig.names()[parent.index()].as_str()),
@@ -35,7 +35,7 @@ pub(super) fn run(args: &BonesArgs, matches: &ArgMatches) -> Result<()> {
         world: row_by_row(state.rig_pose().world_from_joint()[joint.index()]),
         skin: row_by_row(state.rig_pose().posed_from_bind()[joint.index()]),
     });
-    let weights = pack.shapes.iter().map(|shape| public_name(shape)).zip(state.weights().iter().copied());
+    let weights = pack.shapes().iter().map(|shape| public_name(shape)).zip(state.weights().iter().copied());
     let report = Report { joints: joints.collect(), weights: weights.collect() };
     output::print(&format!("{}\n", serde_json::to_string_pretty(&report)?))
 }

@@ -80,7 +80,7 @@ fn at_rest(args: &ConvertArgs) -> Result<()> {
 
 /// A file's scene as it is; of a pack rig, parts, shapes, and its poses as clips.
 fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
-    let written = match &pack.motion {
+    let written = match pack.motion() {
         Some(motion) => {
             let scene = motion.scene();
             if !scene.drivers.is_empty() {
@@ -96,7 +96,7 @@ fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
         None => {
             let raw = avatar_pack::export(pack, &files.load_textures());
             raw.notes.iter().for_each(|note| eprintln!("warning: {note}"));
-            if !pack.clips.clips.is_empty() {
+            if !pack.clips().clips.is_empty() {
                 eprintln!("warning: clips of controls are left out: poses are the clips of the file");
             }
             glb::write_raw(&raw)
@@ -107,12 +107,12 @@ fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
 
 /// All parts in world space, one object each.
 pub(super) fn world_obj(pack: &Pack, state: &FaceState) -> Result<String> {
-    if pack.parts.is_empty() {
+    if pack.parts().is_empty() {
         return Err(anyhow!("expected a mesh to write, found a skeleton alone"));
     }
     let deformed: Vec<_> =
-        (0..pack.parts.len()).map(|part| Ok(state.deform(pack, part)?)).collect::<Result<_>>()?;
-    let parts: Vec<ObjPart<'_>> = (pack.parts.iter().zip(&deformed))
+        (0..pack.parts().len()).map(|part| Ok(state.deform(pack, part)?)).collect::<Result<_>>()?;
+    let parts: Vec<ObjPart<'_>> = (pack.parts().iter().zip(&deformed))
         .map(|(part, deformed)| ObjPart {
             name: &part.name,
             positions: &deformed.positions,

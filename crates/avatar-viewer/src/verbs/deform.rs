@@ -12,7 +12,7 @@ use clap::ArgMatches;
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     let out = OutputFile::check(&args.out)?;
     let pack = super::open(&args.pack)?.load_pack()?;
-    let parts = if args.world { (0..pack.parts.len()).collect() } else { vec![part(&pack, args)?] };
+    let parts = if args.world { (0..pack.parts().len()).collect() } else { vec![part(&pack, args)?] };
     let face = args.face.resolve(&pack, matches)?;
 
     let deformed: Vec<Deformed> = if args.gpu {
@@ -24,7 +24,7 @@ pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
         face.apply(&pack, &mut state)?;
         parts.iter().map(|part| Ok(state.deform(&pack, *part)?)).collect::<Result<_>>()?
     };
-    let objects: Vec<ObjPart<'_>> = (parts.iter().map(|part| &pack.parts[*part]).zip(&deformed))
+    let objects: Vec<ObjPart<'_>> = (parts.iter().map(|part| &pack.parts()[*part]).zip(&deformed))
         .map(|(part, deformed)| ObjPart {
             name: &part.name,
             positions: &deformed.positions,
@@ -41,6 +41,6 @@ pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
 fn part(pack: &Pack, args: &DeformArgs) -> Result<usize> {
     match &args.part {
         Some(name) => usage::part(pack, name),
-        None => Ok(pack.parts.iter().position(|part| part.name == "skin").unwrap_or(0)),
+        None => Ok(pack.parts().iter().position(|part| part.name == "skin").unwrap_or(0)),
     }
 }

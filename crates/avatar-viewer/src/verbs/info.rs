@@ -80,7 +80,7 @@ pub(super) fn run(args: &InfoArgs) -> Result<()> {
 }
 
 fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
-    let parts = pack.parts.iter().map(|part| {
+    let parts = pack.parts().iter().map(|part| {
         let bounds = part.bounds;
         PartReport {
             name: &part.name,
@@ -91,24 +91,24 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
             max: bounds.map_or([0.0; 3], |bounds| bounds.max.to_array()),
         }
     });
-    let controls = pack.controls.controls().iter().map(|control| ControlReport {
+    let controls = pack.controls().controls().iter().map(|control| ControlReport {
         name: control.name.clone(),
         min: control.min,
         max: control.max,
         default: control.default,
     });
-    let poses = pack.poses.iter().map(|pose| PoseReport { name: pose.name.clone(), key: pose.key.clone() });
-    let clips = pack.motion.iter().flat_map(|motion| {
+    let poses = pack.poses().iter().map(|pose| PoseReport { name: pose.name.clone(), key: pose.key.clone() });
+    let clips = pack.motion().into_iter().flat_map(|motion| {
         let clip = |name: String| ClipReport { seconds: motion.duration_secs(&name).unwrap_or(0.0), name };
         motion.clips().into_iter().map(clip)
     });
-    let of_controls = pack.clips.clips.iter();
+    let of_controls = pack.clips().clips.iter();
     let of_controls =
         of_controls.map(|clip| ClipReport { seconds: clip.duration_secs() as f32, name: clip.name.clone() });
-    let warnings = pack.warnings.iter().chain(&textures.warnings);
+    let warnings = pack.warnings().iter().chain(&textures.warnings);
     Report {
         parts: parts.collect(),
-        joints: pack.rig.names().to_vec(),
+        joints: pack.rig().names().to_vec(),
         controls: controls.collect(),
         poses: poses.collect(),
         clips: clips.chain(of_controls).collect(),

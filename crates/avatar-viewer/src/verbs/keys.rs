@@ -8,12 +8,12 @@ use std::fmt::Write;
 pub(super) fn run(args: &KeysArgs) -> Result<()> {
     let pack = super::open(&args.pack)?.load_pack()?;
     let mut out = String::new();
-    for pose in pack.poses.iter() {
+    for pose in pack.poses().iter() {
         if let Some(key) = &pose.key {
             let _ = writeln!(out, "{key:<24} pose {}", pose.name);
         }
     }
-    for clip in &pack.clips.clips {
+    for clip in &pack.clips().clips {
         if let Some(key) = &clip.key {
             let _ = writeln!(out, "{key:<24} clip {}", clip.name);
         }

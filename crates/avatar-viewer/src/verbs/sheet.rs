@@ -23,7 +23,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
     let textures = files.load_textures();
     let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, args.look)?;
 
-    let poses: Vec<_> = pack.poses.iter().collect();
+    let poses: Vec<_> = pack.poses().iter().collect();
     if poses.is_empty() {
         eprintln!("warning: expected poses to draw, found none: the sheet is empty");
     }
@@ -35,7 +35,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
         let index = index as u32;
         let left = GAP + index % COLUMNS * (cell_width + GAP);
         let top = GAP + index / COLUMNS * (cell_height + GAP);
-        let mut values = pack.controls.defaults();
+        let mut values = pack.controls().defaults();
         pose.values.iter().for_each(|&(control, value)| values[control] = value);
         let face = FaceChoice::of_values(values);
 

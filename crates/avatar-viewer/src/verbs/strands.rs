@@ -15,7 +15,7 @@ pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
     let look = LookArgs::with_hair(args.hair);
     let mut offscreen = Offscreen::open(&pack, &textures, 1, look)?;
     let strands = offscreen.strands(&pack, &face)?;
-    let hair = args.hair.choose(pack.hair.as_ref());
+    let hair = args.hair.choose(pack.hair());
     let groom = hair.and_then(|hair| pack.groom(&textures, &hair));
     let roots = groom.map_or_else(Vec::new, |(_, groom)| groom.roots);
     if strands.is_empty() {

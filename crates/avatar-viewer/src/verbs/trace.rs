@@ -34,7 +34,7 @@ fn trace(pack: &Pack, script: &Script, rows: &Rows, out: &mut impl Write) -> Res
     write!(out, "t")?;
     let suffixes: &[&str] = if rows.derivatives { &["", "'", "''"] } else { &[""] };
     for suffix in suffixes {
-        for control in pack.controls.controls() {
+        for control in pack.controls().controls() {
             write!(out, ",{}", quoted(&format!("{}{suffix}", control.name)))?;
         }
     }

@@ -33,7 +33,7 @@ impl App {
                 let motion = face.motion.as_ref().filter(|motion| motion.is_wanted());
                 let plays = face.playback.playing || motion.is_some_and(|motion| motion.playing);
                 let of_file = motion.map(|motion| motion.clip);
-                let of_file = of_file.or(face.pack.clips.clips.is_empty().then_some(0));
+                let of_file = of_file.or(face.pack.clips().clips.is_empty().then_some(0));
                 let action = match of_file {
                     _ if plays => Action::Pause,
                     Some(clip) => Action::PlayFileClip(clip),
@@ -133,7 +133,7 @@ impl App {
         let (about, done) = match action {
             Action::SavePose(form) => {
                 let done = face.edit_poses(|book, present| book.add(&described(present, &form)).map(|_| ()));
-                face.active_pose = done.is_ok().then(|| face.pack.poses.poses.len() - 1);
+                face.active_pose = done.is_ok().then(|| face.pack.poses().poses.len() - 1);
                 (About::Poses, done)
             }
             Action::EditPose { index, form } => {
@@ -223,7 +223,7 @@ impl App {
         let (pack, state) = (&self.face.pack, &self.face.state);
         let shot = Shot { pack, state, view: self.camera.view, background, free: None };
         let picture = stage.picture(&shot, width, height)?;
-        let stem = self.face.active_pose.and_then(|pose| pack.poses.poses.get(pose));
+        let stem = self.face.active_pose.and_then(|pose| pack.poses().poses.get(pose));
         let path = free_name(stem.map_or("face", |pose| pose.name.as_str()), "png")?;
         film::still(&OutputFile::check(&path)?, &picture, &self.face.choice().describe(pack))?;
         Ok(path)

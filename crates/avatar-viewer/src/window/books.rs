@@ -55,7 +55,7 @@ impl Face {
             self.poses = before;
             return Err(error);
         }
-        self.pack.poses = self.poses.poses().clone();
+        self.pack.set_poses(self.poses.poses().clone())?;
         Ok(())
     }
 
@@ -70,7 +70,7 @@ impl Face {
         edit(&mut clip)?;
         self.clips.set(index, &clip, what)?;
         self.order.note(Book::Clips);
-        self.clips_changed();
+        self.clips_changed()?;
         // What is shown follows what is edited.
         if !self.playback.playing && self.playback.clip == Some(index) {
             self.scrub(index, self.playback.time_secs);
@@ -88,7 +88,7 @@ impl Face {
     pub(super) fn add_clip(&mut self, clip: &Clip) -> Result<()> {
         let index = self.clips.add(clip)?;
         self.order.note(Book::Clips);
-        self.clips_changed();
+        self.clips_changed()?;
         self.forget_playback();
         self.playback.clip = Some(index);
         Ok(())
@@ -97,7 +97,7 @@ impl Face {
     pub(super) fn delete_clip(&mut self, index: usize) -> Result<()> {
         self.clips.remove(index)?;
         self.order.note(Book::Clips);
-        self.clips_changed();
+        self.clips_changed()?;
         self.forget_playback();
         Ok(())
     }
@@ -108,8 +108,9 @@ impl Face {
         self.playback = Playback::default();
     }
 
-    fn clips_changed(&mut self) {
-        self.pack.clips = self.clips.clips().clone();
+    fn clips_changed(&mut self) -> Result<()> {
+        self.pack.set_clips(self.clips.clips().clone())?;
+        Ok(())
     }
 
     /// Whether the clips' file says something else.
@@ -197,7 +198,7 @@ impl Face {
             }
             Book::Clips => {
                 let _ = if again { self.clips.redo() } else { self.clips.undo() };
-                self.clips_changed();
+                self.clips_changed()?;
                 let clips = self.clips.clips().clips.len();
                 match self.playback.clip {
                     Some(index) if index >= clips => self.forget_playback(),
@@ -231,15 +232,15 @@ impl Face {
             // Without a file of its own a face has the usual poses.
             None => {
                 self.store.take(store::POSES, String::new());
-                let usual = self.files.usual_poses(&self.pack.controls)?;
-                if usual == self.pack.poses {
+                let usual = self.files.usual_poses(self.pack.controls())?;
+                if usual == *self.pack.poses() {
                     return Ok(false);
                 }
-                self.poses = PoseBook::of_set(&usual, &self.pack.controls)?;
+                self.poses = PoseBook::of_set(&usual, self.pack.controls())?;
             }
         }
         self.order.forget(Book::Poses);
-        self.pack.poses = self.poses.poses().clone();
+        self.pack.set_poses(self.poses.poses().clone())?;
         self.active_pose = None;
         Ok(true)
     }
@@ -268,7 +269,7 @@ impl Face {
         self.clips = read;
         self.store.take(store::CLIPS, text);
         self.order.forget(Book::Clips);
-        self.clips_changed();
+        self.clips_changed()?;
         self.forget_playback();
         Ok(true)
     }

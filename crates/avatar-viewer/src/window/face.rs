@@ -53,13 +53,13 @@ impl Face {
         textures: Textures,
         start: Option<FaceChoice>,
     ) -> Result<Self> {
-        let mut player = Player::new(&pack.controls);
-        let goal = start.as_ref().map_or_else(|| pack.controls.defaults(), FaceChoice::start_values);
+        let mut player = Player::new(pack.controls());
+        let goal = start.as_ref().map_or_else(|| pack.controls().defaults(), FaceChoice::start_values);
         player.jump_to(&goal)?;
         let store = Store::of(&files);
-        let poses = PoseBook::of_set(&pack.poses, &pack.controls)?;
-        let clips = ClipBook::of_set(&pack.clips, &pack.controls)?;
-        let file_clips = pack.motion.as_ref().map_or_else(Vec::new, |motion| {
+        let poses = PoseBook::of_set(pack.poses(), pack.controls())?;
+        let clips = ClipBook::of_set(pack.clips(), pack.controls())?;
+        let file_clips = pack.motion().map_or_else(Vec::new, |motion| {
             let named = |name: String| {
                 let secs = motion.duration_secs(&name).map_or(0.0, f64::from);
                 (name, secs)
@@ -181,7 +181,7 @@ impl Face {
         self.active_pose = None;
         for &(control, value) in &pose.values {
             if let (Some(goal), Some(control)) =
-                (self.goal.get_mut(control), self.pack.controls.controls().get(control))
+                (self.goal.get_mut(control), self.pack.controls().controls().get(control))
             {
                 *goal = value.clamp(control.min, control.max);
             }
@@ -212,7 +212,7 @@ impl Face {
 
     /// Goes to the default face.
     pub(super) fn defaults(&mut self) {
-        self.press(&Pose::from_values("defaults", &self.pack.controls.defaults()));
+        self.press(&Pose::from_values("defaults", &self.pack.controls().defaults()));
     }
 
     /// Takes one control to a value, as fast as a hand moves a slider.
@@ -222,7 +222,7 @@ impl Face {
 
     /// Takes one control back to its default.
     pub(super) fn reset_control(&mut self, control: usize) {
-        if let Some(value) = self.pack.controls.controls().get(control).map(|control| control.default) {
+        if let Some(value) = self.pack.controls().controls().get(control).map(|control| control.default) {
             self.set_control(control, value);
         }
     }

@@ -189,7 +189,7 @@ impl App {
         let size = Size { width: width.min(LARGEST_SIDE), height: height.min(LARGEST_SIDE) };
         let of_file = self.face.motion.as_ref().filter(|motion| motion.is_wanted());
         let of_file = of_file.map(|motion| motion.name.clone());
-        let chosen = clip.and_then(|clip| self.face.pack.clips.clips.get(clip));
+        let chosen = clip.and_then(|clip| self.face.pack.clips().clips.get(clip));
         let clip = of_file.or(chosen.map(|clip| clip.name.clone()));
         let stem = clip.clone().unwrap_or_else(|| "around".to_owned());
         let subject = Subject {

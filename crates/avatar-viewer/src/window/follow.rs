@@ -40,9 +40,11 @@ impl App {
     /// Takes over changed materials; with a mistake in them the old ones stay.
     fn reload_materials(&mut self) {
         match load_materials(&self.face.files) {
-            Ok(materials) if materials == self.face.pack.materials => self.messages.settle(About::Materials),
+            Ok(materials) if materials == *self.face.pack.materials() => {
+                self.messages.settle(About::Materials)
+            }
             Ok(materials) => {
-                self.face.pack.materials = materials;
+                self.face.pack.set_materials(materials);
                 let shown = self.stage.as_mut().map_or(Ok(()), |stage| stage.set_materials(&self.face.pack));
                 match shown {
                     Ok(()) => self.messages.settle(About::Materials),
@@ -62,10 +64,10 @@ impl App {
     /// Takes over changed hair; with a mistake in its file the old one stays.
     fn reload_hair(&mut self) {
         match load_hair(&self.face.files) {
-            Ok(hair) if hair == self.face.pack.hair => self.messages.settle(About::Hair),
+            Ok(hair) if hair.as_ref() == self.face.pack.hair() => self.messages.settle(About::Hair),
             Ok(hair) => {
                 let before = self.chosen_hair();
-                self.face.pack.hair = hair;
+                self.face.pack.set_hair(hair);
                 self.change_hair(before);
             }
             Err(error) => self.messages.error(About::Hair, "The hair stays as it was.", &error.into()),
@@ -88,13 +90,13 @@ impl App {
     /// The next hair, or the one before.
     pub(super) fn next_hair(&mut self, backward: bool) {
         let before = self.chosen_hair();
-        self.look.hair = self.look.hair.next(self.face.pack.hair.as_ref(), backward);
+        self.look.hair = self.look.hair.next(self.face.pack.hair(), backward);
         self.show_title();
         self.change_hair(before);
     }
 
     fn chosen_hair(&self) -> Option<Hair> {
-        self.look.hair.choose(self.face.pack.hair.as_ref())
+        self.look.hair.choose(self.face.pack.hair())
     }
 
     /// Which hair was chosen by key stands in the title: without a map of hair it is nowhere else to be seen.

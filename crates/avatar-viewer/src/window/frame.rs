@@ -169,10 +169,10 @@ impl App {
         let (adapter, triangles, strands) = stage.numbers(&face.pack);
         let names: Vec<_> = self.keys.rows().collect();
         let poses =
-            face.pack.poses.iter().filter_map(|pose| Some((pose.key.as_deref()?, pose.name.as_str())));
+            face.pack.poses().iter().filter_map(|pose| Some((pose.key.as_deref()?, pose.name.as_str())));
         let rows = names.iter().map(|(key, row)| KeyRow { key, meaning: row.meaning, group: row.group });
         let poses = poses.map(|(key, meaning)| KeyRow { key, meaning, group: "Poses" });
-        let clips = face.pack.clips.clips.iter();
+        let clips = face.pack.clips().clips.iter();
         let clips = clips.filter_map(|clip| {
             Some(KeyRow { key: clip.key.as_deref()?, meaning: &clip.name, group: "Clips" })
         });
@@ -186,7 +186,7 @@ impl App {
         let messages: Vec<_> = self.messages.shown().collect();
         let recent: Vec<String> = self.config.recent.iter().map(|path| path.display().to_string()).collect();
         let formats: Vec<&str> = formats().into_iter().map(|(name, _)| name).collect();
-        let thumbnails: Vec<_> = (face.pack.poses.iter())
+        let thumbnails: Vec<_> = (face.pack.poses().iter())
             .map(|pose| {
                 let shown = self.frames.miniatures.iter().find(|miniature| same_face(&miniature.pose, pose));
                 shown.map(|miniature| miniature.texture.id())
@@ -210,7 +210,7 @@ impl App {
             },
             can_undo: face.can_undo(false),
             can_redo: face.can_undo(true),
-            clips: &face.pack.clips.clips,
+            clips: &face.pack.clips().clips,
             clips_changed: face.has_unsaved_clips(),
             playback: Playback {
                 clip: face.playback.clip,
@@ -245,7 +245,7 @@ impl App {
             film_formats: &formats,
             film: self.filming.as_ref().map(Filming::progress),
             full_screen: stage.window().fullscreen().is_some(),
-            ..Model::new(&face.pack.controls, &face.pack.poses)
+            ..Model::new(face.pack.controls(), face.pack.poses())
         };
         Some(overlay.run(stage.window(), &model, actions))
     }
@@ -285,13 +285,13 @@ impl App {
         if !is_at_rest || !are_seen {
             return Ok(false);
         }
-        let poses = &self.face.pack.poses;
+        let poses = self.face.pack.poses();
         self.frames.miniatures.retain(|miniature| {
             miniature.background == background && poses.iter().any(|pose| same_face(&miniature.pose, pose))
         });
         let has = |pose: &Pose| self.frames.miniatures.iter().any(|own| same_face(&own.pose, pose));
         let Some(pose) = poses.iter().find(|pose| !has(pose)) else { return Ok(false) };
-        let mut values = self.face.pack.controls.defaults();
+        let mut values = self.face.pack.controls().defaults();
         pose.values.iter().for_each(|(control, value)| values[*control] = *value);
         let picture = stage.miniature(&self.face.pack, &values, background)?;
         let size = [picture.width() as usize, picture.height() as usize];

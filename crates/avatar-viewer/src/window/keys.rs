@@ -215,7 +215,7 @@ impl Keys {
                 pose.name, ROWS[row].meaning
             ))
         };
-        pack.poses.iter().filter_map(warning).collect()
+        pack.poses().iter().filter_map(warning).collect()
     }
 }
 
@@ -225,7 +225,7 @@ pub(crate) fn pose(pack: &Pack, logical: &Key, physical: PhysicalKey) -> Option<
     let named = |name: &str| {
         let exactly = |pose: &Pose| pose.key.as_deref() == Some(name);
         let ignoring_case = |pose: &Pose| pose.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(name));
-        pack.poses.iter().position(exactly).or_else(|| pack.poses.iter().position(ignoring_case))
+        pack.poses().iter().position(exactly).or_else(|| pack.poses().iter().position(ignoring_case))
     };
     let typed = match logical {
         Key::Character(typed) => named(typed),
@@ -245,7 +245,7 @@ pub(crate) fn clip(pack: &Pack, logical: &Key) -> Option<usize> {
         Key::Named(key) => format!("{key:?}"),
         _ => return None,
     };
-    let mut clips = pack.clips.clips.iter();
+    let mut clips = pack.clips().clips.iter();
     clips.position(|clip| clip.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(&name)))
 }
 

@@ -141,7 +141,7 @@ impl App {
     }
 
     fn show(&mut self, files: Files, pack: Pack, textures: Textures) -> Result<()> {
-        let start = FaceChoice::of_values(pack.controls.defaults());
+        let start = FaceChoice::of_values(pack.controls().defaults());
         let face = Face::new(files, pack, textures, Some(start))?;
         if let Some(stage) = &mut self.stage {
             stage.set_avatar(&face.pack, &face.textures, self.look)?;

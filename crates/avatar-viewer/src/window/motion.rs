@@ -46,7 +46,7 @@ impl Motion {
 impl Face {
     /// Plays a clip of the file: from where it was paused, or else from its start, over and over.
     pub(super) fn play_file_clip(&mut self, clip: usize) -> Result<()> {
-        let Some(scene) = &self.pack.motion else { return Ok(()) };
+        let Some(scene) = self.pack.motion() else { return Ok(()) };
         self.playback.playing = false;
         self.player.stop();
         self.goal.copy_from_slice(self.player.values());
@@ -85,7 +85,7 @@ impl Face {
 
     /// Brings the state to the present values, and from there towards the clip; whether there is one.
     pub(super) fn pose_motion(&mut self) -> Result<bool> {
-        let (Some(motion), Some(scene)) = (&mut self.motion, &self.pack.motion) else { return Ok(false) };
+        let (Some(motion), Some(scene)) = (&mut self.motion, self.pack.motion()) else { return Ok(false) };
         // Slow at both ends, as transitions are.
         let share = motion.share * motion.share * (3.0 - 2.0 * motion.share);
         let at = scene.sample(&mut motion.sampler, motion.time_secs as f32);

@@ -93,7 +93,7 @@ impl Face {
     /// Makes a clip of what was recorded: of those controls that moved, with as few keys as say it.
     pub(super) fn stop_recording(&mut self) -> Result<()> {
         let Some(Recording { samples, .. }) = self.recording.take() else { return Ok(()) };
-        let controls = self.pack.controls.controls();
+        let controls = self.pack.controls().controls();
         let moved = |control: &usize| samples.iter().any(|row| row[*control] != samples[0][*control]);
         let tracks = (0..controls.len()).filter(moved).map(|control| {
             let sample =

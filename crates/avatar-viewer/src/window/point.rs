@@ -86,7 +86,7 @@ impl Pointing {
 
     fn deform(&mut self, face: &Face) {
         if self.deformed.is_empty() {
-            let parts = 0..face.pack.parts.len();
+            let parts = 0..face.pack.parts().len();
             // A part that cannot be deformed has nothing to point at.
             self.deformed =
                 parts.map(|part| face.state.deform(&face.pack, part).unwrap_or_default()).collect();
@@ -184,10 +184,10 @@ impl App {
     pub(super) fn toggle_gaze(&mut self) {
         self.pointing.follows = !self.pointing.follows;
         if !self.pointing.follows {
-            let controls = self.face.pack.controls.controls();
+            let controls = self.face.pack.controls().controls();
             let led = ["eye.left.ud", "eye.left.lr", "eye.right.ud", "eye.right.lr", "head.turn", "head.bow"];
             let ahead = led.iter().filter_map(|name| {
-                let index = self.face.pack.controls.index(name)?;
+                let index = self.face.pack.controls().index(name)?;
                 Some((index, controls[index].default))
             });
             self.face.press(&Pose::new("ahead", ahead.collect()));

@@ -97,7 +97,7 @@ impl Stage {
         let shading = look.shading(&gpu.info);
         let renderer_config = RendererConfig { color_format: config.format, samples: SAMPLES, shading };
         let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
-        let hair = look.hair.choose(pack.hair.as_ref());
+        let hair = look.hair.choose(pack.hair());
         let model = scene::upload(pack, textures, device, &gpu.queue, hair)?;
         let mut avatar = AvatarState::new(device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
@@ -157,7 +157,7 @@ impl Stage {
     /// # Errors
     /// The device cannot hold it; then the old one stays.
     pub(super) fn set_avatar(&mut self, pack: &Pack, textures: &Textures, look: LookArgs) -> Result<()> {
-        let hair = look.hair.choose(pack.hair.as_ref());
+        let hair = look.hair.choose(pack.hair());
         let model = scene::upload(pack, textures, &self.gpu.device, &self.gpu.queue, hair)?;
         if let Some(error) = self.gpu.errors.take() {
             bail!("expected adapter {:?} to hold the avatar, found: {error}", self.gpu.info.name);
@@ -174,7 +174,7 @@ impl Stage {
 
     /// Name of the adapter, triangles and strands.
     pub(super) fn numbers(&self, pack: &Pack) -> (&str, u64, u64) {
-        let triangles = pack.parts.iter().map(|part| part.mesh.triangles.len() as u64).sum();
+        let triangles = pack.parts().iter().map(|part| part.mesh.triangles.len() as u64).sum();
         (&self.gpu.info.name, triangles, self.model.strand_count() as u64)
     }
 
