@@ -134,7 +134,10 @@ impl Face {
 
 /// Per vertex whether most of its weight is on the joint of `head.turn` and what hangs from it.
 fn on_head(pack: &Pack, part: &Part) -> Vec<bool> {
-    let control = pack.controls().index("head.turn").and_then(|index| pack.controls().controls().get(index));
+    let control = pack
+        .controls()
+        .index(pose_anim::face::HEAD_TURN)
+        .and_then(|index| pack.controls().controls().get(index));
     let head = control.and_then(|control| match &control.drives {
         pose_anim::Drive::Joint { joint, .. } => pack.rig().joint(joint),
         pose_anim::Drive::Shape { .. } => None,

@@ -109,6 +109,7 @@ mod clip_toml;
 mod control;
 mod control_toml;
 mod easing;
+pub mod face;
 mod error;
 mod goal;
 mod jet;

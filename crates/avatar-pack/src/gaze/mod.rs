@@ -12,13 +12,9 @@ mod solve;
 
 use crate::{FaceError, FaceState, Pack};
 use glam::{Affine3A, Vec3};
-use pose_anim::{Control, Drive, JointMotion};
+use pose_anim::{Control, Drive, JointMotion, face};
 use solve::Unknown;
 
-/// The controls of the eyes: up and down, left and right.
-const EYES: [[&str; 2]; 2] = [["eye.left.ud", "eye.left.lr"], ["eye.right.ud", "eye.right.lr"]];
-/// The controls of the head that the face turns with.
-const HEAD: [&str; 2] = ["head.turn", "head.bow"];
 /// Directions further from straight ahead say nothing about the side.
 const WIDEST_RAD: f32 = 0.95 * std::f32::consts::PI;
 
@@ -58,9 +54,9 @@ impl Gaze {
     /// The eyes of this pack, by the names of their controls (`eye.left.ud`, `eye.left.lr` and those of the right eye), and its head
     /// (`head.turn`, `head.bow`). Some of them may be missing; `None` where no control turns an eye's joint.
     pub fn new(pack: &Pack) -> Option<Self> {
-        let mut eyes: Vec<Turned> = EYES.iter().filter_map(|names| Turned::of(pack, *names)).collect();
+        let mut eyes: Vec<Turned> = face::EYES.iter().filter_map(|names| Turned::of(pack, *names)).collect();
         let middle = eyes.iter().map(|eye| eye.origin).sum::<Vec3>() / eyes.len().max(1) as f32;
-        let mut head = Turned::of(pack, HEAD).map(|head| Turned { origin: middle, ..head });
+        let mut head = Turned::of(pack, face::FACING).map(|head| Turned { origin: middle, ..head });
         let (mut state, mut values) = (FaceState::new(pack), pack.controls().defaults());
         for turned in eyes.iter_mut().chain(&mut head) {
             turned.reach_rad = turned.reach(pack, &mut state, &mut values).ok()?;

@@ -4,7 +4,7 @@ use super::sliders::Wanted;
 use super::{ImportFailure, ImportReport};
 use avatar_exchange::Scene;
 use glam::Vec3;
-use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace};
+use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, face};
 use std::collections::{HashMap, HashSet};
 
 /// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its hinge.
@@ -15,19 +15,21 @@ const JUT: Vec3 = Vec3::new(0.0, 0.811_534_35, 0.584_304_75);
 fn face_controls(role: Role) -> &'static [(&'static str, Vec3, f32, f32)] {
     match role {
         Role::Head => &[
-            ("head.turn", Vec3::Y, -70.0, 70.0),
-            ("head.bow", Vec3::X, -40.0, 40.0),
-            ("head.bend", Vec3::NEG_Z, -40.0, 40.0),
+            (face::HEAD_TURN, Vec3::Y, -70.0, 70.0),
+            (face::HEAD_BOW, Vec3::X, -40.0, 40.0),
+            (face::HEAD_BEND, Vec3::NEG_Z, -40.0, 40.0),
         ],
-        Role::Jaw => &[("jaw.open", Vec3::X, 0.0, 20.0), ("jaw.jut", JUT, -8.0, 8.0)],
-        Role::LeftEye => &[("eye.left.ud", Vec3::NEG_X, -25.0, 25.0), ("eye.left.lr", Vec3::Y, -30.0, 30.0)],
-        Role::RightEye => {
-            &[("eye.right.ud", Vec3::NEG_X, -25.0, 25.0), ("eye.right.lr", Vec3::Y, -30.0, 30.0)]
+        Role::Jaw => &[(face::JAW_OPEN, Vec3::X, 0.0, 20.0), (face::JAW_JUT, JUT, -8.0, 8.0)],
+        Role::LeftEye => {
+            &[(face::EYE_LEFT_UD, Vec3::NEG_X, -25.0, 25.0), (face::EYE_LEFT_LR, Vec3::Y, -30.0, 30.0)]
         }
-        Role::LeftUpperLid => &[("lid.left.upper", Vec3::X, -10.0, 45.0)],
-        Role::RightUpperLid => &[("lid.right.upper", Vec3::X, -10.0, 45.0)],
-        Role::LeftLowerLid => &[("lid.left.lower", Vec3::NEG_X, -5.0, 25.0)],
-        Role::RightLowerLid => &[("lid.right.lower", Vec3::NEG_X, -5.0, 25.0)],
+        Role::RightEye => {
+            &[(face::EYE_RIGHT_UD, Vec3::NEG_X, -25.0, 25.0), (face::EYE_RIGHT_LR, Vec3::Y, -30.0, 30.0)]
+        }
+        Role::LeftUpperLid => &[(face::LID_LEFT_UPPER, Vec3::X, -10.0, 45.0)],
+        Role::RightUpperLid => &[(face::LID_RIGHT_UPPER, Vec3::X, -10.0, 45.0)],
+        Role::LeftLowerLid => &[(face::LID_LEFT_LOWER, Vec3::NEG_X, -5.0, 25.0)],
+        Role::RightLowerLid => &[(face::LID_RIGHT_LOWER, Vec3::NEG_X, -5.0, 25.0)],
     }
 }
 
@@ -44,9 +46,9 @@ impl EyeRanges {
     /// The range of a control, if it is one of an eye.
     fn of(self, control: &str) -> Option<(f32, f32)> {
         match control {
-            "eye.left.ud" | "eye.right.ud" => Some((-self.down, self.up)),
-            "eye.left.lr" => Some((-self.to_nose, self.from_nose)),
-            "eye.right.lr" => Some((-self.from_nose, self.to_nose)),
+            face::EYE_LEFT_UD | face::EYE_RIGHT_UD => Some((-self.down, self.up)),
+            face::EYE_LEFT_LR => Some((-self.to_nose, self.from_nose)),
+            face::EYE_RIGHT_LR => Some((-self.from_nose, self.to_nose)),
             _ => None,
         }
     }

@@ -2,7 +2,7 @@ use super::controls::EyeRanges;
 use super::{Import, ImportFailure, Role};
 use crate::Pack;
 use avatar_exchange::vrm::{Gaze, LookAt, LookAtKind, RangeMap, Vrm, VrmModel, expression_weights};
-use pose_anim::{Drive, Pose};
+use pose_anim::{Drive, Pose, face};
 
 impl Import {
     /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word, and a pose for each
@@ -45,10 +45,10 @@ impl Import {
 pub fn gaze_values(look_at: &LookAt, gaze: Gaze) -> [(&'static str, f32); 4] {
     let turn = look_at.eyes(gaze);
     [
-        ("eye.left.ud", -turn.left.pitch_deg),
-        ("eye.left.lr", turn.left.yaw_deg),
-        ("eye.right.ud", -turn.right.pitch_deg),
-        ("eye.right.lr", turn.right.yaw_deg),
+        (face::EYE_LEFT_UD, -turn.left.pitch_deg),
+        (face::EYE_LEFT_LR, turn.left.yaw_deg),
+        (face::EYE_RIGHT_UD, -turn.right.pitch_deg),
+        (face::EYE_RIGHT_LR, turn.right.yaw_deg),
     ]
 }
 

@@ -2,19 +2,19 @@ use super::RawError;
 use crate::{Pack, PaletteBone};
 use avatar_mesh::FACE_BONES;
 use glam::{DAffine3, DMat3, DMat4, Mat4};
-use pose_anim::{Drive, JointMotion};
+use pose_anim::{Drive, JointMotion, face};
 use rig_core::{RawJoint, RawRig, Rig};
 
 /// The joints of the format that controls of the nine-joint face stand for.
 const BY_CONTROL: [(&str, &str); 8] = [
-    ("head.turn", "HeadJoint"),
-    ("jaw.open", "JawJoint"),
-    ("eye.left.lr", "LtEyeJoint"),
-    ("eye.right.lr", "RtEyeJoint"),
-    ("lid.left.upper", "LtUpperLidJoint"),
-    ("lid.right.upper", "RtUpperLidJoint"),
-    ("lid.left.lower", "LtLowerLidJoint"),
-    ("lid.right.lower", "RtLowerLidJoint"),
+    (face::HEAD_TURN, "HeadJoint"),
+    (face::JAW_OPEN, "JawJoint"),
+    (face::EYE_LEFT_LR, "LtEyeJoint"),
+    (face::EYE_RIGHT_LR, "RtEyeJoint"),
+    (face::LID_LEFT_UPPER, "LtUpperLidJoint"),
+    (face::LID_RIGHT_UPPER, "RtUpperLidJoint"),
+    (face::LID_LEFT_LOWER, "LtLowerLidJoint"),
+    (face::LID_RIGHT_LOWER, "RtLowerLidJoint"),
 ];
 
 /// Bones whose matrix at rest is this near to the identity, as a share of the avatar's size, leave vertices where they are.

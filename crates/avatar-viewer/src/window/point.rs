@@ -9,7 +9,7 @@ use avatar_mesh::Deformed;
 use avatar_pack::{Gaze, Pack, Reach};
 use avatar_render::Camera;
 use glam::{Vec2, Vec3};
-use pose_anim::Pose;
+use pose_anim::{Pose, face};
 use std::sync::mpsc::{Receiver, channel};
 use winit::event_loop::EventLoopProxy;
 
@@ -185,8 +185,8 @@ impl App {
         self.pointing.follows = !self.pointing.follows;
         if !self.pointing.follows {
             let controls = self.face.pack.controls().controls();
-            let led = ["eye.left.ud", "eye.left.lr", "eye.right.ud", "eye.right.lr", "head.turn", "head.bow"];
-            let ahead = led.iter().filter_map(|name| {
+            let led = face::EYES.iter().chain([&face::FACING]).flatten();
+            let ahead = led.filter_map(|name| {
                 let index = self.face.pack.controls().index(name)?;
                 Some((index, controls[index].default))
             });
