@@ -13,7 +13,7 @@ pub struct PoseForm {
     /// Name of the key that calls it.
     pub key: Option<String>,
     /// Seconds that a move to it takes; `None`: each control takes its own time.
-    pub duration_secs: Option<f32>,
+    pub duration_secs: Option<f64>,
 }
 
 impl From<&Pose> for PoseForm {
@@ -23,7 +23,7 @@ impl From<&Pose> for PoseForm {
 }
 
 /// Seconds that a file of poses takes as a duration.
-const DURATIONS: std::ops::RangeInclusive<f32> = 0.001..=3600.0;
+const DURATIONS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
 
 impl PoseForm {
     /// The form as a pose can have it: without blanks around the name and key. `own` is the pose that is edited, if it is not a new one.

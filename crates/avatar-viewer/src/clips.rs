@@ -34,7 +34,7 @@ impl FoundClip<'_> {
         match self {
             Self::File(name) => {
                 let secs = pack.motion().and_then(|motion| motion.duration_secs(name).ok());
-                secs.map_or(0.0, f64::from)
+                secs.unwrap_or(0.0)
             }
             Self::Controls(clip) if clip.wrap == Wrap::PingPong => 2.0 * clip.duration_secs(),
             Self::Controls(clip) => clip.duration_secs(),
@@ -57,7 +57,7 @@ impl FoundClip<'_> {
                 Ok(MotionAt::default())
             }
             Self::File(name) => {
-                let at = pack.motion().map(|motion| motion.at(name, time_secs as f32)).transpose();
+                let at = pack.motion().map(|motion| motion.at(name, time_secs)).transpose();
                 Ok(at.map_err(|error| usage(error.to_string()))?.unwrap_or_default())
             }
         }

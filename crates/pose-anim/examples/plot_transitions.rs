@@ -138,7 +138,7 @@ fn player(presses: &[Press]) -> Result<Vec<Jet>, Box<dyn std::error::Error>> {
         while let Some((at, target, duration)) = presses.next_if(|press| press.0 <= time(tick)) {
             player.advance(at - now)?;
             now = *at;
-            player.press(&Pose::new("p", vec![(0, *target as f32)]).lasting(*duration as f32));
+            player.press(&Pose::new("p", vec![(0, *target as f32)]).lasting(*duration));
         }
         player.advance(time(tick) - now)?;
         now = time(tick);

@@ -174,7 +174,7 @@ impl Channel {
         self.take_back(rare);
         let distance = path.at(0.0).value - self.state(rare).value;
         let secs = fade_secs.unwrap_or_else(|| pace.duration_secs(distance, self.range.width()));
-        self.fade_into(Path::Clip(path), sensible(secs, pace.longest_secs.into()), rare);
+        self.fade_into(Path::Clip(path), sensible(secs, pace.longest_secs), rare);
     }
 
     /// Comes to rest about where the least braking leads, if anything moves.
@@ -184,7 +184,7 @@ impl Channel {
             return;
         }
         let state = self.state(rare);
-        let secs = sensible(pace.longest_secs.into(), 0.5);
+        let secs = sensible(pace.longest_secs, 0.5);
         let braked = state.value + secs * (state.velocity / 2.0 + state.acceleration * secs / 12.0);
         let target = self.range.clamp(braked);
         self.start(Goal { target, duration_secs: Some(secs), pace, factor: 1.0, easing: None }, rare);

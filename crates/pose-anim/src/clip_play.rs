@@ -21,10 +21,10 @@ impl ClipPath {
         let keys = clip.tracks().get(track)?;
         let last = keys.just_before(keys.end_secs());
         let end = keys.at(keys.end_secs()).value;
-        let tail = if jumps_or_rests(last, end, pace.longest_secs.into(), range.width()) {
+        let tail = if jumps_or_rests(last, end, pace.longest_secs, range.width()) {
             Quintic::rest(end)
         } else {
-            settle(Jet { value: end, ..last }, end, pace.longest_secs.into(), range)
+            settle(Jet { value: end, ..last }, end, pace.longest_secs, range)
         };
         let clip_secs = if clip.wrap == Wrap::Once { keys.end_secs() } else { clip.duration_secs() };
         Some(Self { clip: Arc::clone(clip), track, clip_secs, tail })

@@ -57,9 +57,9 @@ pub enum JointMotion {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
     /// Seconds of the smallest move.
-    pub shortest_secs: f32,
+    pub shortest_secs: f64,
     /// Seconds of a move through the whole range.
-    pub longest_secs: f32,
+    pub longest_secs: f64,
 }
 
 impl Pace {
@@ -78,7 +78,7 @@ impl Pace {
     pub const OTHER: Self = Self::new(0.3, 0.6);
 
     /// A pace from its two durations in seconds.
-    pub const fn new(shortest_secs: f32, longest_secs: f32) -> Self {
+    pub const fn new(shortest_secs: f64, longest_secs: f64) -> Self {
         Self { shortest_secs, longest_secs }
     }
 
@@ -99,9 +99,8 @@ impl Pace {
 
     /// Seconds of a move by `distance` in a control whose range is `range` wide.
     pub fn duration_secs(self, distance: f64, range: f64) -> f64 {
-        let (shortest, longest) = (f64::from(self.shortest_secs), f64::from(self.longest_secs));
         let share = if range > 0.0 { (distance.abs() / range).min(1.0) } else { 0.0 };
-        shortest + (longest - shortest) * share
+        self.shortest_secs + (self.longest_secs - self.shortest_secs) * share
     }
 }
 

@@ -121,8 +121,8 @@ fn axis(entry: &Entry<'_, '_>) -> Result<Vec3, TomlError> {
 }
 
 fn pace(entry: &Entry<'_, '_>) -> Result<Pace, TomlError> {
-    let numbers: Vec<f32> =
-        entry.array()?.iter().map(|item| item.number(SECONDS)).collect::<Result<_, _>>()?;
+    let numbers: Vec<f64> =
+        entry.array()?.iter().map(|item| item.precise(SECONDS)).collect::<Result<_, _>>()?;
     match numbers[..] {
         [shortest, longest] if shortest >= 0.001 && longest >= shortest && longest <= 3600.0 => {
             Ok(Pace::new(shortest, longest))

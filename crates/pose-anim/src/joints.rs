@@ -101,9 +101,8 @@ impl JointPlayer {
     ///
     /// What is no target is passed over: a rotation without length or with numbers that are not finite, a component of the translation that
     /// is not finite. There the former target stays, to be reached in the new time.
-    pub fn press(&mut self, target: JointTarget, duration_secs: f32) {
-        let secs = f64::from(duration_secs);
-        let duration_secs = if secs.is_nan() { 0.001 } else { secs.clamp(0.001, 3600.0) };
+    pub fn press(&mut self, target: JointTarget, duration_secs: f64) {
+        let duration_secs = if duration_secs.is_nan() { 0.001 } else { duration_secs.clamp(0.001, 3600.0) };
         let rotation = self.rotation_jets();
         let translation = self.translation_jets();
         // The time scale of the running motion; a rest has none.

@@ -125,14 +125,14 @@ impl Layers {
 
     /// Moves the weight of a layer to a value from 0 to 1, smoothly, in this many seconds (0.001 to 3600). Like a press, it may
     /// come at any time. Weights beyond are clamped, and NaN or a layer of another [`Layers`] changes nothing.
-    pub fn fade_to(&mut self, layer: LayerId, weight: f32, duration_secs: f32) {
+    pub fn fade_to(&mut self, layer: LayerId, weight: f32, duration_secs: f64) {
         let Some(layer) = self.find(layer) else { return };
         if weight.is_nan() {
             return;
         }
         let goal = Goal {
             target: WEIGHTS.clamp(weight.into()),
-            duration_secs: Some(duration_secs.into()),
+            duration_secs: Some(duration_secs),
             pace: Pace::SHAPE,
             factor: 1.0,
             easing: None,

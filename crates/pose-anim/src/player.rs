@@ -69,13 +69,13 @@ impl Player {
             let timing = pose.timing(*control);
             let goal = Goal {
                 target: channel.range().clamp(f64::from(*value)),
-                duration_secs: pose.duration_secs.map(f64::from),
+                duration_secs: pose.duration_secs,
                 pace: *pace,
-                factor: timing.factor.into(),
+                factor: timing.factor,
                 easing,
             };
-            let delay_secs = f64::from(timing.delay_secs);
-            channel.press(goal, if delay_secs.is_nan() { 0.0 } else { delay_secs.min(3600.0) }, rare);
+            let delay_secs = if timing.delay_secs.is_nan() { 0.0 } else { timing.delay_secs.min(3600.0) };
+            channel.press(goal, delay_secs, rare);
         }
     }
 
@@ -85,7 +85,7 @@ impl Player {
     ///
     /// The motion is as smooth as the clip is: a track with corners or jumps keeps them, and so do the seams of a clip that repeats itself
     /// ([`crate::Wrap`]). The fade takes 0.001 to 3600 s, so 0 means 1 ms.
-    pub fn play(&mut self, clip: &Arc<Clip>, fade_secs: Option<f32>) {
+    pub fn play(&mut self, clip: &Arc<Clip>, fade_secs: Option<f64>) {
         for (index, track) in clip.tracks().iter().enumerate() {
             let control = track.control();
             let (Some(channel), Some(rare)) = (self.channels.get_mut(control), self.rare.get_mut(control))
@@ -93,7 +93,7 @@ impl Player {
                 continue;
             };
             let Some(pace) = self.paces.get(control) else { continue };
-            channel.play(clip, index, *pace, fade_secs.map(f64::from), rare);
+            channel.play(clip, index, *pace, fade_secs, rare);
         }
     }
 

@@ -16,7 +16,7 @@ pub struct Pose {
     /// Index of a control and its value, in degrees, units of the rig or weights.
     pub values: Vec<(usize, f32)>,
     /// Seconds that a move to this pose takes. `None`: each control takes its own time ([`crate::Pace`]).
-    pub duration_secs: Option<f32>,
+    pub duration_secs: Option<f64>,
     /// How the move runs. `None`: with the least jerk. Any other one is led smoothly out of the motion before, and
     /// smoothly to rest.
     pub transition: Option<Easing>,
@@ -28,9 +28,9 @@ pub struct Pose {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
     /// Seconds after the press at which the control's move starts; until then it goes on with whatever it does.
-    pub delay_secs: f32,
+    pub delay_secs: f64,
     /// Multiplies the duration.
-    pub factor: f32,
+    pub factor: f64,
 }
 
 impl Default for Timing {
@@ -52,7 +52,7 @@ impl Pose {
 
     /// The same pose, whose move takes this many seconds.
     #[must_use]
-    pub fn lasting(self, duration_secs: f32) -> Self {
+    pub fn lasting(self, duration_secs: f64) -> Self {
         Self { duration_secs: Some(duration_secs), ..self }
     }
 

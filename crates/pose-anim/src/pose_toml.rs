@@ -45,8 +45,8 @@ fn pose(mut table: Table<'_, '_>, controls: &ControlTable, before: &PoseSet) -> 
     Ok(pose)
 }
 
-pub(crate) fn duration(entry: &Entry<'_, '_>) -> Result<f32, TomlError> {
-    let duration_secs = entry.number(DURATION)?;
+pub(crate) fn duration(entry: &Entry<'_, '_>) -> Result<f64, TomlError> {
+    let duration_secs = entry.precise(DURATION)?;
     if (0.001..=3600.0).contains(&duration_secs) {
         Ok(duration_secs)
     } else {
@@ -137,8 +137,8 @@ fn timing(entry: &Entry<'_, '_>, _: &Control) -> Result<Timing, TomlError> {
     Ok(timing)
 }
 
-fn within(entry: &Entry<'_, '_>, expected: &str, min: f32, max: f32) -> Result<f32, TomlError> {
-    let number = entry.number(expected)?;
+fn within(entry: &Entry<'_, '_>, expected: &str, min: f64, max: f64) -> Result<f64, TomlError> {
+    let number = entry.precise(expected)?;
     if (min..=max).contains(&number) { Ok(number) } else { Err(entry.error_found(expected)) }
 }
 

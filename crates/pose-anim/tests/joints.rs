@@ -37,7 +37,7 @@ fn apart(a: DQuat, b: DQuat) -> f64 {
 proptest! {
     #[test]
     fn presses_are_smooth_and_arrivals_exact(
-        presses in prop::collection::vec((target(), 0.05f32..1.0, 0.0f64..0.5), 1..8),
+        presses in prop::collection::vec((target(), 0.05f64..1.0, 0.0f64..0.5), 1..8),
     ) {
         let mut player = JointPlayer::new(START);
         for (target, secs, wait) in presses {
@@ -56,7 +56,7 @@ proptest! {
             let h = 1e-5;
             let mut near = [player.clone(), player.clone(), player.clone()];
             for (index, player) in near.iter_mut().enumerate() {
-                player.advance(0.3 * f64::from(secs) + h * index as f64).unwrap();
+                player.advance(0.3 * secs + h * index as f64).unwrap();
                 prop_assert!((player.rotation().length() - 1.0).abs() < 1e-9);
             }
             let turned = near[2].rotation() * near[0].rotation().inverse();
@@ -66,12 +66,12 @@ proptest! {
             prop_assert!(omega.length() < 300.0 && near[1].linear_rates().0.length() < 300.0);
             let slope = 2.0 * DVec3::new(turned.x, turned.y, turned.z) / (2.0 * h);
             let curve = (near[2].angular_rates().0 - near[0].angular_rates().0) / (2.0 * h);
-            let size = 1.0 + alpha.length() / f64::from(secs);
+            let size = 1.0 + alpha.length() / secs;
             prop_assert!((slope - omega).length() < 1e-4 * size, "{slope} {omega}");
-            prop_assert!((curve - alpha).length() < 1e-3 * size * (1.0 + 1.0 / f64::from(secs)), "{curve} {alpha}");
+            prop_assert!((curve - alpha).length() < 1e-3 * size * (1.0 + 1.0 / secs), "{curve} {alpha}");
 
             let mut arrived = player.clone();
-            arrived.advance(f64::from(secs) - 1e-9).unwrap();
+            arrived.advance(secs - 1e-9).unwrap();
             let near = arrived.rotation();
             arrived.advance(2e-9).unwrap();
             prop_assert!(arrived.is_at_rest());
@@ -144,7 +144,7 @@ fn it_sets_a_joint_and_survives_anything() {
     for rotation in
         [Quat::IDENTITY, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0), Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0)]
     {
-        for secs in [0.0, f32::NAN, -1.0, 0.2] {
+        for secs in [0.0, f64::NAN, -1.0, 0.2] {
             player.press(JointTarget { rotation, translation: Vec3::splat(f32::INFINITY) }, secs);
             player.advance(0.0004).unwrap();
             assert!(player.local().is_finite());

@@ -11,7 +11,7 @@ fn table() -> ControlTable {
     ControlTable::from_toml(text).unwrap()
 }
 
-fn pose(a: f32, b: f32, secs: f32) -> Pose {
+fn pose(a: f32, b: f32, secs: f64) -> Pose {
     Pose::from_values("p", &[a, b]).lasting(secs)
 }
 
@@ -140,7 +140,7 @@ proptest! {
     /// of all players and weights. The trapezoid rule's error falls with the step only if nothing jumps.
     #[test]
     fn combinations_are_smooth_and_in_range(
-        presses in prop::collection::vec((0.0f64..1.0, 0usize..5, 0.0f32..=1.0, -1.0f32..=1.0, 0.05f32..0.6), 1..9),
+        presses in prop::collection::vec((0.0f64..1.0, 0usize..5, 0.0f32..=1.0, -1.0f32..=1.0, 0.05f64..0.6), 1..9),
     ) {
         let table = table();
         let error = |step: f64| {

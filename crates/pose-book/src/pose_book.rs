@@ -83,7 +83,7 @@ impl PoseBook {
         index: usize,
         name: &str,
         key: Option<&str>,
-        duration_secs: Option<f32>,
+        duration_secs: Option<f64>,
     ) -> Result<(), BookError> {
         let edit = format!("change {}", self.pose(index)?.name);
         self.edit(edit, |entries| {

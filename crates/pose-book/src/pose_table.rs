@@ -1,6 +1,6 @@
 //! A pose as a table of `poses.toml`.
 
-use crate::scalar::{easing, number, put};
+use crate::scalar::{easing, number, precise, put, put_precise};
 use pose_anim::{ControlTable, Pose, Timing};
 use toml_edit::{InlineTable, Item, Table, TableLike, Value, value};
 
@@ -20,10 +20,10 @@ pub(crate) fn new(pose: &Pose, controls: &ControlTable) -> Table {
         for (control, timing) in timings {
             let mut entry = InlineTable::new();
             if timing.delay_secs != 0.0 {
-                entry.insert("delay", number(timing.delay_secs));
+                entry.insert("delay", precise(timing.delay_secs));
             }
             if timing.factor != 1.0 {
-                entry.insert("factor", number(timing.factor));
+                entry.insert("factor", precise(timing.factor));
             }
             within.insert(name_of(controls, *control), value(entry));
         }
@@ -37,14 +37,14 @@ pub(crate) fn set_name(table: &mut Table, name: &str) {
 }
 
 pub(crate) fn set_key(table: &mut Table, key: Option<&str>) {
-    set(table, "key", key.map(Value::from));
+    set(table, "key", key.map(Value::from), put);
 }
 
-pub(crate) fn set_duration(table: &mut Table, duration_secs: Option<f32>) {
-    set(table, "duration", duration_secs.map(number));
+pub(crate) fn set_duration(table: &mut Table, duration_secs: Option<f64>) {
+    set(table, "duration", duration_secs.map(precise), put_precise);
 }
 
-fn set(table: &mut Table, name: &str, new: Option<Value>) {
+fn set(table: &mut Table, name: &str, new: Option<Value>, put: fn(&mut Item, Value)) {
     match new {
         Some(new) => put(table.entry(name).or_insert(Item::None), new),
         None => {

@@ -29,10 +29,24 @@ pub(crate) fn easing(easing: Easing) -> Value {
     }
 }
 
-/// Puts a value in the place of another, whose surroundings (a comment behind it) stay.
-pub(crate) fn put(item: &mut Item, mut value: Value) {
+/// Replaces a text or a number that is read at 32 bits; what stands around it, such as a comment behind it, stays. A
+/// value that already says the same keeps its spelling.
+pub(crate) fn put(item: &mut Item, value: Value) {
+    replace(item, value, |old, new| old as f32 == new as f32);
+}
+
+/// As [`put`], for a number that is read in full precision.
+pub(crate) fn put_precise(item: &mut Item, value: Value) {
+    replace(item, value, |old, new| old == new);
+}
+
+fn replace(item: &mut Item, mut value: Value, same: impl FnOnce(f64, f64) -> bool) {
     if let Some(old) = item.as_value() {
-        if same(old, &value) {
+        let is_same = match (as_number(old), as_number(&value)) {
+            (Some(old), Some(new)) => same(old, new),
+            _ => old.as_str().is_some() && old.as_str() == value.as_str(),
+        };
+        if is_same {
             return;
         }
         *value.decor_mut() = old.decor().clone();
@@ -40,11 +54,6 @@ pub(crate) fn put(item: &mut Item, mut value: Value) {
     *item = Item::Value(value);
 }
 
-/// Whether both are the same number or string, however spelt.
-fn same(a: &Value, b: &Value) -> bool {
-    let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
-    match (number(a), number(b)) {
-        (Some(a), Some(b)) => a as f32 == b as f32,
-        _ => a.as_str().is_some() && a.as_str() == b.as_str(),
-    }
+fn as_number(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }

@@ -167,7 +167,7 @@ fn line_ends_of_windows_are_read() {
 enum Edit {
     Add(u8, Vec<f32>),
     Rename(usize, u8),
-    Describe(usize, u8, Option<u8>, Option<f32>),
+    Describe(usize, u8, Option<u8>, Option<f64>),
     Values(usize, Vec<f32>),
     Move(usize, usize),
     Remove(usize),
@@ -180,7 +180,7 @@ fn edits() -> impl Strategy<Value = Vec<Edit>> {
     let one = prop_oneof![
         (any::<u8>(), values()).prop_map(|(name, values)| Edit::Add(name, values)),
         (0..6usize, 0..4u8).prop_map(|(index, name)| Edit::Rename(index, name)),
-        (0..6usize, 0..9u8, prop::option::of(0..4u8), prop::option::of(0.1..3.0f32))
+        (0..6usize, 0..9u8, prop::option::of(0..4u8), prop::option::of(0.1..3.0f64))
             .prop_map(|(index, name, key, secs)| Edit::Describe(index, name, key, secs)),
         (0..6usize, values()).prop_map(|(index, values)| Edit::Values(index, values)),
         (0..6usize, 0..6usize).prop_map(|(from, to)| Edit::Move(from, to)),

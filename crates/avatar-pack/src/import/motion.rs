@@ -68,15 +68,15 @@ impl SceneMotion {
     ///
     /// # Errors
     /// A clip that there is not.
-    pub fn duration_secs(&self, clip: &str) -> Result<f32, MotionError> {
-        Ok(self.scene.clips[self.find(clip)?].duration_secs())
+    pub fn duration_secs(&self, clip: &str) -> Result<f64, MotionError> {
+        Ok(self.scene.clips[self.find(clip)?].duration_secs().into())
     }
 
     /// What a clip sets at a time in seconds; before its first key and after its last one these hold.
     ///
     /// # Errors
     /// A clip that there is not.
-    pub fn at(&self, clip: &str, time_secs: f32) -> Result<MotionAt, MotionError> {
+    pub fn at(&self, clip: &str, time_secs: f64) -> Result<MotionAt, MotionError> {
         let mut sampler = self.sampler(self.find(clip)?)?;
         self.sample(&mut sampler, time_secs);
         Ok(sampler.at)
@@ -94,11 +94,11 @@ impl SceneMotion {
     }
 
     /// What the sampler's clip sets at a time in seconds. A sampler of another avatar gives nothing.
-    pub fn sample<'a>(&self, sampler: &'a mut MotionSampler, time_secs: f32) -> &'a MotionAt {
+    pub fn sample<'a>(&self, sampler: &'a mut MotionSampler, time_secs: f64) -> &'a MotionAt {
         let MotionSampler { clip, pose, at } = sampler;
         at.locals.clear();
         at.weights.clear();
-        if self.scene.apply(*clip, time_secs, pose).is_err() {
+        if self.scene.apply(*clip, time_secs as f32, pose).is_err() {
             return at;
         }
         for (node, local) in pose.locals.iter().enumerate() {

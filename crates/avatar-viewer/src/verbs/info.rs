@@ -99,7 +99,8 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
     });
     let poses = pack.poses().iter().map(|pose| PoseReport { name: pose.name.clone(), key: pose.key.clone() });
     let clips = pack.motion().into_iter().flat_map(|motion| {
-        let clip = |name: String| ClipReport { seconds: motion.duration_secs(&name).unwrap_or(0.0), name };
+        let clip =
+            |name: String| ClipReport { seconds: motion.duration_secs(&name).unwrap_or(0.0) as f32, name };
         motion.clips().into_iter().map(clip)
     });
     let of_controls = pack.clips().clips.iter();

@@ -10,7 +10,7 @@ use pose_anim::{Player, Pose};
 use pose_book::{ClipBook, PoseBook};
 
 /// Seconds in which a face follows a slider.
-const SLIDER_SECS: f32 = 0.12;
+const SLIDER_SECS: f64 = 0.12;
 /// An avatar and what it does: where its controls are, where they are heading, what plays, and its poses and clips.
 pub(super) struct Face {
     pub(super) files: Files,
@@ -61,7 +61,7 @@ impl Face {
         let clips = ClipBook::of_set(pack.clips(), pack.controls())?;
         let file_clips = pack.motion().map_or_else(Vec::new, |motion| {
             let named = |name: String| {
-                let secs = motion.duration_secs(&name).map_or(0.0, f64::from);
+                let secs = motion.duration_secs(&name).unwrap_or(0.0);
                 (name, secs)
             };
             motion.clips().into_iter().map(named).collect()
@@ -190,7 +190,7 @@ impl Face {
     }
 
     /// Takes single controls to values that somebody else finds out again and again; those that are nearly there are left alone.
-    pub(super) fn lead(&mut self, values: &[(usize, f32)], secs: f32, off: f32) {
+    pub(super) fn lead(&mut self, values: &[(usize, f32)], secs: f64, off: f32) {
         let is_off = |(control, value): &&(usize, f32)| (self.goal[*control] - value).abs() > off;
         let values: Vec<(usize, f32)> = values.iter().filter(is_off).copied().collect();
         if values.is_empty() {

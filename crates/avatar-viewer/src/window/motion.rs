@@ -5,7 +5,7 @@ use anyhow::Result;
 use avatar_pack::MotionSampler;
 
 /// Seconds in which the face is led into a clip, and out of it.
-const LEAD_SECS: f32 = 0.3;
+const LEAD_SECS: f64 = 0.3;
 
 /// A clip that comes, plays, is paused or goes.
 pub(super) struct Motion {
@@ -34,7 +34,7 @@ impl Motion {
 
     /// Lets time pass; whether there is anything left of it.
     fn advance(&mut self, secs: f64) -> bool {
-        let step = secs as f32 / LEAD_SECS;
+        let step = (secs / LEAD_SECS) as f32;
         self.share = if self.leaving { self.share - step } else { self.share + step }.clamp(0.0, 1.0);
         if self.playing && self.duration_secs > 0.0 {
             self.time_secs = (self.time_secs + secs).rem_euclid(self.duration_secs);
@@ -58,7 +58,7 @@ impl Face {
         }
         let sampler = scene.sampler(clip)?;
         let name = scene.clips().get(clip).cloned().unwrap_or_default();
-        let duration_secs = f64::from(scene.duration_secs(&name)?);
+        let duration_secs = scene.duration_secs(&name)?;
         self.motion = Some(Motion {
             clip,
             name,
@@ -88,7 +88,7 @@ impl Face {
         let (Some(motion), Some(scene)) = (&mut self.motion, self.pack.motion()) else { return Ok(false) };
         // Slow at both ends, as transitions are.
         let share = motion.share * motion.share * (3.0 - 2.0 * motion.share);
-        let at = scene.sample(&mut motion.sampler, motion.time_secs as f32);
+        let at = scene.sample(&mut motion.sampler, motion.time_secs);
         self.state.pose_toward(&self.pack, self.player.values(), at, share)?;
         Ok(true)
     }

@@ -20,7 +20,7 @@ pub(super) struct Recording {
 }
 
 /// Seconds in which a face follows the playhead that is dragged.
-const SCRUB_SECS: f32 = 0.08;
+const SCRUB_SECS: f64 = 0.08;
 
 impl Face {
     /// Plays a clip from where the playhead stands, or from its start.

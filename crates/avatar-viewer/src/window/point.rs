@@ -19,9 +19,9 @@ const MARKS: usize = 900;
 const TARGET: f32 = 0.5;
 /// Share of the way to the target by which the head turns, and the seconds that it takes: the eyes are there long before.
 const HEAD_SHARE: f32 = 0.45;
-const HEAD_SECS: f32 = 0.9;
+const HEAD_SECS: f64 = 0.9;
 /// Seconds that the eyes take.
-const EYE_SECS: f32 = 0.1;
+const EYE_SECS: f64 = 0.1;
 /// Degrees by which a control has to be off before it is corrected.
 const OFF_DEGREES: f32 = 0.25;
 

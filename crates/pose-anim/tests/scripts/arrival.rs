@@ -34,14 +34,14 @@ fn controls_arrive_when_their_pose_says() {
             let last = presses.iter().rev().find(|(_, pose)| pose.value(index).is_some());
             let Some((pressed, pose)) = last else { continue };
             let (target, timing) = (pose.value(index).unwrap(), pose.timing(index));
-            let start = pressed + f64::from(timing.delay_secs);
+            let start = pressed + timing.delay_secs;
             let state = at(start).state(index).unwrap();
             let own = || {
                 control
                     .pace
                     .duration_secs(f64::from(target) - state.value, f64::from(control.max - control.min))
             };
-            let secs = pose.duration_secs.map_or_else(own, f64::from) * f64::from(timing.factor);
+            let secs = pose.duration_secs.unwrap_or_else(own) * timing.factor;
             let rest = Jet::rest(target.into());
             // One that is all but there has nothing left to show.
             let far = (f64::from(target) - state.value).abs() > 1e-3 * f64::from(control.max - control.min);

@@ -45,25 +45,23 @@ pub(crate) fn table() -> ControlTable {
 #[derive(Clone, Debug)]
 pub(crate) enum Action {
     Press(Pose),
-    Play(Arc<Clip>, Option<f32>),
+    Play(Arc<Clip>, Option<f64>),
     Stop,
-    Weight(f32, f32),
-    Joint(JointTarget, f32),
+    Weight(f32, f64),
+    Joint(JointTarget, f64),
 }
 
 impl Action {
     /// Seconds after the action at which something begins or ends.
     pub(crate) fn seams(&self) -> Vec<f64> {
         match self {
-            Self::Press(pose) => {
-                pose.timings.iter().map(|(_, timing)| f64::from(timing.delay_secs)).collect()
-            }
+            Self::Press(pose) => pose.timings.iter().map(|(_, timing)| timing.delay_secs).collect(),
             Self::Play(clip, fade_secs) => {
                 let ends = clip.tracks().iter().map(|track| track.keys().last().unwrap().time_secs);
-                ends.chain(fade_secs.map(f64::from)).collect()
+                ends.chain(*fade_secs).collect()
             }
             Self::Stop => Vec::new(),
-            Self::Weight(_, secs) | Self::Joint(_, secs) => vec![f64::from(*secs)],
+            Self::Weight(_, secs) | Self::Joint(_, secs) => vec![*secs],
         }
     }
 }
@@ -201,14 +199,14 @@ pub(crate) fn pose(random: &mut Random, table: &ControlTable, transitions: &[Eas
         }
     }
     let mut pose = Pose::new("p", values);
-    pose.duration_secs = random.one_in(3).then(|| 0.02 + random.unit() as f32);
+    pose.duration_secs = random.one_in(3).then(|| 0.02 + random.unit());
     if random.one_in(4) {
         pose.transition = Some(transitions[random.below(transitions.len())]);
     }
     for control in 0..table.len() {
         if random.one_in(4) {
-            let delay_secs = 0.3 * random.unit() as f32;
-            pose = pose.timed(control, Timing { delay_secs, factor: 0.5 + random.unit() as f32 });
+            let delay_secs = 0.3 * random.unit();
+            pose = pose.timed(control, Timing { delay_secs, factor: 0.5 + random.unit() });
         }
     }
     if random.one_in(4) {
@@ -233,7 +231,7 @@ pub(crate) fn script(random: &mut Random, table: &ControlTable, transitions: &[E
     let layered = !random.one_in(3);
     let event = |at: f64| {
         let who = if layered { random.below(3) } else { 0 };
-        let secs = 0.05 + random.unit() as f32;
+        let secs = 0.05 + random.unit();
         let action = match random.below(9) {
             0 => Action::Play(Arc::new(clip(random, table)), random.one_in(2).then_some(secs)),
             1 if random.one_in(2) => Action::Stop,
