@@ -105,6 +105,7 @@ impl Stage {
         let part = PartDesc {
             label: "skin",
             mesh: &mesh,
+            first_weight: 0,
             kind: PartKind::Skin,
             bones: PartBones::PerVertex,
             textures: PartTextures::default(),

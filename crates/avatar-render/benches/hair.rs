@@ -114,6 +114,7 @@ fn avatar(
     let part = PartDesc {
         label: "skin",
         mesh: &skin.mesh,
+        first_weight: 0,
         kind: skin.kind,
         bones: PartBones::PerVertex,
         textures: PartTextures::default(),

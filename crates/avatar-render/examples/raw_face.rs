@@ -66,6 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .map(|(part, mesh)| PartDesc {
             label: part.name,
             mesh,
+            first_weight: 0,
             kind: part.kind,
             bones: match part.follows {
                 Follows::Bones => PartBones::PerVertex,

@@ -20,6 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let part = |label, mesh, kind, color| PartDesc {
         label,
         mesh,
+        first_weight: 0,
         kind,
         bones: PartBones::Rigid(0),
         textures: PartTextures { color, ..PartTextures::default() },

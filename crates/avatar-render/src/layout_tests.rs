@@ -38,7 +38,7 @@ fn layouts() -> Vec<Layout> {
     let (position, normal) = (offset_of!(GpuShapeOffset, position), offset_of!(GpuShapeOffset, normal));
     let shapes = size_of::<GpuActiveShapesHead>();
     vec![
-        layout!("Part", GpuPart, vertex_count, shape_count, rigid_bone, has_vertex_bones),
+        layout!("Part", GpuPart, vertex_count, first_weight, shape_count, rigid_bone, has_vertex_bones),
         layout!("Vertex", GpuVertex, position, u, normal, v),
         layout!("VertexBones", GpuVertexBones, indices, weights),
         Layout {

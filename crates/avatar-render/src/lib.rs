@@ -61,7 +61,8 @@
 //! # let mesh = Mesh::default();
 //! let gpu = open_blocking(GpuOptions::default())?;
 //! let bones = PartBones::Rigid(0);
-//! let part = PartDesc { label: "skin", mesh: &mesh, kind: PartKind::Skin, bones, textures: PartTextures::default() };
+//! let (kind, textures) = (PartKind::Skin, PartTextures::default());
+//! let part = PartDesc { label: "skin", mesh: &mesh, first_weight: 0, kind, bones, textures };
 //! let model = AvatarModel::new(&gpu.device, &gpu.queue, &[part], 1)?;
 //! let mut state = AvatarState::new(&gpu.device, &model);
 //! state.set(&gpu.queue, &[Affine3A::from_rotation_y(0.3)], &[])?;

@@ -17,8 +17,11 @@ use wgpu::util::DeviceExt;
 pub struct PartDesc<'a> {
     /// Name in graphics debuggers and messages.
     pub label: &'a str,
-    /// The undeformed mesh. Its k-th shape follows the avatar's k-th weight.
+    /// The undeformed mesh. Its k-th shape follows the avatar's weight number `first_weight + k`.
     pub mesh: &'a Mesh,
+    /// The weight that the first shape of the mesh follows: 0 where all parts share their shapes, else where the part's own
+    /// begin in the list of all.
+    pub first_weight: usize,
     /// How it is drawn.
     pub kind: PartKind,
     /// What moves it.
@@ -193,12 +196,15 @@ impl AvatarModel {
         let look_layout = look_layout(device);
         let height = height(parts);
         let upload_part = |desc: &PartDesc<'_>| {
-            let geometry =
-                Geometry::new(device, &geometry_layout, desc.label, desc.mesh, desc.bones, palette_len)?;
+            let geometry = Geometry::new(device, &geometry_layout, desc, palette_len)?;
             let eye = cornea_of(desc, parts).and_then(|cornea| eye_shape(cornea.mesh, desc.mesh));
             ModelPart::new(device, queue, &look_layout, desc, geometry, eye, height)
         };
-        let shape_count = parts.iter().map(|desc| desc.mesh.shapes.len()).max().unwrap_or(0);
+        let last_shapes = parts.iter().filter(|desc| !desc.mesh.shapes.is_empty());
+        let shape_count = last_shapes
+            .map(|desc| desc.first_weight.saturating_add(desc.mesh.shapes.len()))
+            .max()
+            .unwrap_or(0);
         let parts: Result<Vec<_>, _> = parts
             .iter()
             .map(|desc| {
@@ -214,7 +220,7 @@ impl AvatarModel {
         self.palette_len
     }
 
-    /// Number of weights that an avatar of this model needs: that of the part with the most shapes.
+    /// Number of weights that an avatar of this model needs: all up to the last one that a shape follows.
     pub fn shape_count(&self) -> usize {
         self.shape_count
     }

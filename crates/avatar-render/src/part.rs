@@ -1,10 +1,11 @@
 //! The geometry of one part on the GPU, shared by all avatars of a model.
 
-use crate::PartBones;
 use crate::curvature::curvatures;
 use crate::deformer::DEFORM_WORKGROUP_SIZE;
 use crate::model::PartProblem;
 use crate::shape_blocks::ShapeBlocks;
+use crate::state::{GpuActiveShape, GpuActiveShapesHead};
+use crate::{PartBones, PartDesc};
 use avatar_mesh::{DeformBounds, Mesh, Offsets, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -15,6 +16,7 @@ use wgpu::util::DeviceExt;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct GpuPart {
     pub(crate) vertex_count: u32,
+    pub(crate) first_weight: u32,
     pub(crate) shape_count: u32,
     pub(crate) rigid_bone: u32,
     pub(crate) has_vertex_bones: u32,
@@ -59,6 +61,8 @@ pub(crate) struct Geometry {
     pub(crate) length_per_uv: f32,
     /// Boxes around all that bones move, with any shapes.
     pub(crate) bounds: DeformBounds,
+    /// The weight that the first shape follows.
+    pub(crate) first_weight: usize,
     /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by distance.
     pub(crate) center: Vec3,
     pub(crate) center_bone: usize,
@@ -88,13 +92,17 @@ impl Geometry {
     pub(crate) fn new(
         device: &wgpu::Device,
         layout: &wgpu::BindGroupLayout,
-        label: &str,
-        mesh: &Mesh,
-        bones: PartBones,
+        desc: &PartDesc<'_>,
         palette_len: usize,
     ) -> Result<Self, PartProblem> {
+        let PartDesc { label, mesh, bones, first_weight, .. } = *desc;
         let limits = device.limits();
         check(mesh, bones, palette_len, &limits)?;
+        if !mesh.shapes.is_empty() {
+            let weights = first_weight.saturating_add(mesh.shapes.len());
+            let room = binding(&limits).saturating_sub(size_of::<GpuActiveShapesHead>() as u64);
+            fits("weights", weights, size_of::<GpuActiveShape>(), room)?;
+        }
         let shapes = ShapeBlocks::new(mesh, binding(&limits))?;
         let skinning = mesh.skinning.as_ref().filter(|_| bones == PartBones::PerVertex);
         let rigid_bone = match bones {
@@ -105,6 +113,7 @@ impl Geometry {
         let depth = bounds.map_or(0.0, |bounds| bounds.size().z);
         let head = GpuPart {
             vertex_count: mesh.positions.len() as u32,
+            first_weight: first_weight as u32,
             shape_count: shapes.shape_count,
             rigid_bone: rigid_bone as u32,
             has_vertex_bones: skinning.is_some().into(),
@@ -148,6 +157,7 @@ impl Geometry {
                 PartBones::PerVertex => DeformBounds::new(mesh),
                 PartBones::Rigid(bone) => DeformBounds::rigid(mesh, bone),
             },
+            first_weight,
             center: bounds.map_or(Vec3::ZERO, |bounds| bounds.center()),
             center_bone,
         })

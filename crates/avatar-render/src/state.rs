@@ -232,16 +232,18 @@ impl AvatarState {
     /// A box around the avatar as it is now. What is nowhere, or endless, has none: it must not take the shadows of other
     /// avatars with it.
     pub(crate) fn bounds(&self, model: &AvatarModel) -> Option<Bounds> {
-        let boxes = model.parts.iter().flat_map(|part| part.geometry.bounds.bones());
+        let boxes = model.parts.iter().flat_map(|ModelPart { geometry, .. }| {
+            geometry.bounds.bones().iter().map(|around| (geometry.first_weight, around))
+        });
         // Ascending by index.
         let weight = |shape: usize| {
             let found = self.active_shapes.binary_search_by_key(&shape, |active| active.index as usize);
             found.map_or(0.0, |at| self.active_shapes[at].weight)
         };
         boxes
-            .filter_map(|around| {
+            .filter_map(|(first, around)| {
                 let bone = self.bones.get(around.bone())?;
-                Some(bone.moved(around.shaped(|shape| [weight(shape); 2])))
+                Some(bone.moved(around.shaped(|shape| [weight(first + shape); 2])))
             })
             .filter(|bounds| bounds.size().is_finite() && bounds.center().is_finite())
             .reduce(Bounds::union)

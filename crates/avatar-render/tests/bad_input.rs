@@ -16,7 +16,7 @@ use wgpu::TextureFormat;
 /// What is wrong with a single part.
 fn problem(mesh: &Mesh, bones: PartBones, textures: PartTextures<'_>) -> Option<PartProblem> {
     let gpu = gpu()?;
-    let desc = PartDesc { label: "ear", mesh, kind: PartKind::Skin, bones, textures };
+    let desc = PartDesc { label: "ear", mesh, first_weight: 0, kind: PartKind::Skin, bones, textures };
     match AvatarModel::new(&gpu.device, &gpu.queue, &[desc], 2) {
         Err(ModelError::Part { label, problem }) => {
             assert_eq!(label, "ear");

@@ -14,7 +14,14 @@ use glam::{Affine3A, Vec3};
 const TOLERANCE: f32 = 2e-5;
 
 fn desc(mesh: &Mesh, bones: PartBones) -> PartDesc<'_> {
-    PartDesc { label: "cloud", mesh, kind: PartKind::Skin, bones, textures: PartTextures::default() }
+    PartDesc {
+        label: "cloud",
+        mesh,
+        first_weight: 0,
+        kind: PartKind::Skin,
+        bones,
+        textures: PartTextures::default(),
+    }
 }
 
 fn largest(a: &[Vec3], b: &[Vec3]) -> f32 {
@@ -233,6 +240,36 @@ fn parts_with_fewer_shapes_follow_the_first_weights() {
         deform(mesh, &[Affine3A::IDENTITY], weights, &mut on_cpu).expect("deformed");
         assert!(largest(&on_gpu.positions, &on_cpu.positions) < TOLERANCE);
     }
+}
+
+#[test]
+fn parts_with_shapes_of_their_own_follow_the_weights_from_their_first_on() {
+    let Some(gpu) = gpu() else { return };
+    let mut random = Random(12);
+    let weights = [0.5, 0.0, -0.25, 1.0, 0.0, 0.75, 2.0];
+    let meshes = [2, 3, 2].map(|shapes| random_mesh(&mut random, 130, shapes, None));
+    let firsts = [0, 1, 5];
+    let parts: Vec<_> = (meshes.iter().zip(firsts))
+        .map(|(mesh, first_weight)| PartDesc { first_weight, ..desc(mesh, PartBones::Rigid(0)) })
+        .collect();
+    let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, 1).expect("valid");
+    assert_eq!(model.shape_count(), 7);
+    let mut state = AvatarState::new(&gpu.device, &model);
+    state.set(&gpu.queue, &[Affine3A::IDENTITY], &weights).expect("lengths fit");
+    let deformer = Deformer::new(&gpu.device);
+    for (index, (mesh, first)) in meshes.iter().zip(firsts).enumerate() {
+        let on_gpu = deformer.run(&gpu.device, &gpu.queue, &model, &state, index).expect("deformed");
+        let mut on_cpu = mesh.deformed();
+        let weights = &weights[first..first + mesh.shapes.len()];
+        deform(mesh, &[Affine3A::IDENTITY], weights, &mut on_cpu).expect("deformed");
+        assert!(largest(&on_gpu.positions, &on_cpu.positions) < TOLERANCE);
+    }
+    // So many weights that no device has room for them; without shapes none are needed.
+    let far = PartDesc { first_weight: usize::MAX, ..parts[0] };
+    AvatarModel::new(&gpu.device, &gpu.queue, &[far], 1).expect_err("too many weights");
+    let still = random_mesh(&mut random, 3, 0, None);
+    let still = PartDesc { first_weight: usize::MAX, ..desc(&still, PartBones::Rigid(0)) };
+    assert_eq!(AvatarModel::new(&gpu.device, &gpu.queue, &[still], 1).expect("valid").shape_count(), 0);
 }
 
 #[test]

@@ -45,6 +45,7 @@ fn bald(gpu: &Gpu, pack: &Pack) -> AvatarModel {
     let part = PartDesc {
         label: "skin",
         mesh: &pack.parts()[0].mesh,
+        first_weight: 0,
         kind: pack.parts()[0].kind,
         bones: PartBones::PerVertex,
         textures: PartTextures::default(),

@@ -167,6 +167,7 @@ fn a_part_without_triangles_is_invisible() {
     let skin = PartDesc {
         label: "nothing",
         mesh: &empty,
+        first_weight: 0,
         kind: PartKind::Skin,
         bones: PartBones::Rigid(0),
         textures: PartTextures::default(),

@@ -46,6 +46,7 @@ impl Head {
         let part = PartDesc {
             label: "skin",
             mesh: self.skin(),
+            first_weight: 0,
             kind: self.pack.parts()[0].kind,
             bones: PartBones::PerVertex,
             textures: PartTextures::default(),

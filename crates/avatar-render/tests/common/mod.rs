@@ -155,7 +155,7 @@ pub(crate) fn square(center: Vec3, half: f32) -> Mesh {
 
 /// A rigid part without textures that follows bone 0.
 pub(crate) fn part<'a>(mesh: &'a Mesh, kind: PartKind, textures: PartTextures<'a>) -> PartDesc<'a> {
-    PartDesc { label: "part", mesh, kind, bones: PartBones::Rigid(0), textures }
+    PartDesc { label: "part", mesh, first_weight: 0, kind, bones: PartBones::Rigid(0), textures }
 }
 
 /// A model of rigid parts and its state at bind pose.

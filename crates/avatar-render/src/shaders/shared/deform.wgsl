@@ -14,11 +14,15 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     let block_count = (part.vertex_count + SHAPE_BLOCK - 1u) / SHAPE_BLOCK;
     for (var i = 0u; i < active_shapes.count; i++) {
         let shape = active_shapes.shapes[i];
-        // Indices rise: whatever follows belongs to parts with more shapes.
-        if shape.index >= part.shape_count {
+        if shape.index < part.first_weight {
+            continue;
+        }
+        // Indices rise: whatever follows belongs to other parts.
+        let own = shape.index - part.first_weight;
+        if own >= part.shape_count {
             break;
         }
-        let stored = shape_blocks[shape.index * block_count + block];
+        let stored = shape_blocks[own * block_count + block];
         if stored != RESTING_BLOCK {
             let offset = shape_offsets[stored * SHAPE_BLOCK + within];
             blended.position_world += shape.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);

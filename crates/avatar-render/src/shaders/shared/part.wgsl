@@ -2,6 +2,8 @@
 
 struct Part {
     vertex_count: u32,
+    // The number of the weight that the first shape follows.
+    first_weight: u32,
     // Rows of the table: shapes beyond move nothing of this part.
     shape_count: u32,
     // The bone of a part that is rigid; not read where vertices have bones of their own.
