@@ -1,6 +1,6 @@
 /// Why a TOML text could not be read, and where.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}, column {column}: {}expected {expected}, found {found}{}", subject(.key), hint(.nearest))]
+#[error("line {line}, column {column}: {}expected {expected}, found {found}{}", subject(.key), did_you_mean(.nearest.as_deref()))]
 pub struct TomlError {
     /// Line, from 1.
     pub line: usize,
@@ -20,6 +20,7 @@ fn subject(key: &str) -> String {
     if key.is_empty() { String::new() } else { format!("{key}: ") }
 }
 
-fn hint(nearest: &Option<String>) -> String {
-    nearest.as_ref().map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
+/// The end of an error message about a misspelt name: `; did you mean "smile"?`, or nothing without a nearest name.
+pub fn did_you_mean(nearest: Option<&str>) -> String {
+    nearest.map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
 }

@@ -39,16 +39,14 @@
 //!
 //! This crate knows no files and no clock. No text makes it panic.
 
-mod entry;
-mod error;
-mod field;
 mod nearest;
-mod table;
+mod error;
 mod text;
+mod table;
+mod field;
 
-pub use entry::{Entry, LARGEST};
-pub use error::TomlError;
+pub use error::{TomlError, did_you_mean};
 pub use field::{Field, Slot, read_field, read_fields};
 pub use nearest::nearest;
-pub use table::{Document, Table};
+pub use table::{Document, Entry, LARGEST, Table};
 pub use text::{quote, string};

@@ -1,8 +1,4 @@
-use crate::{TomlError, control_toml};
 use glam::Vec3;
-
-/// The controls of the nine-joint face as a text, to be copied beside a face and changed.
-pub const DEFAULT_CONTROLS_TOML: &str = include_str!("../assets/controls.toml");
 
 /// One elementary transformation or one blend-shape weight, with its range: the unit of posing.
 #[derive(Clone, Debug, PartialEq)]
@@ -182,20 +178,6 @@ pub struct ControlTable {
 }
 
 impl ControlTable {
-    /// The fifteen controls of the nine-joint face: [`DEFAULT_CONTROLS_TOML`].
-    pub fn default_face() -> Self {
-        // The text is part of the crate and a test reads it, so the error cannot happen.
-        Self::from_toml(DEFAULT_CONTROLS_TOML).unwrap_or_default()
-    }
-
-    /// Reads a `controls.toml`; its format is described at the top of [`DEFAULT_CONTROLS_TOML`].
-    ///
-    /// # Errors
-    /// The first thing in the text that is not as it has to be, with its place.
-    pub fn from_toml(text: &str) -> Result<Self, TomlError> {
-        Ok(control_toml::read(text)?)
-    }
-
     /// A table of these controls, without couplings.
     ///
     /// # Errors

@@ -1,41 +1,10 @@
-use rig_core::Place;
-
-/// Why a TOML text could not be read, and where.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{place}: {}expected {expected}, found {found}{}", subject(.key), hint(.nearest))]
-pub struct TomlError {
-    /// Where in the text.
-    pub place: Place,
-    /// The key with its tables, such as `pose.controls."head.turn"`; empty where no key is at fault.
-    pub key: String,
-    /// What would have been right there.
-    pub expected: String,
-    /// What stands there.
-    pub found: String,
-    /// The nearest valid name, if the fault is a name and one is close to it.
-    pub nearest: Option<String>,
-}
-
-impl From<placed_toml::TomlError> for TomlError {
-    fn from(error: placed_toml::TomlError) -> Self {
-        let placed_toml::TomlError { line, column, key, expected, found, nearest } = error;
-        Self { place: Place { line, column }, key, expected, found, nearest }
-    }
-}
-
-fn subject(key: &str) -> String {
-    if key.is_empty() { String::new() } else { format!("{key}: ") }
-}
-
-fn hint(nearest: &Option<String>) -> String {
-    nearest.as_ref().map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
-}
+use placed_toml::did_you_mean;
 
 /// Why a [`crate::ControlTable`] does not fit a rig and its shapes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BindError {
     /// A control that drives a joint which the rig does not have.
-    #[error("control {control:?}: expected a joint of the rig, found {joint:?}{}", hint(.nearest))]
+    #[error("control {control:?}: expected a joint of the rig, found {joint:?}{}", did_you_mean(.nearest.as_deref()))]
     UnknownJoint {
         /// Name of the control.
         control: String,
@@ -45,7 +14,7 @@ pub enum BindError {
         nearest: Option<String>,
     },
     /// A control that drives a blend shape which does not exist.
-    #[error("control {control:?}: expected a blend shape of the face, found {shape:?}{}", hint(.nearest))]
+    #[error("control {control:?}: expected a blend shape of the face, found {shape:?}{}", did_you_mean(.nearest.as_deref()))]
     UnknownShape {
         /// Name of the control.
         control: String,
@@ -83,7 +52,7 @@ pub enum ApplyError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MixError {
     /// A pose that does not exist.
-    #[error("expected the name of a pose, found {name:?}{}", hint(.nearest))]
+    #[error("expected the name of a pose, found {name:?}{}", did_you_mean(.nearest.as_deref()))]
     UnknownPose {
         /// The name.
         name: String,

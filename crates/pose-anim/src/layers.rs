@@ -1,7 +1,6 @@
-use crate::channel::Channel;
-use crate::goal::{Goal, Range};
-use crate::rare::Rare;
-use crate::reach::reach;
+use crate::channel::{Channel, Cold, MoveSpec};
+use crate::range::Range;
+use crate::soft_limit::soft_limit;
 use crate::{AdvanceError, ControlTable, Jet, Pace, Player};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -59,7 +58,7 @@ struct Layer {
     mode: LayerMode,
     mask: Vec<f64>,
     weight: Channel,
-    rare: Rare,
+    cold: Cold,
 }
 
 const WEIGHTS: Range = Range { min: 0.0, max: 1.0 };
@@ -104,7 +103,7 @@ impl Layers {
             mode,
             mask: (0..self.defaults.len()).map(share).collect(),
             weight: Channel::rest(WEIGHTS, 0.0),
-            rare: Rare::new(),
+            cold: Cold::new(),
         });
         LayerId { stack: self.stack, index: self.layers.len() - 1 }
     }
@@ -130,20 +129,20 @@ impl Layers {
         if weight.is_nan() {
             return;
         }
-        let goal = Goal {
+        let goal = MoveSpec {
             target: WEIGHTS.clamp(weight.into()),
             duration_secs: Some(duration_secs),
             pace: Pace::SHAPE,
             factor: 1.0,
             easing: None,
         };
-        layer.weight.press(goal, 0.0, &mut layer.rare);
+        layer.weight.press(goal, 0.0, &mut layer.cold);
     }
 
     /// The present weight of a layer with its derivatives; `None` if the layer is of another [`Layers`].
     pub fn weight(&self, layer: LayerId) -> Option<Jet> {
         let layer = if layer.stack == self.stack { self.layers.get(layer.index) } else { None };
-        layer.map(|layer| WEIGHTS.confine(layer.weight.state(&layer.rare)))
+        layer.map(|layer| WEIGHTS.confine(layer.weight.state(&layer.cold)))
     }
 
     /// Lets time pass in all players and weights, and combines them.
@@ -158,7 +157,7 @@ impl Layers {
         let Self { base, layers, states, defaults, ranges, .. } = self;
         base.advance_and(dt_secs, |control, state| states[control] = state);
         for layer in layers {
-            let weight = WEIGHTS.confine(layer.weight.advance(dt_secs, &mut layer.rare));
+            let weight = WEIGHTS.confine(layer.weight.advance(dt_secs, &mut layer.cold));
             let (mode, mask) = (layer.mode, &layer.mask);
             layer.player.advance_and(dt_secs, |control, own| {
                 // A table that is longer than the stack's has controls that it does not know.
@@ -180,7 +179,7 @@ impl Layers {
         let (range, default) = (*self.ranges.get(control)?, *self.defaults.get(control)?);
         let mut state = self.base.free_state(control)?;
         for layer in &self.layers {
-            let weight = WEIGHTS.confine(layer.weight.state(&layer.rare));
+            let weight = WEIGHTS.confine(layer.weight.state(&layer.cold));
             if let Some(own) = layer.player.free_state(control) {
                 state = layer.mode.over(state, own, *layer.mask.get(control)?, weight, default, range);
             }
@@ -205,7 +204,7 @@ impl Layers {
 
     /// Whether all players and weights have arrived.
     pub fn is_at_rest(&self) -> bool {
-        let rests = |layer: &Layer| layer.player.is_at_rest() && layer.weight.is_at_rest(&layer.rare);
+        let rests = |layer: &Layer| layer.player.is_at_rest() && layer.weight.is_at_rest(&layer.cold);
         self.base.is_at_rest() && self.layers.iter().all(rests)
     }
 }
@@ -218,7 +217,7 @@ impl LayerMode {
             _ if share == Jet::rest(0.0) => below,
             Self::Override if share == Jet::rest(1.0) => own,
             Self::Override => below.mix(own, share),
-            Self::Additive => reach(below, share * (own - Jet::rest(default)), range),
+            Self::Additive => soft_limit(below, share * (own - Jet::rest(default)), range),
         }
     }
 }

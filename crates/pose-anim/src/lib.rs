@@ -99,45 +99,34 @@
 //!
 //! This crate knows no files, no clock, no threads and no GPU, and allocates nothing once its objects are made.
 
-mod bind;
-mod channel;
-mod clip;
-mod clip_edit;
-mod clip_play;
-mod clip_set;
-mod clip_toml;
-mod control;
-mod control_toml;
-mod easing;
 pub mod face;
 mod error;
-mod goal;
 mod jet;
-mod joints;
-mod layers;
-mod mix;
-mod path;
-mod player;
+mod easing;
+mod control;
+mod bind;
 mod pose;
-mod pose_toml;
+mod mix;
+mod quadratic;
+mod clip;
+mod text;
+mod range;
 mod quintic;
-mod rare;
-mod reach;
-mod reduce;
-mod settle;
-mod toml_write;
+mod channel;
+mod soft_limit;
+mod player;
+mod layers;
+mod joints;
 
 pub use bind::Binding;
-pub use clip::{Clip, Key, Track, Transition, Wrap};
-pub use clip_set::ClipSet;
-pub use control::{
-    Control, ControlError, ControlTable, Coupling, DEFAULT_CONTROLS_TOML, Drive, JointMotion, Pace,
-};
+pub use clip::{Clip, ClipSet, Key, Reduction, Track, Transition, Wrap};
+pub use control::{Control, ControlError, ControlTable, Coupling, Drive, JointMotion, Pace};
 pub use easing::{Direction, Easing, Family};
-pub use error::{AdvanceError, ApplyError, BindError, ClipError, JumpError, MixError, TomlError};
+pub use error::{AdvanceError, ApplyError, BindError, ClipError, JumpError, MixError};
 pub use jet::Jet;
 pub use joints::{JointPlayer, JointTarget};
 pub use layers::{LayerId, LayerMode, Layers};
+pub use placed_toml::TomlError;
 pub use player::Player;
-pub use pose::{DEFAULT_POSES_TOML, Pose, PoseSet, Timing};
-pub use reduce::Reduction;
+pub use pose::{Pose, PoseSet, Timing};
+pub use text::{DEFAULT_CONTROLS_TOML, DEFAULT_POSES_TOML};

@@ -1,6 +1,5 @@
-use crate::channel::Channel;
-use crate::goal::{Goal, Range};
-use crate::rare::Rare;
+use crate::channel::{Channel, Cold, MoveSpec};
+use crate::range::Range;
 use crate::{AdvanceError, Clip, ControlTable, Jet, JumpError, Pace, Pose};
 use std::sync::Arc;
 
@@ -16,7 +15,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Player {
     channels: Vec<Channel>,
-    rare: Vec<Rare>,
+    cold: Vec<Cold>,
     paces: Vec<Pace>,
     values: Vec<f32>,
     velocities: Vec<f32>,
@@ -33,7 +32,7 @@ impl Player {
         };
         Self {
             channels: controls.controls().iter().map(channel).collect(),
-            rare: controls.controls().iter().map(|_| Rare::new()).collect(),
+            cold: controls.controls().iter().map(|_| Cold::new()).collect(),
             paces: controls.controls().iter().map(|control| control.pace).collect(),
             values: controls.defaults(),
             velocities: vec![0.0; controls.len()],
@@ -58,7 +57,7 @@ impl Player {
     pub fn press(&mut self, pose: &Pose) {
         let easing = pose.transition.filter(|easing| easing.is_sound());
         for (control, value) in &pose.values {
-            let (Some(channel), Some(rare)) = (self.channels.get_mut(*control), self.rare.get_mut(*control))
+            let (Some(channel), Some(cold)) = (self.channels.get_mut(*control), self.cold.get_mut(*control))
             else {
                 continue;
             };
@@ -67,7 +66,7 @@ impl Player {
                 continue;
             }
             let timing = pose.timing(*control);
-            let goal = Goal {
+            let goal = MoveSpec {
                 target: channel.range().clamp(f64::from(*value)),
                 duration_secs: pose.duration_secs,
                 pace: *pace,
@@ -75,7 +74,7 @@ impl Player {
                 easing,
             };
             let delay_secs = if timing.delay_secs.is_nan() { 0.0 } else { timing.delay_secs.min(3600.0) };
-            channel.press(goal, delay_secs, rare);
+            channel.press(goal, delay_secs, cold);
         }
     }
 
@@ -88,19 +87,19 @@ impl Player {
     pub fn play(&mut self, clip: &Arc<Clip>, fade_secs: Option<f64>) {
         for (index, track) in clip.tracks().iter().enumerate() {
             let control = track.control();
-            let (Some(channel), Some(rare)) = (self.channels.get_mut(control), self.rare.get_mut(control))
+            let (Some(channel), Some(cold)) = (self.channels.get_mut(control), self.cold.get_mut(control))
             else {
                 continue;
             };
             let Some(pace) = self.paces.get(control) else { continue };
-            channel.play(clip, index, *pace, fade_secs, rare);
+            channel.play(clip, index, *pace, fade_secs, cold);
         }
     }
 
     /// Brings everything that moves to rest where it is, as soon as is smooth; drops what waits.
     pub fn stop(&mut self) {
-        for ((channel, rare), pace) in self.channels.iter_mut().zip(&mut self.rare).zip(&self.paces) {
-            channel.stop(*pace, rare);
+        for ((channel, cold), pace) in self.channels.iter_mut().zip(&mut self.cold).zip(&self.paces) {
+            channel.stop(*pace, cold);
         }
     }
 
@@ -123,13 +122,13 @@ impl Player {
     #[inline]
     pub(crate) fn advance_and(&mut self, dt_secs: f64, mut look: impl FnMut(usize, Jet)) {
         let outputs = self.values.iter_mut().zip(&mut self.velocities).zip(&mut self.accelerations);
-        let channels = self.channels.iter_mut().zip(&mut self.rare).enumerate();
-        for ((index, (channel, rare)), ((value, velocity), acceleration)) in channels.zip(outputs) {
+        let channels = self.channels.iter_mut().zip(&mut self.cold).enumerate();
+        for ((index, (channel, cold)), ((value, velocity), acceleration)) in channels.zip(outputs) {
             if channel.sleeps() {
                 look(index, channel.at_rest());
                 continue;
             }
-            let state = channel.advance(dt_secs, rare);
+            let state = channel.advance(dt_secs, cold);
             look(index, state);
             let state = if self.confined { channel.range().confine(state) } else { state };
             *value = state.value as f32;
@@ -193,17 +192,17 @@ impl Player {
 
     /// The same before the end of the pipeline.
     pub(crate) fn free_state(&self, control: usize) -> Option<Jet> {
-        Some(self.channels.get(control)?.state(self.rare.get(control)?))
+        Some(self.channels.get(control)?.state(self.cold.get(control)?))
     }
 
     /// Whether all controls have arrived.
     pub fn is_at_rest(&self) -> bool {
-        self.channels.iter().zip(&self.rare).all(|(channel, rare)| channel.is_at_rest(rare))
+        self.channels.iter().zip(&self.cold).all(|(channel, cold)| channel.is_at_rest(cold))
     }
 
     /// Seconds until all controls have arrived, if nothing is pressed; infinite while a clip repeats.
     pub fn secs_to_rest(&self) -> f64 {
-        let channels = self.channels.iter().zip(&self.rare);
-        channels.map(|(channel, rare)| channel.remaining_secs(rare)).fold(0.0, f64::max)
+        let channels = self.channels.iter().zip(&self.cold);
+        channels.map(|(channel, cold)| channel.remaining_secs(cold)).fold(0.0, f64::max)
     }
 }

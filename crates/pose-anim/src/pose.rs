@@ -1,7 +1,4 @@
-use crate::{ControlTable, Easing, TomlError, pose_toml};
-
-/// The poses of the nine-joint face as a text, to be copied beside a face and changed.
-pub const DEFAULT_POSES_TOML: &str = include_str!("../assets/poses.toml");
+use crate::Easing;
 
 /// A named set of control values.
 ///
@@ -93,37 +90,6 @@ pub struct PoseSet {
 }
 
 impl PoseSet {
-    /// Reads a `poses.toml`; its format is described at the top of [`DEFAULT_POSES_TOML`].
-    ///
-    /// # Errors
-    /// The first thing in the text that is not as it has to be, with its place: also a control that the table does
-    /// not have, a value out of its range, a name or key that occurs twice.
-    pub fn from_toml(text: &str, controls: &ControlTable) -> Result<Self, TomlError> {
-        Ok(pose_toml::read(text, controls)?)
-    }
-
-    /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without those that
-    /// it lacks, and within its ranges.
-    pub fn default_face(controls: &ControlTable) -> Self {
-        let face = ControlTable::default_face();
-        // The text is part of the crate and a test reads it, so the error cannot happen.
-        let mut set = Self::from_toml(DEFAULT_POSES_TOML, &face).unwrap_or_default();
-        for pose in &mut set.poses {
-            let values = pose.values.iter().filter_map(|(index, value)| {
-                let here = controls.index(&face.controls()[*index].name)?;
-                let control = &controls.controls()[here];
-                Some((here, value.max(control.min).min(control.max)))
-            });
-            pose.values = values.collect();
-            let timings = pose.timings.iter();
-            let timings = timings.filter_map(|(index, timing)| {
-                Some((controls.index(&face.controls()[*index].name)?, *timing))
-            });
-            pose.timings = timings.collect();
-        }
-        set
-    }
-
     /// The pose of this name.
     pub fn get(&self, name: &str) -> Option<&Pose> {
         self.poses.iter().find(|pose| pose.name == name)

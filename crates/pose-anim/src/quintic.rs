@@ -1,4 +1,6 @@
-use crate::{Jet, goal::ROUNDING};
+use crate::Jet;
+use crate::quadratic::roots;
+use crate::range::ROUNDING;
 
 /// The only polynomial of degree five that starts in a given state and comes to rest at a target: the move of least
 /// jerk (Flash & Hogan 1985).
@@ -69,16 +71,6 @@ impl Quintic {
     }
 }
 
-/// Real roots of `a·x² + b·x + c`; NaN where there are none. No cancellation (Press et al., Numerical Recipes, 5.6).
-pub(crate) fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
-    let discriminant = b * b - 4.0 * a * c;
-    if discriminant < 0.0 {
-        return [f64::NAN; 2];
-    }
-    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
-    [q / a, c / q]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,20 +116,5 @@ mod tests {
             prop_assert!((last.value - target).abs() < 1e-12 && last.velocity.abs() < 1e-6 * (1.0 + size));
             prop_assert!(last.acceleration.abs() < 1e-4 * (1.0 + size));
         }
-    }
-
-    #[test]
-    fn roots_of_all_kinds() {
-        let near = |found: [f64; 2], expected: f64| found.iter().any(|root| (root - expected).abs() < 1e-12);
-        let found = roots(1.0, -3.0, 2.0);
-        assert!(near(found, 1.0) && near(found, 2.0));
-        assert!(near(roots(0.0, 2.0, -1.0), 0.5));
-        assert!(near(roots(1.0, -2.0, 1.0), 1.0));
-        // Without cancellation.
-        assert!(
-            (roots(1.0, -1e9, 1.0)[1] - 1e-9).abs() < 1e-24
-                || (roots(1.0, -1e9, 1.0)[0] - 1e-9).abs() < 1e-24
-        );
-        assert!(roots(1.0, 0.0, 1.0).iter().all(|root| root.is_nan()));
     }
 }

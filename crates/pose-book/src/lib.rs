@@ -28,14 +28,14 @@
 //! The crate opens no files: who does writes [`PoseBook::text`] after an edit, and calls [`PoseBook::replace`] when somebody else
 //! has written.
 
-mod arrange;
-mod clip_book;
-mod clip_table;
 mod error;
 mod history;
-mod pose_book;
-mod pose_table;
+mod arrange;
 mod scalar;
+mod pose_table;
+mod pose_book;
+mod clip_table;
+mod clip_book;
 
 pub use clip_book::ClipBook;
 pub use error::BookError;

@@ -48,12 +48,12 @@
 //!
 //! This crate knows no time, no blend shapes, no files and no GPU.
 
-mod elementary;
 mod error;
-mod pose;
 mod raw;
-mod rig;
 mod xml;
+mod rig;
+mod elementary;
+mod pose;
 
 pub use elementary::{Axis, Elementary, product};
 pub use error::{LengthMismatch, Place, RigError, UnknownJoint, XmlError, XmlProblem};

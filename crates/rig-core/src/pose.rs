@@ -87,6 +87,16 @@ impl RigPose {
 }
 
 impl Rig {
+    /// Local transforms of this rig, all identity.
+    pub fn locals(&self) -> Locals {
+        Locals::identity(self.len())
+    }
+
+    /// Room for the result of [`Rig::update`], in bind pose.
+    pub fn pose(&self) -> RigPose {
+        RigPose::in_bind(self)
+    }
+
     /// Computes `T = T_parent · B · L` and `X = T · W⁻¹` for all joints in one forward pass. Allocates nothing.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-use crate::{Place, RigError, XmlError, xml};
+use crate::{Place, RigError};
 use glam::Mat4;
 use std::collections::HashMap;
 
@@ -54,23 +54,6 @@ pub struct RawRig {
 }
 
 impl RawRig {
-    /// Reads a `Transformations.xml`. Rigidity is not checked here, so that a broken rig can be repaired.
-    ///
-    /// # Errors
-    /// The first thing in the text that is not as the format demands, with its place.
-    pub fn from_xml(bytes: &[u8]) -> Result<Self, XmlError> {
-        xml::read(bytes)
-    }
-
-    /// Writes a `Transformations.xml`. Reading it back gives every matrix to the last bit.
-    ///
-    /// # Errors
-    /// What could not be read back: duplicate or empty names, unknown parents, cycles, more than
-    /// [`crate::MAX_DEPTH`] levels, matrices that are not finite.
-    pub fn to_xml(&self) -> Result<String, RigError> {
-        xml::write(self)
-    }
-
     /// Indices into [`Self::joints`], parents before children, siblings in the order of the list, each subtree
     /// in one piece; and for each joint of the list the index of its parent.
     pub(crate) fn parents_first(&self) -> Result<(Vec<usize>, Vec<Option<usize>>), RigError> {

@@ -1,4 +1,4 @@
-use crate::{Locals, RawRig, RigError, RigPose, XmlError, XmlProblem};
+use crate::{RawRig, RigError, XmlError, XmlProblem};
 use glam::{Affine3A, Mat3A, Mat4, Vec4};
 
 /// How far a bind matrix may be from rigid: files print six digits. Applies to every element of `RᵀR − 1`, to
@@ -141,16 +141,6 @@ impl Rig {
     /// Inverses of the world bind matrices, `W⁻¹`.
     pub fn bind_from_world(&self) -> &[Affine3A] {
         &self.bind_from_world
-    }
-
-    /// Local transforms of this rig, all identity.
-    pub fn locals(&self) -> Locals {
-        Locals::identity(self.len())
-    }
-
-    /// Room for the result of [`Rig::update`], in bind pose.
-    pub fn pose(&self) -> RigPose {
-        RigPose::in_bind(self)
     }
 }
 

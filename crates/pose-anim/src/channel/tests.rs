@@ -1,5 +1,5 @@
+use super::brake::tests::FALLBACKS;
 use super::*;
-use crate::settle::tests::FALLBACKS;
 use crate::{Easing, Key, Track, Wrap};
 use std::cell::Cell;
 
@@ -10,8 +10,8 @@ thread_local! {
 
 const RANGE: Range = Range { min: -2.0, max: 3.0 };
 
-fn goal(target: f64, secs: f64) -> Goal {
-    Goal { target, duration_secs: Some(secs), ..Goal::NONE }
+fn spec(target: f64, secs: f64) -> MoveSpec {
+    MoveSpec { target, duration_secs: Some(secs), ..MoveSpec::NONE }
 }
 
 /// SplitMix64 (Steele, Lea & Flood 2014).
@@ -48,9 +48,9 @@ fn folds_keep_value_velocity_and_acceleration() {
     let ends = [RANGE.min, -1.0, 2.5, RANGE.max];
     let easings = ["linear", "cubic-out", "step", "ease-in-out"].map(|name| Easing::from_name(name).unwrap());
     for round in 0..2000 {
-        let (mut channel, mut rare) = (Channel::rest(RANGE, 0.0), Rare::new());
+        let (mut channel, mut cold) = (Channel::rest(RANGE, 0.0), Cold::new());
         for press in 0..40 {
-            let before = channel.state(&rare);
+            let before = channel.state(&cold);
             let (target, secs) = (random.one_of(&ends), random.one_of(&[0.05, 0.4, 2.0]));
             match (random.unit() * 6.0) as u32 {
                 0 => {
@@ -58,17 +58,17 @@ fn folds_keep_value_velocity_and_acceleration() {
                     let keys = vec![key(0.0, target), key(0.3, random.one_of(&ends)), key(0.6, target)];
                     let clip = Clip::new("c", vec![Track::new(0, keys).unwrap()]).unwrap();
                     let clip = clip.wrapped(random.one_of(&[Wrap::Once, Wrap::Loop, Wrap::PingPong]));
-                    channel.play(&Arc::new(clip), 0, Pace::OTHER, Some(secs), &mut rare);
+                    channel.play(&Arc::new(clip), 0, Pace::OTHER, Some(secs), &mut cold);
                 }
                 1 => {
                     let easing = Some(random.one_of(&easings));
-                    channel.press(Goal { easing, ..goal(target, secs) }, 0.0, &mut rare);
+                    channel.press(MoveSpec { easing, ..spec(target, secs) }, 0.0, &mut cold);
                 }
-                _ => channel.press(goal(target, secs), 0.0, &mut rare),
+                _ => channel.press(spec(target, secs), 0.0, &mut cold),
             }
-            assert_same(before, channel.state(&rare), &format!("round {round}, press {press}"));
+            assert_same(before, channel.state(&cold), &format!("round {round}, press {press}"));
             for _ in 0..3 {
-                let state = channel.advance(0.01 * random.unit(), &mut rare);
+                let state = channel.advance(0.01 * random.unit(), &mut cold);
                 let slack = 1e-12 * RANGE.width();
                 assert!((RANGE.min - slack..=RANGE.max + slack).contains(&state.value), "{state:?}");
             }
@@ -84,32 +84,32 @@ fn a_press_at_the_same_moment_replaces() {
     let mut random = Random(5);
     let mut faded = 0;
     for _ in 0..500 {
-        let (mut channel, mut rare) = (Channel::rest(RANGE, 0.0), Rare::new());
+        let (mut channel, mut cold) = (Channel::rest(RANGE, 0.0), Cold::new());
         for _ in 0..3 {
             let to = RANGE.min + random.unit() * RANGE.width();
-            channel.press(goal(to, 0.1 + 0.5 * random.unit()), 0.0, &mut rare);
-            channel.advance(0.2 * random.unit(), &mut rare);
+            channel.press(spec(to, 0.1 + 0.5 * random.unit()), 0.0, &mut cold);
+            channel.advance(0.2 * random.unit(), &mut cold);
         }
-        let (mut alone, mut alone_rare) = (channel.clone(), rare.clone());
+        let (mut alone, mut alone_cold) = (channel.clone(), cold.clone());
         // Direct or not, and more than one.
         for _ in 0..3 {
             let to = RANGE.min + random.unit() * RANGE.width();
-            channel.press(goal(to, 0.05 + 0.4 * random.unit()), 0.0, &mut rare);
+            channel.press(spec(to, 0.05 + 0.4 * random.unit()), 0.0, &mut cold);
         }
-        let last = goal(random.one_of(&[RANGE.max, 0.0]), 0.9);
-        channel.press(last, 0.0, &mut rare);
-        alone.press(last, 0.0, &mut alone_rare);
+        let last = spec(random.one_of(&[RANGE.max, 0.0]), 0.9);
+        channel.press(last, 0.0, &mut cold);
+        alone.press(last, 0.0, &mut alone_cold);
         faded += u32::from(alone.fades > 0);
         for _ in 0..20 {
-            assert_eq!(channel.advance(0.05, &mut rare), alone.advance(0.05, &mut alone_rare));
+            assert_eq!(channel.advance(0.05, &mut cold), alone.advance(0.05, &mut alone_cold));
         }
     }
     assert!((100..400).contains(&faded), "{faded}");
     // It also takes back a direct move that a stop follows at once.
-    let (mut channel, mut rare) = (Channel::rest(RANGE, 0.5), Rare::new());
-    channel.press(goal(2.0, 0.3), 0.0, &mut rare);
-    channel.stop(Pace::OTHER, &mut rare);
-    assert!(channel.is_at_rest(&rare) && channel.advance(1.0, &mut rare) == Jet::rest(0.5));
+    let (mut channel, mut cold) = (Channel::rest(RANGE, 0.5), Cold::new());
+    channel.press(spec(2.0, 0.3), 0.0, &mut cold);
+    channel.stop(Pace::OTHER, &mut cold);
+    assert!(channel.is_at_rest(&cold) && channel.advance(1.0, &mut cold) == Jet::rest(0.5));
 }
 
 #[test]
@@ -117,15 +117,15 @@ fn a_clip_is_let_go_of_when_it_has_no_part_any_more() {
     let keys = [0.0, 0.2].map(|time| Key::new(time, 5.0 * time, Easing::MinimumJerk)).to_vec();
     let clip = Arc::new(Clip::new("c", vec![Track::new(0, keys).unwrap()]).unwrap());
     let looped = Arc::new(Clip::clone(&clip).wrapped(Wrap::PingPong));
-    let (mut channel, mut rare) = (Channel::rest(RANGE, 0.0), Rare::new());
+    let (mut channel, mut cold) = (Channel::rest(RANGE, 0.0), Cold::new());
     for next in [0.0, 2.0] {
-        channel.play(&clip, 0, Pace::OTHER, Some(0.1), &mut rare);
-        channel.advance(0.05, &mut rare);
-        channel.play(&looped, 0, Pace::OTHER, Some(0.1), &mut rare);
-        channel.advance(0.15, &mut rare);
+        channel.play(&clip, 0, Pace::OTHER, Some(0.1), &mut cold);
+        channel.advance(0.05, &mut cold);
+        channel.play(&looped, 0, Pace::OTHER, Some(0.1), &mut cold);
+        channel.advance(0.15, &mut cold);
         assert_eq!((Arc::strong_count(&clip), Arc::strong_count(&looped)), (1, 2));
-        channel.press(goal(next, 0.2), 0.0, &mut rare);
-        channel.advance(0.2, &mut rare);
+        channel.press(spec(next, 0.2), 0.0, &mut cold);
+        channel.advance(0.2, &mut cold);
         assert_eq!((Arc::strong_count(&clip), Arc::strong_count(&looped)), (1, 1));
     }
 }
@@ -133,15 +133,15 @@ fn a_clip_is_let_go_of_when_it_has_no_part_any_more() {
 /// Four fades that are over cost nothing and hide nothing.
 #[test]
 fn fades_that_are_over_leave_the_outermost_target() {
-    let (mut channel, mut rare) = (Channel::rest(RANGE, 0.0), Rare::new());
+    let (mut channel, mut cold) = (Channel::rest(RANGE, 0.0), Cold::new());
     let easing = Easing::from_name("linear");
     for target in [1.0, 2.0, -1.0] {
-        channel.press(Goal { easing, ..goal(target, 1.0) }, 0.0, &mut rare);
-        channel.advance(0.09, &mut rare);
+        channel.press(MoveSpec { easing, ..spec(target, 1.0) }, 0.0, &mut cold);
+        channel.advance(0.09, &mut cold);
     }
     assert_eq!(channel.fades, 3);
-    channel.advance(0.25, &mut rare);
+    channel.advance(0.25, &mut cold);
     assert_eq!((channel.fades, channel.other_base), (0, true));
-    assert_eq!(channel.advance(0.67, &mut rare), Jet::rest(-1.0));
+    assert_eq!(channel.advance(0.67, &mut cold), Jet::rest(-1.0));
     assert!(channel.sleeps());
 }

@@ -34,7 +34,7 @@ impl MatrixText {
     }
 }
 
-pub(crate) fn read(bytes: &[u8]) -> Result<RawRig, XmlError> {
+pub(super) fn read(bytes: &[u8]) -> Result<RawRig, XmlError> {
     let text = encoding::decode(bytes)?;
     let cursor = (0, Place { line: 1, column: 1 });
     Parser { text: &text, rig: RawRig::default(), open: Vec::new(), depth: 0, seen: HashMap::new(), cursor }

@@ -3,7 +3,7 @@ use crate::{MatrixLayout, RawJoint, RawRig, RigError};
 use std::fmt::Write;
 
 /// Nested elements, two spaces a level, each matrix as four lines of shortest round-trip numbers.
-pub(crate) fn write(raw: &RawRig) -> Result<String, RigError> {
+pub(super) fn write(raw: &RawRig) -> Result<String, RigError> {
     let (order, parents) = raw.parents_first()?;
     let mut depths = vec![0usize; raw.joints.len()];
     let mut out = String::from("<JointSet>\n");

@@ -8,7 +8,26 @@ const AXIS: &str =
     r#"an axis "+x", "-x", "+y", "-y", "+z", "-z" or three numbers [x, y, z] that are not all 0"#;
 const SECONDS: &str = "[shortest, longest]: two numbers of seconds, 0.001 to 3600, in this order";
 
-pub(crate) fn read(source: &str) -> Result<ControlTable, TomlError> {
+/// The controls of the nine-joint face as a text, to be copied beside a face and changed.
+pub const DEFAULT_CONTROLS_TOML: &str = include_str!("../../assets/controls.toml");
+
+impl ControlTable {
+    /// The fifteen controls of the nine-joint face: [`DEFAULT_CONTROLS_TOML`].
+    pub fn default_face() -> Self {
+        // The text is part of the crate and a test reads it, so the error cannot happen.
+        Self::from_toml(DEFAULT_CONTROLS_TOML).unwrap_or_default()
+    }
+
+    /// Reads a `controls.toml`; its format is described at the top of [`DEFAULT_CONTROLS_TOML`].
+    ///
+    /// # Errors
+    /// The first thing in the text that is not as it has to be, with its place.
+    pub fn from_toml(text: &str) -> Result<Self, TomlError> {
+        read(text)
+    }
+}
+
+fn read(source: &str) -> Result<ControlTable, TomlError> {
     let document = Document::parse(source)?;
     let mut root = document.root();
     let mut controls: Vec<Control> = Vec::new();

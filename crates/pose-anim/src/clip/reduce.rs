@@ -1,5 +1,6 @@
-use crate::quintic::roots;
-use crate::{Clip, ClipError, Easing, Jet, Key, Track, Transition};
+use super::{Clip, Key, Track, Transition};
+use crate::quadratic::roots;
+use crate::{ClipError, Easing, Jet};
 
 /// What [`Clip::reduced`] saved.
 #[derive(Clone, Copy, Debug, PartialEq)]

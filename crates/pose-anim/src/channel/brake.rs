@@ -1,6 +1,6 @@
 use crate::Jet;
-use crate::goal::Range;
 use crate::quintic::Quintic;
+use crate::range::Range;
 
 /// How often the wanted duration is halved: to about a ten-millionth.
 const HALVINGS: i32 = 24;
@@ -18,7 +18,7 @@ const HALVINGS: i32 = 24;
 /// needed, and a tenth of its width further.
 ///
 /// What finds no way runs against the very end of its range. A motion in range never does; a clip may end so. It is held there.
-pub(crate) fn settle(state: Jet, target: f64, duration_secs: f64, range: Range) -> Quintic {
+pub(crate) fn brake(state: Jet, target: f64, duration_secs: f64, range: Range) -> Quintic {
     let range = if !range.holds(state.value) {
         let margin = 0.1 * range.width();
         Range { min: range.min.min(state.value - margin), max: range.max.max(state.value + margin) }
@@ -73,7 +73,7 @@ pub(crate) mod tests {
         ) {
             let state = Quintic::new(Jet::rest(from), to, old_secs).at(share * old_secs);
             let before = FALLBACKS.get();
-            let found = settle(state, target, secs, RANGE);
+            let found = brake(state, target, secs, RANGE);
             prop_assert_eq!(FALLBACKS.get(), before);
             let start = found.at(0.0);
             prop_assert!((start.value - state.value).abs() < 1e-12);
@@ -90,7 +90,7 @@ pub(crate) mod tests {
     fn the_end_of_the_range_at_speed_is_held() {
         let before = FALLBACKS.get();
         let wall = Jet { value: 3.0, velocity: 1.0, acceleration: 0.0 };
-        assert_eq!(settle(wall, 3.0, 0.4, RANGE).at(0.1), Jet::rest(3.0));
+        assert_eq!(brake(wall, 3.0, 0.4, RANGE).at(0.1), Jet::rest(3.0));
         assert_eq!(FALLBACKS.get(), before + 1);
     }
 }

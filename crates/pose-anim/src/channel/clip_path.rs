@@ -1,6 +1,6 @@
-use crate::goal::Range;
+use super::brake::brake;
 use crate::quintic::Quintic;
-use crate::settle::settle;
+use crate::range::Range;
 use crate::{Clip, Jet, Pace, Wrap};
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ impl ClipPath {
         let tail = if jumps_or_rests(last, end, pace.longest_secs, range.width()) {
             Quintic::rest(end)
         } else {
-            settle(Jet { value: end, ..last }, end, pace.longest_secs, range)
+            brake(Jet { value: end, ..last }, end, pace.longest_secs, range)
         };
         let clip_secs = if clip.wrap == Wrap::Once { keys.end_secs() } else { clip.duration_secs() };
         Some(Self { clip: Arc::clone(clip), track, clip_secs, tail })

@@ -1,7 +1,7 @@
 //! The format of `clips.toml`.
 
+use super::entries::{by_control, key, transition, value};
 use crate::clip::LATEST_SECS;
-use crate::pose_toml::{by_control, key, transition, value};
 use crate::{Clip, ClipSet, Control, ControlTable, Key, Track, Transition, Wrap};
 use placed_toml::{Document, Entry, Table, TomlError, quote};
 
@@ -10,7 +10,41 @@ const SLOPES: &str = "[leaving, arriving]: the slopes of a cubic, per second, he
 const RISE: &str = "by how much the whole rises, from -1e9 to 1e9";
 const FARTHEST: f64 = 1e9;
 
-pub(crate) fn read(source: &str, controls: &ControlTable) -> Result<ClipSet, TomlError> {
+impl ClipSet {
+    /// Reads a `clips.toml`:
+    ///
+    /// ```
+    /// # let controls = pose_anim::ControlTable::default_face();
+    /// let clips = pose_anim::ClipSet::from_toml(
+    ///     r#"
+    ///     [[clip]]
+    ///     name = "nod"
+    ///     key = "n"       # may be absent
+    ///     wrap = "once"   # or "loop" or "ping-pong"
+    ///     [clip.tracks]
+    ///     "head.bow" = [
+    ///         { t = 0.0, v = 0, transition = "sine-in-out" },    # a name, or [x1, y1, x2, y2] as in CSS
+    ///         { t = 0.3, v = 14, slopes = [0, 0] },              # cubic, with its slopes here and at the next key
+    ///         { t = 0.8, v = 0 },                                # straight, if there were a next key
+    ///         ## what a key baked into an eased span leaves on either side is a part of the whole:
+    ///         ## { t = 0.9, v = 1, part = { of = "sine-in-out", from = 0.5, to = 1, rise = 14 } }
+    ///     ]
+    ///     "#,
+    ///     &controls,
+    /// )?;
+    /// assert_eq!(clips.get("nod").map(|clip| clip.duration_secs()), Some(0.8));
+    /// # Ok::<(), pose_anim::TomlError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The first thing in the text that is not as it has to be, with its place: also a control that the table does
+    /// not have, a value out of its range, a time before its predecessor's, a name or key that occurs twice.
+    pub fn from_toml(text: &str, controls: &ControlTable) -> Result<Self, TomlError> {
+        read(text, controls)
+    }
+}
+
+fn read(source: &str, controls: &ControlTable) -> Result<ClipSet, TomlError> {
     let document = Document::parse(source)?;
     let mut root = document.root();
     let mut set = ClipSet::default();

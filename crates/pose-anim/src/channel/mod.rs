@@ -1,14 +1,23 @@
-use crate::clip_play::ClipPath;
-use crate::goal::{Goal, Range, sensible};
-use crate::path::{Eased, Path};
-use crate::quintic::Quintic;
-use crate::rare::{Fade, MAX_FADES, Rare, Waiting};
-use crate::{Clip, Jet, Pace};
-use std::sync::Arc;
-
-mod nest;
+mod move_spec;
+mod brake;
+mod clip_path;
+mod path;
+mod cold;
+mod fades;
 #[cfg(test)]
 mod tests;
+
+use crate::quintic::Quintic;
+use crate::range::Range;
+use crate::{Clip, Jet, Pace};
+use clip_path::ClipPath;
+use cold::{Fade, MAX_FADES, Waiting};
+use move_spec::clamp_duration;
+use path::{Eased, Path};
+use std::sync::Arc;
+
+pub(crate) use cold::Cold;
+pub(crate) use move_spec::MoveSpec;
 
 /// The motion of one control.
 ///
@@ -26,10 +35,10 @@ mod tests;
 /// `x_old` may itself be such a fade. When [`MAX_FADES`] are running and another one is needed, the two innermost parts
 /// (the path and the first fade) are *folded*: a single quintic takes over from their present state. Where it comes to
 /// rest does not matter, because it is about to fade out anyway; so place and time are free, and there always is a quintic that
-/// stays in range: see [`settle`]. Whatever it changes in the further course is weighed down by the product of
+/// stays in range: see [`brake`]. Whatever it changes in the further course is weighed down by the product of
 /// all fades around it. That keeps C², the range, the arrival time and a fixed size, for any number of presses.
 ///
-/// What most moves do not need lies apart, in [`Rare`]: ten thousand faces are read from memory in every tick.
+/// What most moves do not need lies apart, in [`Cold`]: ten thousand faces are read from memory in every tick.
 #[derive(Clone, Debug)]
 pub(crate) struct Channel {
     range: Range,
@@ -39,7 +48,7 @@ pub(crate) struct Channel {
     base: Quintic,
     /// Age of `base` at the last start.
     base_age_secs: f64,
-    /// Whether the innermost path is the one in [`Rare`] instead.
+    /// Whether the innermost path is the one in [`Cold`] instead.
     other_base: bool,
     /// Number of fades that run.
     fades: u8,
@@ -69,18 +78,18 @@ impl Channel {
         self.range
     }
 
-    pub(crate) fn is_at_rest(&self, rare: &Rare) -> bool {
-        self.remaining_secs(rare) == 0.0
+    pub(crate) fn is_at_rest(&self, cold: &Cold) -> bool {
+        self.remaining_secs(cold) == 0.0
     }
 
     /// Time until the target is reached.
-    pub(crate) fn remaining_secs(&self, rare: &Rare) -> f64 {
+    pub(crate) fn remaining_secs(&self, cold: &Cold) -> f64 {
         if self.waits {
-            let Waiting { at_secs, goal } = rare.waiting;
-            let start = self.state_after(at_secs - self.elapsed_secs, rare);
-            return at_secs - self.elapsed_secs + goal.duration_from(start, self.range);
+            let Waiting { at_secs, spec } = cold.waiting;
+            let start = self.state_after(at_secs - self.elapsed_secs, cold);
+            return at_secs - self.elapsed_secs + spec.duration_from(start, self.range);
         }
-        match self.running(rare).last() {
+        match self.running(cold).last() {
             Some(fade) => {
                 let age_secs = fade.age_secs + self.elapsed_secs;
                 (fade.duration_secs - age_secs).max(fade.towards.remaining_secs(age_secs))
@@ -88,7 +97,7 @@ impl Channel {
             None => {
                 let age_secs = self.base_age_secs + self.elapsed_secs;
                 if self.other_base {
-                    rare.base.remaining_secs(age_secs)
+                    cold.base.remaining_secs(age_secs)
                 } else {
                     self.base.duration_secs() - age_secs
                 }
@@ -108,7 +117,7 @@ impl Channel {
     }
 
     /// Lets time pass, through the start of a move that waits, and gives the state after it.
-    pub(crate) fn advance(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
+    pub(crate) fn advance(&mut self, dt_secs: f64, cold: &mut Cold) -> Jet {
         // Nearly always: a quintic, and no more.
         if self.fades == 0 && !self.waits && !self.other_base && !self.fresh {
             self.elapsed_secs += dt_secs;
@@ -116,46 +125,46 @@ impl Channel {
             self.sleeps = age_secs >= self.base.duration_secs();
             return self.base.at(age_secs);
         }
-        self.advance_any(dt_secs, rare)
+        self.advance_any(dt_secs, cold)
     }
 
     #[cold]
-    fn advance_any(&mut self, dt_secs: f64, rare: &mut Rare) -> Jet {
+    fn advance_any(&mut self, dt_secs: f64, cold: &mut Cold) -> Jet {
         if std::mem::take(&mut self.fresh) {
-            rare.forget();
+            cold.forget();
         }
         let mut until_secs = self.elapsed_secs + dt_secs;
-        if self.waits && until_secs >= rare.waiting.at_secs {
-            let Waiting { at_secs, goal } = rare.waiting;
+        if self.waits && until_secs >= cold.waiting.at_secs {
+            let Waiting { at_secs, spec } = cold.waiting;
             until_secs -= at_secs;
             self.elapsed_secs = at_secs;
-            self.start(goal, rare);
+            self.start(spec, cold);
         }
         self.elapsed_secs = until_secs;
-        self.drop_faded_out(rare);
-        self.drop_repetitions(rare);
-        if self.is_at_rest(rare) {
-            *self = Self { sleeps: true, ..Self::rest(self.range, self.end(rare)) };
-            rare.forget();
+        self.drop_faded_out(cold);
+        self.drop_repetitions(cold);
+        if self.is_at_rest(cold) {
+            *self = Self { sleeps: true, ..Self::rest(self.range, self.end(cold)) };
+            cold.forget();
         }
-        self.state(rare)
+        self.state(cold)
     }
 
     /// State at this moment. Only transition functions that overshoot on purpose take it out of the range, beyond
     /// rounding.
-    pub(crate) fn state(&self, rare: &Rare) -> Jet {
-        self.state_after(0.0, rare)
+    pub(crate) fn state(&self, cold: &Cold) -> Jet {
+        self.state_after(0.0, cold)
     }
 
-    /// Heads for a goal from the present state after a delay, until when everything goes on as it is. A move that still
+    /// Heads for a spec from the present state after a delay, until when everything goes on as it is. A move that still
     /// waits is dropped.
-    pub(crate) fn press(&mut self, goal: Goal, delay_secs: f64, rare: &mut Rare) {
+    pub(crate) fn press(&mut self, spec: MoveSpec, delay_secs: f64, cold: &mut Cold) {
         self.sleeps = false;
         if delay_secs > 0.0 {
-            rare.waiting = Waiting { at_secs: self.elapsed_secs + delay_secs, goal };
+            cold.waiting = Waiting { at_secs: self.elapsed_secs + delay_secs, spec };
             self.waits = true;
         } else {
-            self.start(goal, rare);
+            self.start(spec, cold);
         }
     }
 
@@ -166,75 +175,75 @@ impl Channel {
         track: usize,
         pace: Pace,
         fade_secs: Option<f64>,
-        rare: &mut Rare,
+        cold: &mut Cold,
     ) {
         let Some(path) = ClipPath::new(clip, track, pace, self.range) else { return };
         self.waits = false;
         self.sleeps = false;
-        self.take_back(rare);
-        let distance = path.at(0.0).value - self.state(rare).value;
+        self.take_back(cold);
+        let distance = path.at(0.0).value - self.state(cold).value;
         let secs = fade_secs.unwrap_or_else(|| pace.duration_secs(distance, self.range.width()));
-        self.fade_into(Path::Clip(path), sensible(secs, pace.longest_secs), rare);
+        self.fade_into(Path::Clip(path), clamp_duration(secs, pace.longest_secs), cold);
     }
 
     /// Comes to rest about where the least braking leads, if anything moves.
-    pub(crate) fn stop(&mut self, pace: Pace, rare: &mut Rare) {
-        self.take_back(rare);
-        if self.is_at_rest(rare) {
+    pub(crate) fn stop(&mut self, pace: Pace, cold: &mut Cold) {
+        self.take_back(cold);
+        if self.is_at_rest(cold) {
             return;
         }
-        let state = self.state(rare);
-        let secs = sensible(pace.longest_secs, 0.5);
+        let state = self.state(cold);
+        let secs = clamp_duration(pace.longest_secs, 0.5);
         let braked = state.value + secs * (state.velocity / 2.0 + state.acceleration * secs / 12.0);
         let target = self.range.clamp(braked);
-        self.start(Goal { target, duration_secs: Some(secs), pace, factor: 1.0, easing: None }, rare);
+        self.start(MoveSpec { target, duration_secs: Some(secs), pace, factor: 1.0, easing: None }, cold);
     }
 
-    fn start(&mut self, goal: Goal, rare: &mut Rare) {
+    fn start(&mut self, spec: MoveSpec, cold: &mut Cold) {
         self.waits = false;
-        self.take_back(rare);
-        let state = self.state(rare);
-        if state == Jet::rest(goal.target) && self.is_at_rest(rare) {
-            *self = Self::rest(self.range, goal.target);
+        self.take_back(cold);
+        let state = self.state(cold);
+        if state == Jet::rest(spec.target) && self.is_at_rest(cold) {
+            *self = Self::rest(self.range, spec.target);
             return;
         }
-        let duration_secs = goal.duration_from(state, self.range);
-        if let Some(easing) = goal.easing {
-            let eased = Eased { from: state.value, target: goal.target, duration_secs, easing };
-            self.fade_into(Path::Eased(eased), Eased::BLEND * duration_secs, rare);
+        let duration_secs = spec.duration_from(state, self.range);
+        if let Some(easing) = spec.easing {
+            let eased = Eased { from: state.value, target: spec.target, duration_secs, easing };
+            self.fade_into(Path::Eased(eased), Eased::BLEND * duration_secs, cold);
             return;
         }
-        let direct = Quintic::new(state, goal.target, duration_secs);
+        let direct = Quintic::new(state, spec.target, duration_secs);
         if self.range.holds(state.value) && direct.stays_within(self.range.min, self.range.max) {
-            let begun = Self { base: direct, fresh: true, ..Self::rest(self.range, goal.target) };
-            rare.before = std::mem::replace(self, begun);
+            let begun = Self { base: direct, fresh: true, ..Self::rest(self.range, spec.target) };
+            cold.before = std::mem::replace(self, begun);
             return;
         }
-        self.fade_into(Path::rest(goal.target), duration_secs, rare);
+        self.fade_into(Path::rest(spec.target), duration_secs, cold);
     }
 
     /// Forgets a direct move that has begun at this very moment: what begins now takes over from the motion before it. The fades
-    /// of that one are still there, because a direct move leaves [`Rare`] alone until time passes.
-    fn take_back(&mut self, rare: &Rare) {
+    /// of that one are still there, because a direct move leaves [`Cold`] alone until time passes.
+    fn take_back(&mut self, cold: &Cold) {
         if self.fresh && self.elapsed_secs == 0.0 {
-            *self = Self { waits: false, sleeps: false, fresh: false, ..rare.before.clone() };
+            *self = Self { waits: false, sleeps: false, fresh: false, ..cold.before.clone() };
         }
     }
 
     /// Lets the present motion go on and fades from it into another one, which begins now.
-    fn fade_into(&mut self, towards: Path, duration_secs: f64, rare: &mut Rare) {
+    fn fade_into(&mut self, towards: Path, duration_secs: f64, cold: &mut Cold) {
         self.base_age_secs += self.elapsed_secs;
-        rare.fades[..usize::from(self.fades)].iter_mut().for_each(|fade| fade.age_secs += self.elapsed_secs);
+        cold.fades[..usize::from(self.fades)].iter_mut().for_each(|fade| fade.age_secs += self.elapsed_secs);
         (self.elapsed_secs, self.fresh) = (0.0, false);
-        self.drop_faded_out(rare);
+        self.drop_faded_out(cold);
         // What has begun at this very moment is replaced.
-        if self.running(rare).last().is_some_and(|fade| fade.age_secs == 0.0) {
+        if self.running(cold).last().is_some_and(|fade| fade.age_secs == 0.0) {
             self.fades -= 1;
         }
         if usize::from(self.fades) == MAX_FADES {
-            self.fold(rare);
+            self.fold(cold);
         }
-        rare.fades[usize::from(self.fades)] = Fade { age_secs: 0.0, duration_secs, towards };
+        cold.fades[usize::from(self.fades)] = Fade { age_secs: 0.0, duration_secs, towards };
         self.fades += 1;
     }
 }

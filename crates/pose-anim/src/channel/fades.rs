@@ -1,42 +1,42 @@
 //! Fades in fades: what they give, when they are over, and what becomes of them when they are too many.
 
 use super::Channel;
+use super::brake::brake;
+use super::cold::{Cold, Fade};
+use super::path::Path;
 #[cfg(test)]
 use super::tests;
 use crate::Jet;
-use crate::path::Path;
-use crate::rare::{Fade, Rare};
-use crate::settle::settle;
 
 impl Channel {
-    pub(super) fn running<'r>(&self, rare: &'r Rare) -> &'r [Fade] {
-        &rare.fades[..usize::from(self.fades)]
+    pub(super) fn running<'r>(&self, cold: &'r Cold) -> &'r [Fade] {
+        &cold.fades[..usize::from(self.fades)]
     }
 
     /// Where the motion comes to rest.
-    pub(super) fn end(&self, rare: &Rare) -> f64 {
-        match self.running(rare).last() {
+    pub(super) fn end(&self, cold: &Cold) -> f64 {
+        match self.running(cold).last() {
             Some(fade) => fade.towards.end(),
-            None if self.other_base => rare.base.end(),
+            None if self.other_base => cold.base.end(),
             None => self.base.target,
         }
     }
 
-    pub(super) fn state_after(&self, secs: f64, rare: &Rare) -> Jet {
-        self.inner_state(secs, usize::from(self.fades), rare)
+    pub(super) fn state_after(&self, secs: f64, cold: &Cold) -> Jet {
+        self.inner_state(secs, usize::from(self.fades), cold)
     }
 
     /// State of the base within its innermost fades.
-    pub(super) fn inner_state(&self, secs: f64, fades: usize, rare: &Rare) -> Jet {
+    pub(super) fn inner_state(&self, secs: f64, fades: usize, cold: &Cold) -> Jet {
         let now_secs = self.elapsed_secs + secs;
-        let fades = &rare.fades[..fades];
+        let fades = &cold.fades[..fades];
         // What is inside a fade that is over has no weight, whatever it may be.
         let over = fades.iter().rposition(|fade| fade.is_over(now_secs));
         let (state, outer) = match over {
             Some(over) => (fades[over].towards.at(fades[over].age_secs + now_secs), &fades[over + 1..]),
             None => {
                 let age_secs = self.base_age_secs + now_secs;
-                (if self.other_base { rare.base.at(age_secs) } else { self.base.at(age_secs) }, fades)
+                (if self.other_base { cold.base.at(age_secs) } else { self.base.at(age_secs) }, fades)
             }
         };
         outer.iter().fold(state, |state, fade| {
@@ -46,29 +46,29 @@ impl Channel {
     }
 
     /// Removes everything inside a fade that is over.
-    pub(super) fn drop_faded_out(&mut self, rare: &mut Rare) {
-        let over = self.running(rare).iter().rposition(|fade| fade.is_over(self.elapsed_secs));
+    pub(super) fn drop_faded_out(&mut self, cold: &mut Cold) {
+        let over = self.running(cold).iter().rposition(|fade| fade.is_over(self.elapsed_secs));
         let Some(over) = over else { return };
-        self.base_age_secs = rare.fades[over].age_secs;
-        let towards = std::mem::replace(&mut rare.fades[over].towards, Path::rest(0.0));
+        self.base_age_secs = cold.fades[over].age_secs;
+        let towards = std::mem::replace(&mut cold.fades[over].towards, Path::rest(0.0));
         self.other_base = !matches!(towards, Path::Quintic(_));
         if let Path::Quintic(quintic) = towards {
             self.base = quintic;
         }
-        rare.base = towards;
-        rare.fades[..over].iter_mut().for_each(|fade| fade.towards = Path::rest(0.0));
-        rare.fades.rotate_left(over + 1);
+        cold.base = towards;
+        cold.fades[..over].iter_mut().for_each(|fade| fade.towards = Path::rest(0.0));
+        cold.fades.rotate_left(over + 1);
         self.fades -= over as u8 + 1;
     }
 
     /// Where a clip that repeats itself runs alone, keeps its time within one repetition: beyond, every sum would
     /// lose digits, and a day of ticks microseconds. An
     /// infinite time ends at its start.
-    pub(super) fn drop_repetitions(&mut self, rare: &Rare) {
+    pub(super) fn drop_repetitions(&mut self, cold: &Cold) {
         if self.fades > 0 || self.waits || !self.other_base {
             return;
         }
-        let Path::Clip(clip) = &rare.base else { return };
+        let Path::Clip(clip) = &cold.base else { return };
         let Some(period_secs) = clip.period_secs() else { return };
         let age_secs = self.base_age_secs + self.elapsed_secs;
         if age_secs >= period_secs {
@@ -78,18 +78,18 @@ impl Channel {
     }
 
     /// Replaces the base and the innermost fade by one quintic.
-    pub(super) fn fold(&mut self, rare: &mut Rare) {
+    pub(super) fn fold(&mut self, cold: &mut Cold) {
         #[cfg(test)]
         tests::FOLDS.set(tests::FOLDS.get() + 1);
-        let inner = &rare.fades[0];
-        let state = self.inner_state(0.0, 1, rare);
+        let inner = &cold.fades[0];
+        let state = self.inner_state(0.0, 1, cold);
         let remaining_secs = inner.duration_secs - inner.age_secs;
-        self.base = settle(state, inner.towards.end(), remaining_secs, self.range);
+        self.base = brake(state, inner.towards.end(), remaining_secs, self.range);
         self.other_base = false;
         self.base_age_secs = 0.0;
-        rare.base = Path::rest(0.0);
-        rare.fades[0].towards = Path::rest(0.0);
-        rare.fades.rotate_left(1);
+        cold.base = Path::rest(0.0);
+        cold.fades[0].towards = Path::rest(0.0);
+        cold.fades.rotate_left(1);
         self.fades -= 1;
     }
 }

@@ -1,8 +1,8 @@
 //! What a channel needs only around interruptions, apart from what every tick reads.
 
-use crate::channel::Channel;
-use crate::goal::{Goal, Range};
-use crate::path::Path;
+use super::path::Path;
+use super::{Channel, MoveSpec};
+use crate::range::Range;
 
 /// How many fades may run one inside the other. Five presses within one move that all would leave the range are more
 /// than fingers do; what goes beyond is folded (see [`Channel`]).
@@ -10,7 +10,7 @@ pub(crate) const MAX_FADES: usize = 4;
 
 /// What a channel needs only around interruptions.
 #[derive(Clone, Debug)]
-pub(crate) struct Rare {
+pub(crate) struct Cold {
     /// The innermost path, where it is no quintic.
     pub(crate) base: Path,
     pub(crate) fades: [Fade; MAX_FADES],
@@ -32,16 +32,16 @@ pub(crate) struct Fade {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Waiting {
     pub(crate) at_secs: f64,
-    pub(crate) goal: Goal,
+    pub(crate) spec: MoveSpec,
 }
 
-impl Rare {
+impl Cold {
     pub(crate) fn new() -> Self {
         let fade = || Fade { age_secs: 0.0, duration_secs: 0.0, towards: Path::rest(0.0) };
         Self {
             base: Path::rest(0.0),
             fades: std::array::from_fn(|_| fade()),
-            waiting: Waiting { at_secs: 0.0, goal: Goal::NONE },
+            waiting: Waiting { at_secs: 0.0, spec: MoveSpec::NONE },
             before: Channel::rest(Range { min: 0.0, max: 0.0 }, 0.0),
         }
     }

@@ -1,5 +1,5 @@
 use crate::Jet;
-use crate::goal::Range;
+use crate::range::Range;
 
 /// Share of the range that counts as close to one of its ends.
 const KNEE: f64 = 0.05;
@@ -27,7 +27,7 @@ const KNEE: f64 = 0.05;
 ///
 /// A base that is out of range (a transition function that overshoots on purpose) is not pushed further out, and an offset that points
 /// inward acts as at the end of the range: all of the above tends to that as the base comes to the end, so this is C², too.
-pub(crate) fn reach(base: Jet, offset: Jet, range: Range) -> Jet {
+pub(crate) fn soft_limit(base: Jet, offset: Jet, range: Range) -> Jet {
     if offset == Jet::rest(0.0) || range.width() <= 0.0 {
         return base;
     }
@@ -81,7 +81,7 @@ mod tests {
     const RANGE: Range = Range { min: -2.0, max: 3.0 };
 
     fn plain(base: f64, offset: f64) -> f64 {
-        reach(Jet::rest(base), Jet::rest(offset), RANGE).value
+        soft_limit(Jet::rest(base), Jet::rest(offset), RANGE).value
     }
 
     #[test]
@@ -111,7 +111,7 @@ mod tests {
         ) {
             let at = |t: f64| {
                 let base = Jet { value: end + speed * t, velocity: speed, acceleration: 0.0 };
-                let sum = reach(base, Jet::rest(offset), RANGE);
+                let sum = soft_limit(base, Jet::rest(offset), RANGE);
                 [sum.value, sum.velocity, sum.acceleration]
             };
             for part in 0..3 {
@@ -131,7 +131,7 @@ mod tests {
         ) {
             let at = |t: f64| {
                 let offset = Jet { value: speed * t, velocity: speed, acceleration: 0.0 };
-                let sum = reach(Jet::rest(base), offset, RANGE);
+                let sum = soft_limit(Jet::rest(base), offset, RANGE);
                 [sum.value, sum.velocity, sum.acceleration]
             };
             for part in 0..3 {
@@ -158,7 +158,7 @@ mod tests {
                 let x = base + inward * (margin + rates[0].abs() * t * t + 0.01 * t * rates[0]);
                 let x = Jet { value: x, velocity: inward * (2.0 * rates[0].abs() * t + 0.01 * rates[0]), acceleration: inward * 2.0 * rates[0].abs() };
                 let d = Jet { value: offset + rates[1] * t + rates[2] * t * t, velocity: rates[1] + 2.0 * rates[2] * t, acceleration: 2.0 * rates[2] };
-                reach(x, d, RANGE)
+                soft_limit(x, d, RANGE)
             };
             let h = 1e-6;
             let (before, here, after) = (at(-h), at(0.0), at(h));

@@ -1,6 +1,6 @@
 //! Where a control goes by itself, before any interruption.
 
-use crate::clip_play::ClipPath;
+use super::clip_path::ClipPath;
 use crate::quintic::Quintic;
 use crate::{Easing, Jet};
 

@@ -1,4 +1,11 @@
+mod edit;
+mod reduce;
+mod set;
+
 use crate::{ClipError, Easing, Jet};
+
+pub use reduce::Reduction;
+pub use set::ClipSet;
 
 /// Later than any clip ends.
 pub(crate) const LATEST_SECS: f64 = 1e6;

@@ -1,5 +1,5 @@
-use crate::clip::LATEST_SECS;
-use crate::{Clip, ClipError, Easing, Key, Track, Transition, Wrap};
+use super::{Clip, Key, LATEST_SECS, Track, Transition, Wrap};
+use crate::{ClipError, Easing};
 
 impl Track {
     /// Makes the in-between at a time a key of its own, without changing the curve: exactly up to rounding, for every kind of

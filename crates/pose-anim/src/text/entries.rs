@@ -1,58 +1,9 @@
-//! The format of `poses.toml`.
+//! Entries that several of the formats have.
 
-use crate::{Control, ControlTable, Easing, Pose, PoseSet, Timing};
-use placed_toml::{Document, Entry, Table, TomlError, quote};
+use crate::{Control, ControlTable, Easing};
+use placed_toml::{Entry, Table, TomlError, quote};
 
-const DURATION: &str = "a number of seconds from 0.001 to 3600";
 const KEY: &str = r#"the name of one key, such as "1", "q" or "F5""#;
-
-pub(crate) fn read(source: &str, controls: &ControlTable) -> Result<PoseSet, TomlError> {
-    let document = Document::parse(source)?;
-    let mut root = document.root();
-    let mut set = PoseSet::default();
-    for table in root.take_tables("pose")? {
-        let pose = pose(table, controls, &set)?;
-        set.poses.push(pose);
-    }
-    root.finish(&["pose"])?;
-    Ok(set)
-}
-
-fn pose(mut table: Table<'_, '_>, controls: &ControlTable, before: &PoseSet) -> Result<Pose, TomlError> {
-    let entry = table.require("name", "the name of a pose")?;
-    let name = entry.string("the name of a pose")?;
-    if before.get(name).is_some() {
-        return Err(entry.error("unique names", format!("{} again", quote(name))));
-    }
-    let mut pose = Pose::new(name, Vec::new());
-    if let Some(entry) = table.take("key") {
-        let taken = before.iter().filter_map(|pose| Some((pose.key.as_deref()?, pose.name.as_str())));
-        pose.key = Some(key(&entry, "pose", taken)?);
-    }
-    if let Some(entry) = table.take("duration") {
-        pose.duration_secs = Some(duration(&entry)?);
-    }
-    if let Some(entry) = table.take("controls") {
-        by_control(&entry, "", controls, &mut pose.values, &value)?;
-    }
-    if let Some(entry) = table.take("transition") {
-        pose.transition = Some(transition(&entry)?);
-    }
-    if let Some(entry) = table.take("timing") {
-        by_control(&entry, "", controls, &mut pose.timings, &timing)?;
-    }
-    table.finish(&["name", "key", "duration", "transition", "controls", "timing"])?;
-    Ok(pose)
-}
-
-pub(crate) fn duration(entry: &Entry<'_, '_>) -> Result<f64, TomlError> {
-    let duration_secs = entry.precise(DURATION)?;
-    if (0.001..=3600.0).contains(&duration_secs) {
-        Ok(duration_secs)
-    } else {
-        Err(entry.error_found(DURATION))
-    }
-}
 
 /// A key that none of `taken`, pairs of key and owner, has.
 pub(crate) fn key<'n>(
@@ -122,24 +73,6 @@ pub(crate) fn transition(entry: &Entry<'_, '_>) -> Result<Easing, TomlError> {
         }
         _ => Err(entry.error(expected, format!("an array of {} numbers", items.len()))),
     }
-}
-
-fn timing(entry: &Entry<'_, '_>, _: &Control) -> Result<Timing, TomlError> {
-    let mut table = entry.table()?;
-    let mut timing = Timing::default();
-    if let Some(entry) = table.take("delay") {
-        timing.delay_secs = within(&entry, "a number of seconds from 0 to 3600", 0.0, 3600.0)?;
-    }
-    if let Some(entry) = table.take("factor") {
-        timing.factor = within(&entry, "a number from 0.01 to 100", 0.01, 100.0)?;
-    }
-    table.finish(&["delay", "factor"])?;
-    Ok(timing)
-}
-
-fn within(entry: &Entry<'_, '_>, expected: &str, min: f64, max: f64) -> Result<f64, TomlError> {
-    let number = entry.precise(expected)?;
-    if (min..=max).contains(&number) { Ok(number) } else { Err(entry.error_found(expected)) }
 }
 
 pub(crate) fn value(entry: &Entry<'_, '_>, control: &Control) -> Result<f32, TomlError> {

@@ -1,8 +1,12 @@
+mod entry;
+
+use crate::TomlError;
 use crate::text::{Text, join};
-use crate::{Entry, TomlError};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+pub use entry::{Entry, LARGEST};
 
 /// A parsed text.
 #[derive(Clone, Debug)]

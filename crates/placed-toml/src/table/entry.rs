@@ -1,5 +1,6 @@
+use super::Table;
 use crate::text::{Text, describe, quote};
-use crate::{Table, TomlError, nearest};
+use crate::{TomlError, nearest};
 use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -10,11 +11,11 @@ pub const LARGEST: f64 = 1e9;
 /// A key with its value, or an item of an array, which has the array's key.
 #[derive(Clone, Debug)]
 pub struct Entry<'t, 'a> {
-    pub(crate) text: Text<'a>,
-    pub(crate) name: String,
-    pub(crate) path: String,
-    pub(crate) key_span: Range<usize>,
-    pub(crate) value: &'t Spanned<DeValue<'a>>,
+    pub(super) text: Text<'a>,
+    pub(super) name: String,
+    pub(super) path: String,
+    pub(super) key_span: Range<usize>,
+    pub(super) value: &'t Spanned<DeValue<'a>>,
 }
 
 impl<'t, 'a> Entry<'t, 'a> {
