@@ -1,7 +1,7 @@
 use crate::channel::{Channel, Cold, MoveSpec};
 use crate::range::Range;
 use crate::soft_limit::soft_limit;
-use crate::{AdvanceError, ControlTable, Jet, Pace, Player};
+use crate::{AdvanceError, ControlTable, Jet, JumpError, Pace, Player};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How a layer acts on what is below it.
@@ -111,6 +111,27 @@ impl Layers {
     /// The base, to be pressed.
     pub fn base(&mut self) -> &mut Player {
         &mut self.base
+    }
+
+    /// The base, to be asked.
+    pub fn base_ref(&self) -> &Player {
+        &self.base
+    }
+
+    /// Puts all controls of the base at rest at these values, at once, and combines the layers anew.
+    ///
+    /// # Errors
+    /// As [`Player::jump_to`]; then nothing changes.
+    pub fn jump_to(&mut self, values: &[f32]) -> Result<(), JumpError> {
+        self.base.jump_to(values)?;
+        for control in 0..self.values.len() {
+            if let Some(state) = self.state(control) {
+                self.values[control] = state.value as f32;
+                self.velocities[control] = state.velocity as f32;
+                self.accelerations[control] = state.acceleration as f32;
+            }
+        }
+        Ok(())
     }
 
     /// The player of a layer, to be pressed; `None` if the layer is of another [`Layers`].

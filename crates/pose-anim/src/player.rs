@@ -1,6 +1,6 @@
 use crate::channel::{Channel, Cold, MoveSpec};
 use crate::range::Range;
-use crate::{AdvanceError, Clip, ControlTable, Jet, JumpError, Pace, Pose};
+use crate::{AdvanceError, Clip, ControlTable, Jet, JumpError, Pace, Pose, Wrap};
 use std::sync::Arc;
 
 /// Moves the controls of one face from pose to pose.
@@ -171,6 +171,32 @@ impl Player {
     /// Present values, one per control, each in its range.
     pub fn values(&self) -> &[f32] {
         &self.values
+    }
+
+    /// Where every control is heading, in the order of the table: the value at which it comes to rest if nothing else is
+    /// pressed. A control that a clip moves heads for no value of its own; it has its present one.
+    pub fn targets(&self) -> impl ExactSizeIterator<Item = f32> {
+        self.channels.iter().zip(&self.cold).map(|(channel, cold)| channel.target(cold) as f32)
+    }
+
+    /// Where one control is heading, as [`Self::targets`]; `None` if there is no such control.
+    pub fn target(&self, control: usize) -> Option<f32> {
+        Some(self.channels.get(control)?.target(self.cold.get(control)?) as f32)
+    }
+
+    /// Where a clip stands that was handed to [`Self::play`], in seconds from its start: within its duration, or, where it
+    /// goes there and back ([`crate::Wrap::PingPong`]), within twice its duration. `None` once it has ended, or while it moves no
+    /// control: all of them have been pressed elsewhere, or the clip has no length.
+    pub fn clip_time_secs(&self, clip: &Arc<Clip>) -> Option<f64> {
+        let mut moved = self.channels.iter().zip(&self.cold).filter_map(|(channel, cold)| channel.clip(cold));
+        let (_, age_secs) = moved.find(|(moving, _)| Arc::ptr_eq(moving, clip))?;
+        let duration_secs = clip.duration_secs();
+        let period_secs = match clip.wrap {
+            Wrap::Once => return (age_secs < duration_secs).then_some(age_secs),
+            Wrap::Loop => duration_secs,
+            Wrap::PingPong => 2.0 * duration_secs,
+        };
+        (period_secs > 0.0).then(|| age_secs % period_secs)
     }
 
     /// First derivatives of the values, per second.

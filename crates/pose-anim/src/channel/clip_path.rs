@@ -30,6 +30,11 @@ impl ClipPath {
         Some(Self { clip: Arc::clone(clip), track, clip_secs, tail })
     }
 
+    /// The clip that the track is one of.
+    pub(crate) fn clip(&self) -> &Arc<Clip> {
+        &self.clip
+    }
+
     /// Seconds after which the motion repeats itself; `None` if it does not.
     pub(crate) fn period_secs(&self) -> Option<f64> {
         let period_secs = match self.clip.wrap {

@@ -150,6 +150,33 @@ impl Channel {
         self.state(cold)
     }
 
+    /// Where the control is heading: the target of a move, also of one that waits for its delay to pass. A control that a
+    /// clip moves heads for no value of its own: then this is the value that it has now.
+    pub(crate) fn target(&self, cold: &Cold) -> f64 {
+        match self.outermost(cold) {
+            _ if self.waits => cold.waiting.spec.target,
+            Some((Path::Clip(_), _)) => self.range.clamp(self.state(cold).value),
+            _ => self.end(cold),
+        }
+    }
+
+    /// The clip that moves the control, and the seconds since its start.
+    pub(crate) fn clip<'c>(&self, cold: &'c Cold) -> Option<(&'c Arc<Clip>, f64)> {
+        match self.outermost(cold)? {
+            (Path::Clip(path), age_secs) => Some((path.clip(), age_secs)),
+            _ => None,
+        }
+    }
+
+    /// The path that everything else fades into, and its age; `None` where it is the quintic of the base.
+    fn outermost<'c>(&self, cold: &'c Cold) -> Option<(&'c Path, f64)> {
+        match self.running(cold).last() {
+            Some(fade) => Some((&fade.towards, fade.age_secs + self.elapsed_secs)),
+            None if self.other_base => Some((&cold.base, self.base_age_secs + self.elapsed_secs)),
+            None => None,
+        }
+    }
+
     /// State at this moment. Only transition functions that overshoot on purpose take it out of the range, beyond
     /// rounding.
     pub(crate) fn state(&self, cold: &Cold) -> Jet {
