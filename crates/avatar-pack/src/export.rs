@@ -13,6 +13,7 @@ use pose_anim::{Drive, Pose};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::io::Cursor;
+use std::ops::Range;
 
 /// Makes a scene of an avatar.
 ///
@@ -38,18 +39,17 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let rest = weights_of_defaults(pack);
     let mut shapes_of_nodes = Vec::new();
     for (number, part) in pack.parts().iter().enumerate() {
-        let kept = kept_shapes(part);
         let node = scene.nodes.len();
-        let weights = kept.iter().map(|shape| rest.get(*shape).copied().unwrap_or(0.0)).collect();
+        let weights = rest.get(part.shapes()).unwrap_or_default().to_vec();
         scene.nodes.push(Node { name: part.name.clone(), weights, ..Node::default() });
-        let mesh = mesh(pack, part, &kept);
+        let mesh = mesh(pack, part);
         let material = material(pack, textures, number, &mut images, &mut scene.notes);
         scene.parts.push(ScenePart {
             material: Some(scene.materials.len()),
             ..ScenePart::skinned(&part.name, node, mesh, 0)
         });
         scene.materials.push(material);
-        shapes_of_nodes.push((node, kept));
+        shapes_of_nodes.push((node, part.shapes()));
     }
     scene.images = images.encoded;
     scene.clips = clips(pack, &scene.nodes, &shapes_of_nodes, &mut scene.notes);
@@ -99,20 +99,12 @@ fn unit_scale(scale: Vec3) -> Vec3 {
     if scale.abs_diff_eq(Vec3::ONE, 1e-6) { Vec3::ONE } else { scale }
 }
 
-/// Positions of shapes that are the part's own: those of other parts have neither name nor offsets.
-fn kept_shapes(part: &Part) -> Vec<usize> {
-    let is_own =
-        |(_, shape): &(usize, &avatar_mesh::Shape)| !shape.name.is_empty() || shape.moved_vertices() > 0;
-    part.mesh.shapes.iter().enumerate().filter(is_own).map(|(number, _)| number).collect()
-}
-
-fn mesh(pack: &Pack, part: &Part, kept: &[usize]) -> Mesh {
+/// The mesh as a scene has it: its shapes with the names that they have in the pack, and triangles that agree with their
+/// normals.
+fn mesh(pack: &Pack, part: &Part) -> Mesh {
     let mut mesh = part.mesh.clone();
-    mesh.shapes = kept.iter().filter_map(|number| part.mesh.shapes.get(*number).cloned()).collect();
-    for (shape, number) in mesh.shapes.iter_mut().zip(kept) {
-        if let Some(name) = pack.shapes().get(*number) {
-            shape.name.clone_from(name);
-        }
+    for (shape, name) in mesh.shapes.iter_mut().zip(&pack.shapes()[part.shapes()]) {
+        shape.name.clone_from(name);
     }
     if Winding::of(&mesh).is_inside_out() {
         mesh.triangles.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
@@ -150,7 +142,7 @@ fn weights_of_defaults(pack: &Pack) -> Vec<f32> {
     posed(pack, &pack.controls().defaults()).map(|(_, weights)| weights).unwrap_or_default()
 }
 
-fn clips(pack: &Pack, nodes: &[Node], shapes: &[(usize, Vec<usize>)], notes: &mut Vec<Note>) -> Vec<Clip> {
+fn clips(pack: &Pack, nodes: &[Node], shapes: &[(usize, Range<usize>)], notes: &mut Vec<Note>) -> Vec<Clip> {
     let driven: BTreeSet<usize> = (pack.controls().controls().iter())
         .filter_map(|control| match &control.drives {
             Drive::Joint { joint, .. } => Some(pack.rig().joint(joint)?.index()),
@@ -176,7 +168,7 @@ fn clip(
     pose: &Pose,
     nodes: &[Node],
     driven: &BTreeSet<usize>,
-    shapes: &[(usize, Vec<usize>)],
+    shapes: &[(usize, Range<usize>)],
 ) -> Option<Clip> {
     let mut values = pack.controls().defaults();
     for (control, value) in &pose.values {
@@ -202,9 +194,8 @@ fn clip(
         key(joint, ChannelTarget::Translation, moved.translation.to_array().to_vec());
         key(joint, ChannelTarget::Rotation, rotation.to_array().to_vec());
     }
-    for (node, kept) in shapes.iter().filter(|(_, kept)| !kept.is_empty()) {
-        let of_node = kept.iter().map(|shape| weights.get(*shape).copied().unwrap_or(0.0));
-        key(*node, ChannelTarget::Weights, of_node.collect());
+    for (node, shapes) in shapes.iter().filter(|(_, shapes)| !shapes.is_empty()) {
+        key(*node, ChannelTarget::Weights, weights.get(shapes.clone())?.to_vec());
     }
     Some(Clip { name: pose.name.clone(), channels })
 }

@@ -164,15 +164,18 @@ impl FaceState {
     pub fn deform(&self, pack: &Pack, part: usize) -> Result<Deformed, DeformError> {
         let missing =
             DeformError::VertexCount { what: "the parts", expected: pack.parts().len(), found: part };
-        let Part { mesh, bone, .. } = pack.parts().get(part).ok_or(missing)?;
+        let part = pack.parts().get(part).ok_or(missing)?;
+        let Part { mesh, bone, .. } = part;
         let bones = match bone {
             Some(bone) => self.bones.get(*bone..=*bone).unwrap_or_default(),
             None => &self.bones,
         };
-        let shapes = mesh.shapes.len();
-        let found = self.weights.len();
-        let weights =
-            self.weights.get(..shapes).ok_or(DeformError::WeightCount { expected: shapes, found })?;
+        let shapes = part.shapes();
+        let (expected, found) = (shapes.end, self.weights.len());
+        let weights = match shapes.is_empty() {
+            true => &[],
+            false => self.weights.get(shapes).ok_or(DeformError::WeightCount { expected, found })?,
+        };
         let mut deformed = mesh.deformed();
         avatar_mesh::deform(mesh, bones, weights, &mut deformed)?;
         Ok(deformed)

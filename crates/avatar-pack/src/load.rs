@@ -152,6 +152,7 @@ fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) 
         kind: spec.kind,
         bounds: mesh.bounds(),
         mesh,
+        first_shape: 0,
         bytes: vertices.len() + indices.len(),
         bone,
         material: None,

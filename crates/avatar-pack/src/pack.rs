@@ -5,6 +5,7 @@ use avatar_mesh::{Bounds, Mesh, PartKind};
 use glam::Affine3A;
 use pose_anim::{BindError, Binding, ClipSet, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
+use std::ops::Range;
 
 /// A face, ready to be posed: everything of a pack but its textures.
 ///
@@ -65,8 +66,10 @@ pub struct Part {
     pub name: String,
     /// How it is drawn.
     pub kind: PartKind,
-    /// Its valid mesh. Its shapes are the first of [`Pack::shapes`].
+    /// Its valid mesh, with the shapes that are its own.
     pub mesh: Mesh,
+    /// The place of its first shape in [`Pack::shapes`]; the others follow in order. Parts may share shapes.
+    pub first_shape: usize,
     /// Bytes that it was read from.
     pub bytes: usize,
     /// For a rigid part the bone that it follows, as an index into [`Pack::palette`].
@@ -75,6 +78,13 @@ pub struct Part {
     pub material: Option<Material>,
     /// The box around it at bind pose, in world space.
     pub bounds: Option<Bounds>,
+}
+
+impl Part {
+    /// The places of its shapes in [`Pack::shapes`], and so of their weights in those of the face.
+    pub fn shapes(&self) -> Range<usize> {
+        self.first_shape..self.first_shape.saturating_add(self.mesh.shapes.len())
+    }
 }
 
 /// Why the contents of a pack do not agree.
@@ -89,7 +99,7 @@ pub enum ContentsError {
     Index {
         /// Where it stands, such as `part "skin"`.
         place: String,
-        /// What it counts: `joints`, `bones`, `sliders` or `controls`.
+        /// What it counts: `joints`, `bones`, `shapes`, `sliders` or `controls`.
         what: &'static str,
         /// How many of these there are.
         count: usize,
@@ -99,11 +109,11 @@ pub enum ContentsError {
     /// A list that does not have one entry for each of something.
     #[error("{place}: expected {expected} {what}, found {found}")]
     Count {
-        /// Where it stands, such as `part "skin"`.
+        /// Where it stands.
         place: String,
-        /// What is counted, such as `shapes at most`.
+        /// What is counted.
         what: &'static str,
-        /// How many there may be.
+        /// How many there must be.
         expected: usize,
         /// How many there are.
         found: usize,
@@ -280,14 +290,9 @@ fn check(contents: &PackContents) -> Result<(), ContentsError> {
         if let Some(most) = skinned.map(|bone| usize::from(*bone)).chain(part.bone).max() {
             in_range(most, palette.len(), "bones", place)?;
         }
-        let found = part.mesh.shapes.len();
-        if found > shapes.len() {
-            return Err(ContentsError::Count {
-                place: place(),
-                what: "shapes at most",
-                expected: shapes.len(),
-                found,
-            });
+        let end = part.shapes().end;
+        if end > shapes.len() {
+            in_range(end - 1, shapes.len(), "shapes", place)?;
         }
     }
     let Some(sliders) = sliders else { return Ok(()) };

@@ -178,8 +178,9 @@ fn used_bones(part: &Part) -> Vec<usize> {
 }
 
 /// Whether anything that moves a part is not as at rest.
-fn differs(part: &Part, used: &[usize], rest: &FaceState, state: &FaceState) -> bool {
-    let shapes = part.mesh.shapes.iter().zip(rest.weights().iter().zip(state.weights()));
+fn differs<'a>(part: &Part, used: &[usize], rest: &'a FaceState, state: &'a FaceState) -> bool {
+    let weights = |state: &'a FaceState| state.weights().get(part.shapes()).unwrap_or_default();
+    let shapes = part.mesh.shapes.iter().zip(weights(rest).iter().zip(weights(state)));
     used.iter().any(|bone| rest.bones().get(*bone) != state.bones().get(*bone)) || { shapes }
         .any(|(shape, (rest, now))| rest != now && shape.moved_vertices() > 0)
 }

@@ -49,7 +49,7 @@ fn every_contradiction_is_refused_with_its_place() {
     );
     assert_eq!(
         text(|contents| _ = contents.shapes.pop()),
-        r#"part "skin": expected 1 shapes at most, found 2"#
+        r#"part "skin": expected the index of one of 1 shapes, found 1"#
     );
     let renamed = refused(|contents| contents.shapes[0] = "Grin".to_owned());
     assert!(matches!(renamed, ContentsError::Bind(BindError::UnknownShape { .. })), "{renamed}");

@@ -8,7 +8,7 @@
 
 use avatar_exchange::{Node, RawScene, Scene, ScenePart, Skin, Transform, Trs};
 use avatar_mesh::{Bounds, Mesh, Shape, Skinning};
-use avatar_pack::{FaceState, Import, Pack, ShapeSet};
+use avatar_pack::{FaceState, Import, Pack, ShapeSet, Textures, export};
 use glam::{Affine3A, Vec2, Vec3};
 
 /// A triangle above every one of these places, whose shapes each move the first one.
@@ -204,6 +204,35 @@ fn without_a_head_the_face_is_where_shapes_are() {
     assert!((face.min.y - 19.65).abs() < 1e-5 && (face.max.y - 21.0).abs() < 1e-5, "{face:?}");
     assert_eq!(body(0.5).face(), None, "there is no more than the face");
     assert_eq!(self::face(&[]).pack.face(), None);
+}
+
+#[test]
+fn parts_hold_their_own_shapes_only_and_follow_their_own_weights() {
+    let (nodes, shapes) = (400, 50);
+    let parts = (0..nodes).map(|node| {
+        let names: Vec<String> = (0..shapes).map(|shape| format!("{node}: {shape}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        ScenePart::rigid(&format!("part {node}"), node, mesh(&[Vec3::X * node as f32], &names))
+    });
+    let node = Node { weights: vec![0.0; shapes], ..Node::default() };
+    let pack =
+        import(RawScene { nodes: vec![node; nodes], parts: parts.collect(), ..RawScene::default() }).pack;
+    assert_eq!(pack.shapes().len(), nodes * shapes);
+    for (index, part) in pack.parts().iter().enumerate() {
+        assert_eq!(part.shapes(), index * shapes..(index + 1) * shapes);
+        assert_eq!(part.mesh.shapes.len(), shapes, "no places for shapes of other parts");
+    }
+    let mut state = FaceState::new(&pack);
+    let mut values = pack.controls().defaults();
+    values[pack.controls().index("300: 20").expect("a control")] = 1.0;
+    state.pose(&pack, &values).expect("a pose");
+    for index in [0, 299, 300, 301, 399] {
+        let moved = state.deform(&pack, index).expect("a part").positions[0].z;
+        assert_eq!(moved, if index == 300 { 0.1 } else { 0.0 }, "part {index}");
+    }
+    // Written and read again, each part has its own shapes again.
+    let scene = Scene::from_raw(export(&pack, &Textures::default())).expect("a scene");
+    assert_eq!(Import::from_scene(scene).expect("an avatar").pack.shapes(), pack.shapes());
 }
 
 /// A second or two; where each shape looks at all others it takes minutes.

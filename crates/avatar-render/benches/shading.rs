@@ -187,7 +187,7 @@ fn avatar(gpu: &Gpu) -> (AvatarModel, AvatarState, Scene) {
         .map(|(part, [color, occlusion, gloss, normal, thickness])| PartDesc {
             label: &part.name,
             mesh: &part.mesh,
-            first_weight: 0,
+            first_weight: part.first_shape,
             kind: part.kind,
             bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
             textures: PartTextures {

@@ -65,16 +65,6 @@ pub enum ImportFailure {
     /// Parts that do not fit together, or controls that do not fit the rig.
     #[error(transparent)]
     Contents(#[from] ContentsError),
-    /// Shapes at so many nodes that the list that all parts share has no room.
-    #[error(
-        "node {node:?}: expected at most {most} places for shapes of other nodes in all parts together, found more"
-    )]
-    Shapes {
-        /// The node of the part that is one too many.
-        node: String,
-        /// How many there may be.
-        most: usize,
-    },
     /// Rules of shapes that cannot be followed.
     #[error(transparent)]
     Drivers(#[from] DriversError),
@@ -117,7 +107,6 @@ impl Import {
         leave_helpers_out(&mut scene, &mut report);
         let joints = rig::Joints::of(&scene, known, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
-        shapes.check(&scene)?;
         let sliders = sliders::Wanted::of(&scene, &shapes)?;
         let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
         let (parts, textures) = parts::parts(&scene, &shapes, &mut report);

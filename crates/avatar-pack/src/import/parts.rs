@@ -1,10 +1,10 @@
+use super::ImportReport;
 use super::rig::unique_names;
-use super::{ImportFailure, ImportReport};
 use crate::textures::{OwnImages, decode};
 use crate::{Part, Textures, Warning};
 use avatar_exchange::{AlphaMode, Scene, ScenePart};
 use avatar_look::Material;
-use avatar_mesh::{Mesh, Offsets, PartKind, Shape};
+use avatar_mesh::{PartKind, Shape};
 use image::RgbaImage;
 
 /// The shapes of all nodes in one list.
@@ -19,11 +19,18 @@ pub(super) struct ShapeNames {
 
 impl ShapeNames {
     pub(super) fn of(scene: &Scene) -> Self {
+        // Per node the shapes of that of its parts which has the most.
+        let mut of_nodes: Vec<&[Shape]> = vec![&[]; scene.nodes.len()];
+        for part in &scene.parts {
+            if let Some(of_node) = of_nodes.get_mut(part.node)
+                && part.mesh.shapes.len() >= of_node.len()
+            {
+                *of_node = &part.mesh.shapes;
+            }
+        }
         let mut all = Self { names: Vec::new(), weights: Vec::new(), first: Vec::new() };
-        for (index, node) in scene.nodes.iter().enumerate() {
+        for (node, named) in scene.nodes.iter().zip(of_nodes) {
             all.first.push(all.names.len());
-            let of_parts = scene.parts.iter().filter(|part| part.node == index).map(|part| &part.mesh.shapes);
-            let named = of_parts.max_by_key(|shapes| shapes.len()).map_or(&[][..], Vec::as_slice);
             all.names.extend(unique_names(named.iter().map(|shape| shape.name.as_str()), "shape"));
             all.weights.extend((0..named.len()).map(|k| node.weights.get(k).copied().unwrap_or(0.0)));
         }
@@ -31,29 +38,7 @@ impl ShapeNames {
     }
 }
 
-/// So many places of parts may be held free for the shapes of other nodes: some hundred bytes each. A crowd of 150 faces of 52 shapes
-/// each stays below it.
-const MOST_FREE_PLACES: usize = 1_000_000;
-
-impl ShapeNames {
-    /// Whether the parts have room for all: each holds the places before its own free.
-    ///
-    /// # Errors
-    /// The part with which it becomes too much.
-    pub(super) fn check(&self, scene: &Scene) -> Result<(), ImportFailure> {
-        let mut places = 0usize;
-        for part in scene.parts.iter().filter(|part| !part.mesh.shapes.is_empty()) {
-            places = places.saturating_add(self.first.get(part.node).copied().unwrap_or(0));
-            if places > MOST_FREE_PLACES {
-                let node = scene.nodes.get(part.node).map_or_else(String::new, |node| node.name.clone());
-                return Err(ImportFailure::Shapes { node, most: MOST_FREE_PLACES });
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The parts with their shapes in the places of the common list, and their pictures.
+/// The parts, which know the places of their shapes in the common list, and their pictures.
 pub(super) fn parts(scene: &Scene, shapes: &ShapeNames, report: &mut ImportReport) -> (Vec<Part>, Textures) {
     let names = unique_names(scene.parts.iter().map(|part| part_name(scene, part)), "part");
     let mut images = Images::default();
@@ -65,9 +50,12 @@ pub(super) fn parts(scene: &Scene, shapes: &ShapeNames, report: &mut ImportRepor
                 Some(_) => None,
                 None => scene.palette().rigid.get(part.node).copied().flatten(),
             };
-            let mesh = in_common_places(&part.mesh, shapes.first.get(part.node).copied().unwrap_or(0));
+            let mut mesh = part.mesh.clone();
+            // Shapes that move positions only get the normals of the moved surface.
+            mesh.add_shape_normals();
+            let first_shape = shapes.first.get(part.node).copied().unwrap_or(0);
             let bytes = mesh.positions.len() * 32 + mesh.triangles.len() * 12;
-            Part { name, kind, mesh, bytes, bone, material: Some(material), bounds: None }
+            Part { name, kind, mesh, first_shape, bytes, bone, material: Some(material), bounds: None }
         })
         .collect();
     let textures = images.decoded(scene);
@@ -77,20 +65,6 @@ pub(super) fn parts(scene: &Scene, shapes: &ShapeNames, report: &mut ImportRepor
 fn part_name<'a>(scene: &'a Scene, part: &'a ScenePart) -> &'a str {
     let of_node = || scene.nodes.get(part.node).map_or("", |node| node.name.as_str());
     if part.name.trim().is_empty() { of_node() } else { &part.name }
-}
-
-/// Shapes that do not move the part stand in the places of other nodes' shapes.
-fn in_common_places(mesh: &Mesh, first: usize) -> Mesh {
-    if mesh.shapes.is_empty() {
-        return mesh.clone();
-    }
-    let mut own = mesh.clone();
-    // What moves positions only gets the normals of the moved surface.
-    own.add_shape_normals();
-    let still = || Shape::new("", Offsets::from_pairs(mesh.positions.len(), []).unwrap_or_default());
-    let mut shapes: Vec<Shape> = std::iter::repeat_with(still).take(first).collect();
-    shapes.append(&mut own.shapes);
-    Mesh { shapes, ..own }
 }
 
 /// How a part is drawn, guessed from the names of part, node and material.

@@ -39,7 +39,7 @@ impl Merged {
     pub(super) fn append(&mut self, pack: &Pack, part: &Part, bones: &Bones, shapes: &Places<'_>) -> bool {
         let first = self.len() as u32;
         let from = &part.mesh;
-        let names = pack.shapes().iter().zip(&from.shapes);
+        let names = pack.shapes().iter().skip(part.first_shape).zip(&from.shapes);
         let placed: Vec<(usize, &Shape)> =
             names.filter_map(|(name, shape)| Some((shapes.place(name)?, shape))).collect();
         let mut unfit = false;

@@ -3,6 +3,7 @@ use crate::Pack;
 use crate::import::face_control;
 use avatar_mesh::FACE_SHAPES;
 use pose_anim::Drive;
+use std::collections::HashSet;
 
 /// Which shapes of an avatar take the two places of the format. Shapes of one name are one.
 pub(super) struct Places<'a> {
@@ -13,20 +14,21 @@ impl<'a> Places<'a> {
     /// Shapes of the format's own names take their places; others the free ones. Shapes that move nothing, or that nothing moves, need
     /// none.
     pub(super) fn of(pack: &'a Pack) -> Result<Self, RawError> {
-        let mut moving: Vec<&str> = Vec::new();
-        for (index, name) in pack.shapes().iter().enumerate() {
-            let moves = |part: &crate::Part| {
-                part.mesh.shapes.get(index).is_some_and(|shape| shape.moved_vertices() > 0)
-            };
-            let is_driven = pack
-                .controls()
-                .controls()
-                .iter()
-                .any(|control| matches!(&control.drives, Drive::Shape { shape } if shape == name));
-            if is_driven && !moving.contains(&name.as_str()) && pack.parts().iter().any(moves) {
-                moving.push(name);
+        let mut moves = vec![false; pack.shapes().len()];
+        for part in pack.parts() {
+            for (moves, shape) in moves[part.shapes()].iter_mut().zip(&part.mesh.shapes) {
+                *moves |= shape.moved_vertices() > 0;
             }
         }
+        let driven = pack.controls().controls().iter().filter_map(|control| match &control.drives {
+            Drive::Shape { shape } => Some(shape.as_str()),
+            Drive::Joint { .. } => None,
+        });
+        let mut driven: HashSet<&str> = driven.collect();
+        let shapes = pack.shapes().iter().zip(moves).filter(|(_, moves)| *moves);
+        // Several shapes of one name count once.
+        let mut moving: Vec<&str> =
+            shapes.map(|(name, _)| name.as_str()).filter(|name| driven.remove(name)).collect();
         if moving.len() > FACE_SHAPES.len() {
             return Err(RawError::TooManyShapes { found: moving.into_iter().map(str::to_owned).collect() });
         }
