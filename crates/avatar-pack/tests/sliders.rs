@@ -168,24 +168,20 @@ fn files_without_sliders_keep_the_shapes_or_refuse_them() {
     assert_eq!(refused, RawError::InBetween { sliders: ["shut", "smile", "shut"].map(str::to_owned).into() });
 }
 
+/// With places for the shapes of other nodes it would take 12 GiB.
 #[test]
-fn shapes_at_very_many_nodes_are_refused_before_they_take_all_memory() {
+fn shapes_at_very_many_nodes_take_memory_of_their_own_only() {
     let names: Vec<String> = (0..60).map(|k| format!("shape {k}")).collect();
     let offsets: Vec<_> = names.iter().map(|name| (name.as_str(), Vec3::X)).collect();
-    let crowd = |nodes: usize| {
-        let node = |number: usize| Node {
-            name: format!("face {number}"),
-            weights: vec![0.0; 60],
-            ..Node::default()
-        };
-        let raw = RawScene {
-            nodes: (0..nodes).map(node).collect(),
-            parts: (0..nodes).map(|node| part("face", node, &offsets)).collect(),
-            ..RawScene::default()
-        };
-        Import::from_scene(Scene::from_raw(raw).expect("a scene"))
+    let nodes = 2_000;
+    let node =
+        |number: usize| Node { name: format!("face {number}"), weights: vec![0.0; 60], ..Node::default() };
+    let raw = RawScene {
+        nodes: (0..nodes).map(node).collect(),
+        parts: (0..nodes).map(|node| part("face", node, &offsets)).collect(),
+        ..RawScene::default()
     };
-    assert!(crowd(20).is_ok());
-    let error = crowd(200).expect_err("too much").to_string();
-    assert!(error.contains("face 183") && error.contains("1000000"), "{error}");
+    let pack = Import::from_scene(Scene::from_raw(raw).expect("a scene")).expect("an avatar").pack;
+    assert_eq!(pack.shapes().len(), 60 * nodes);
+    assert!(pack.parts().iter().all(|part| part.mesh.shapes.len() == 60));
 }
