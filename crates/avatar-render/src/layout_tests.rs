@@ -1,18 +1,19 @@
 //! Every struct that Rust writes and WGSL reads must lie in memory alike: naga's offsets against `offset_of!`.
 
-use crate::Terms;
-use crate::deformer::GpuDeformedVertex;
-use crate::frame::{GpuFrame, GpuLamp};
-use crate::hair::{GpuHair, GpuHairPose, GpuHairRegion};
-use crate::hair_detail::GpuHairView;
-use crate::material::{GpuIris, GpuMaterial};
-use crate::part::{GpuPart, GpuVertex, GpuVertexBones};
-use crate::renderer::GpuShadowView;
-use crate::shaders::Constants;
-use crate::shaders::tests::{all, parsed};
-use crate::shape_blocks::GpuShapeOffset;
-use crate::state::{GpuActiveShape, GpuActiveShapesHead, GpuBone};
-use crate::swing::{GpuMote, GpuSwing};
+use crate::deform::posed::GpuDeformedVertex;
+use crate::hair::detail::GpuHairView;
+use crate::hair::swing::{GpuMote, GpuSwing};
+use crate::hair::uniforms::{GpuHair, GpuHairPose, GpuHairRegion};
+use crate::model::active_shapes::{GpuActiveShape, GpuActiveShapesHead};
+use crate::model::bone::GpuBone;
+use crate::model::geometry::{GpuPart, GpuVertex, GpuVertexBones};
+use crate::model::material::{GpuIris, GpuMaterial};
+use crate::model::shape_blocks::GpuShapeOffset;
+use crate::program_tests::{all, choices, parsed};
+use crate::view::lamps::GpuLamp;
+use crate::view::shading::{Shading, Terms};
+use crate::view::shadows::GpuShadowView;
+use crate::view::uniforms::GpuFrame;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 use std::collections::BTreeSet;
 use std::mem::offset_of;
@@ -197,7 +198,7 @@ fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
     let layouts = layouts();
     let mut seen = BTreeSet::new();
     for program in all() {
-        let module = parsed(&program, &Constants { terms: Terms::HIGH, ..Constants::default() });
+        let module = parsed(&program, &choices(Shading::Natural(Terms::HIGH), 1));
         for handle in buffer_types(&module) {
             let ty = &module.types[handle];
             let TypeInner::Struct { members, span } = &ty.inner else { continue };
@@ -232,7 +233,7 @@ fn arrays_step_from_element_to_element_as_in_rust() {
     ];
     let mut seen = BTreeSet::new();
     for program in all() {
-        let module = parsed(&program, &Constants { terms: Terms::HIGH, ..Constants::default() });
+        let module = parsed(&program, &choices(Shading::Natural(Terms::HIGH), 1));
         for (_, variable) in module.global_variables.iter() {
             let TypeInner::Array { stride, .. } = module.types[variable.ty].inner else { continue };
             let name = variable.name.as_deref().expect("variables have names");

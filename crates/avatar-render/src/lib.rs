@@ -73,66 +73,46 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod camera;
-mod color;
-mod curvature;
-mod deformer;
-mod eye;
-mod frame;
-mod grower;
+mod gpu;
+mod model;
+mod deform;
+mod view;
 mod hair;
-mod hair_detail;
-mod hair_pipelines;
+mod avatar;
+mod frame;
 pub mod headless;
-mod image;
 #[cfg(test)]
 mod layout_tests;
-mod material;
-mod mips;
-mod model;
-mod part;
-mod passes;
-mod pipelines;
-mod pores;
-mod readback;
-mod record;
-mod record_hair;
-mod renderer;
-mod resources;
-mod scene;
-mod seen;
-mod shaders;
-mod shading;
-mod shadows;
-mod shape_blocks;
-mod state;
-mod swing;
-mod targets;
-mod texture;
-mod timer;
-mod vec4_texture;
+#[cfg(test)]
+mod program_tests;
 
+pub use avatar::model::AvatarModel;
+pub use avatar::read_back::{DeformerError, GrowerError};
+pub use avatar::state::AvatarState;
 /// The crate whose [`Groom`](avatar_groom::Groom)s [`AvatarModel::set_hair`] plants.
 pub use avatar_groom;
 pub use avatar_look::{Environment, Iris, Lamp, Light, Material, Panel, ToneMap};
 /// The crate whose meshes are drawn.
 pub use avatar_mesh;
-pub use camera::Camera;
-pub use color::linear_from_srgb8;
-pub use deformer::{Deformer, DeformerError};
+pub use deform::deformer::Deformer;
+pub use deform::pose::StateError;
+pub use frame::draw::DrawError;
+pub use frame::renderer::{Renderer, RendererError};
+pub use frame::targets::{SizeError, Targets};
+pub use frame::timer::PassTimer;
 /// The crate of vectors and matrices that this one was built with: types of another version of it do not fit.
 pub use glam;
-pub use grower::{Grower, GrowerError};
-pub use hair::HairError;
-pub use hair_detail::HairDetail;
-pub use image::{Image, ImageSizeError};
-pub use model::{AvatarModel, ModelError, NoSuchPart, PartBones, PartDesc, PartProblem, PartTextures};
-pub use readback::ReadbackError;
-pub use renderer::{DrawError, Renderer, RendererConfig, RendererError};
-pub use scene::Scene;
-pub use shading::{Quality, Scattering, Shading, Shadows, Style, Terms};
-pub use state::{AvatarState, StateError};
-pub use targets::{SizeError, Targets};
-pub use timer::PassTimer;
+pub use gpu::color::linear_from_srgb8;
+pub use gpu::image::{Image, ImageSizeError};
+pub use gpu::readback::ReadbackError;
+pub use hair::detail::HairDetail;
+pub use hair::error::HairError;
+pub use hair::grower::Grower;
+pub use model::desc::{PartBones, PartDesc, PartTextures};
+pub use model::error::{ModelError, NoSuchPart, PartProblem};
+pub use view::camera::Camera;
+pub use view::config::RendererConfig;
+pub use view::scene::Scene;
+pub use view::shading::{Quality, Scattering, Shading, Shadows, Style, Terms};
 /// The crate of devices, queues and views that this one was built with: types of another version of it do not fit.
 pub use wgpu;

@@ -1,10 +1,17 @@
-use super::Gpu;
-use crate::color::{linear_table, srgb8_from_linear};
-use crate::readback::{ReadbackError, mapped};
-use crate::{
-    AvatarModel, AvatarState, DrawError, Image, Quality, Renderer, RendererConfig, RendererError, Scene,
-    Shading, SizeError, Style, Targets,
-};
+//! Pictures of one size.
+
+use crate::avatar::model::AvatarModel;
+use crate::avatar::state::AvatarState;
+use crate::frame::draw::DrawError;
+use crate::frame::renderer::{Renderer, RendererError};
+use crate::frame::targets::{SizeError, Targets};
+use crate::gpu::color::{linear_table, srgb8_from_linear};
+use crate::gpu::device::Gpu;
+use crate::gpu::image::Image;
+use crate::gpu::readback::{ReadbackError, mapped};
+use crate::view::config::RendererConfig;
+use crate::view::scene::Scene;
+use crate::view::shading::{Quality, Shading, Style};
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -92,7 +99,7 @@ impl Canvas {
         scene: &Scene,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Result<Image, RenderImageError> {
-        crate::readback::block_on(self.render_async(gpu, scene, avatars))
+        crate::gpu::readback::block_on(self.render_async(gpu, scene, avatars))
     }
 
     /// The same, for callers that cannot block.

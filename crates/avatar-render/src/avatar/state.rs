@@ -1,0 +1,95 @@
+//! What one avatar has for itself.
+
+use crate::avatar::model::AvatarModel;
+use crate::deform::pose::{Pose, StateError};
+use crate::gpu::identity::Identity;
+use crate::hair::detail::HairDetail;
+use crate::hair::state::HairState;
+use crate::model::part::ModelPart;
+use avatar_mesh::Bounds;
+use glam::Affine3A;
+
+/// What one avatar has for itself: bone matrices and blend weights.
+#[derive(Debug)]
+pub struct AvatarState {
+    model: Identity,
+    pub(crate) pose: Pose,
+    /// What the growing pass makes of the model's hair.
+    pub(crate) hair: Option<HairState>,
+    pub(crate) hair_detail: HairDetail,
+}
+
+impl AvatarState {
+    /// An avatar of this model at bind pose, all shapes at rest.
+    pub fn new(device: &wgpu::Device, model: &AvatarModel) -> Self {
+        let pose = Pose::new(device, &model.parts, model.palette_len(), model.shape_count());
+        let hair = model
+            .hair
+            .as_ref()
+            .and_then(|hair| Some(HairState::new(device, hair, &pose.parts.get(hair.part)?.vertices)));
+        Self { model: model.id, pose, hair, hair_detail: HairDetail::default() }
+    }
+
+    /// How much of the hair is grown and drawn, from the next frame on.
+    pub fn set_hair_detail(&mut self, detail: HairDetail) {
+        self.hair_detail = detail;
+    }
+
+    /// Lets hair move: as many seconds pass from the last frame to the next one, in which locks lag behind the head, swing
+    /// and settle within about a second. Set the pose as well; the order of the two does not matter. Frames of any rate
+    /// show the same motion. Seconds below 0, above a half, or that are no number leave hair still where the head is then: after
+    /// a pause, or where the avatar is put elsewhere. Until the first call, and after [`AvatarState::still_hair`], hair
+    /// hangs still, as pictures want it. A style says how its hair swings
+    /// ([`RegionStyle::swing`](avatar_groom::RegionStyle::swing)).
+    pub fn advance_hair(&mut self, queue: &wgpu::Queue, seconds: f32) {
+        if let Some(hair) = &mut self.hair {
+            hair.swing.advance(queue, seconds);
+        }
+    }
+
+    /// Lets hair hang still, from the next frame on.
+    pub fn still_hair(&mut self) {
+        if let Some(hair) = &mut self.hair {
+            hair.swing.stop();
+        }
+    }
+
+    /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a
+    /// placement in the world, if there is one, which must not scale where there is hair), `weights` one blend weight per shape; shapes with weight 0 cost
+    /// nothing. Allocates nothing here.
+    ///
+    /// # Errors
+    /// Lengths that do not fit the model; the state is unchanged then.
+    pub fn set(
+        &mut self,
+        queue: &wgpu::Queue,
+        bones: &[Affine3A],
+        weights: &[f32],
+    ) -> Result<(), StateError> {
+        self.pose.set(queue, bones, weights)?;
+        self.hair.iter().for_each(|hair| hair.set_pose(queue, bones));
+        Ok(())
+    }
+
+    /// Whether this state was made for this model with the hair that it has now.
+    pub(crate) fn fits(&self, model: &AvatarModel) -> bool {
+        let hair = (self.hair.as_ref().map(|hair| hair.id), model.hair.as_ref().map(|hair| hair.id));
+        self.model == model.id && hair.0 == hair.1
+    }
+
+    /// What the deform pass makes of it.
+    pub(crate) fn deforming<'a>(&'a self, model: &'a AvatarModel) -> (&'a [ModelPart], &'a Pose) {
+        (&model.parts, &self.pose)
+    }
+
+    /// What the growing pass makes of it: all of its strands.
+    pub(crate) fn growing_all(&self, model: &AvatarModel) -> Option<(&Pose, &HairState, u32)> {
+        let strands = u32::try_from(model.strand_count()).unwrap_or(u32::MAX);
+        Some((&self.pose, self.hair.as_ref()?, strands))
+    }
+
+    /// A box around the avatar as it is now, `None` where it has no finite one.
+    pub(crate) fn bounds(&self, model: &AvatarModel) -> Option<Bounds> {
+        self.pose.bounds(&model.parts)
+    }
+}

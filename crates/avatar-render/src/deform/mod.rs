@@ -1,0 +1,5 @@
+//! What one avatar has for itself: its pose, and the vertices that the deform pass makes of it.
+
+pub(crate) mod deformer;
+pub(crate) mod pose;
+pub(crate) mod posed;

@@ -1,0 +1,165 @@
+//! The pose of one avatar: bone matrices and blend weights.
+
+use crate::deform::posed::{PosedPart, deformed_layout};
+use crate::gpu::bindings::storage_entry;
+use crate::gpu::buffers::written_buffer;
+use crate::gpu::program::Module;
+use crate::model::active_shapes::{GpuActiveShape, GpuActiveShapesHead};
+use crate::model::bone::GpuBone;
+use crate::model::geometry::Geometry;
+use crate::model::part::ModelPart;
+use avatar_mesh::Bounds;
+use bytemuck::Zeroable;
+use glam::{Affine3A, Vec3};
+use wgpu::util::DeviceExt;
+
+/// A pose in WGSL.
+pub(crate) const AVATAR: Module = Module::of(include_str!("shaders/avatar.wgsl"));
+
+/// Why a state could not be set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StateError {
+    /// Another number of bone matrices than the model's palette has.
+    #[error("expected {expected} bone matrices, found {found}")]
+    BoneCount {
+        /// Length of the palette.
+        expected: usize,
+        /// Number of matrices.
+        found: usize,
+    },
+    /// Another number of weights than the model has shapes.
+    #[error("expected {expected} blend weights, found {found}")]
+    WeightCount {
+        /// Number of shapes.
+        expected: usize,
+        /// Number of weights.
+        found: usize,
+    },
+}
+
+/// What one avatar has for itself: bone matrices, blend weights, and the vertices that they make.
+#[derive(Debug)]
+pub(crate) struct Pose {
+    bones: Vec<GpuBone>,
+    active_shapes: Vec<GpuActiveShape>,
+    shape_count: usize,
+    /// Also read by eyeballs, which turn the view back to bind pose.
+    pub(crate) bone_buffer: wgpu::Buffer,
+    shape_buffer: wgpu::Buffer,
+    pub(crate) bind_group: wgpu::BindGroup,
+    /// What the deform pass makes of each part of the model.
+    pub(crate) parts: Vec<PosedPart>,
+}
+
+/// Layout of group 1 of the passes that deform and grow.
+pub(crate) fn avatar_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let compute = wgpu::ShaderStages::COMPUTE;
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("avatar state"),
+        entries: &[storage_entry(0, compute, true), storage_entry(1, compute, true)],
+    })
+}
+
+impl Pose {
+    /// Bind pose, all shapes at rest.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        parts: &[ModelPart],
+        palette_len: usize,
+        shape_count: usize,
+    ) -> Self {
+        let bones = vec![GpuBone::new(&Affine3A::IDENTITY); palette_len];
+        // WebGPU binds no empty buffers.
+        let no_bones = [GpuBone::zeroed()];
+        let initial: &[GpuBone] = if bones.is_empty() { &no_bones } else { &bones };
+        let bone_buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("avatar: bones"),
+            contents: bytemuck::cast_slice(initial),
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+        });
+        let output_layout = deformed_layout(device);
+        let room = shape_count.max(1) * size_of::<GpuActiveShape>();
+        // Zeros: no active shapes.
+        let bytes = (size_of::<GpuActiveShapesHead>() + room) as u64;
+        let shape_buffer =
+            written_buffer(device, "avatar: active shapes", bytes, wgpu::BufferUsages::STORAGE);
+        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("avatar"),
+            layout: &avatar_layout(device),
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: bone_buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: shape_buffer.as_entire_binding() },
+            ],
+        });
+        Self {
+            bones,
+            active_shapes: Vec::with_capacity(shape_count),
+            shape_count,
+            bone_buffer,
+            shape_buffer,
+            bind_group,
+            parts: parts.iter().map(|part| PosedPart::new(device, &output_layout, part)).collect(),
+        }
+    }
+
+    /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a
+    /// placement in the world, if there is one, which must not scale where there is hair), `weights` one blend weight per shape; shapes with weight 0 cost
+    /// nothing. Allocates nothing here.
+    ///
+    /// # Errors
+    /// Lengths that do not fit the model; the state is unchanged then.
+    pub(crate) fn set(
+        &mut self,
+        queue: &wgpu::Queue,
+        bones: &[Affine3A],
+        weights: &[f32],
+    ) -> Result<(), StateError> {
+        if bones.len() != self.bones.len() {
+            return Err(StateError::BoneCount { expected: self.bones.len(), found: bones.len() });
+        }
+        if weights.len() != self.shape_count {
+            return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
+        }
+        self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
+        self.active_shapes.clear();
+        let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+        self.active_shapes.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
+        let head = GpuActiveShapesHead { count: self.active_shapes.len() as u32 };
+        if !self.bones.is_empty() {
+            queue.write_buffer(&self.bone_buffer, 0, bytemuck::cast_slice(&self.bones));
+        }
+        queue.write_buffer(&self.shape_buffer, 0, bytemuck::bytes_of(&head));
+        if !self.active_shapes.is_empty() {
+            let after_head = size_of::<GpuActiveShapesHead>() as u64;
+            queue.write_buffer(&self.shape_buffer, after_head, bytemuck::cast_slice(&self.active_shapes));
+        }
+        Ok(())
+    }
+
+    /// A box around the avatar as it is now. What is nowhere, or endless, has none: it must not take the shadows of other
+    /// avatars with it.
+    pub(crate) fn bounds(&self, parts: &[ModelPart]) -> Option<Bounds> {
+        let boxes = parts.iter().flat_map(|ModelPart { geometry, .. }| {
+            geometry.bounds.bones().iter().map(|around| (geometry.first_weight, around))
+        });
+        // Ascending by index.
+        let weight = |shape: usize| {
+            let found = self.active_shapes.binary_search_by_key(&shape, |active| active.index as usize);
+            found.map_or(0.0, |at| self.active_shapes[at].weight)
+        };
+        boxes
+            .filter_map(|(first, around)| {
+                let bone = self.bones.get(around.bone())?;
+                Some(bone.moved(around.shaped(|shape| [weight(first + shape); 2])))
+            })
+            .filter(|bounds| bounds.size().is_finite() && bounds.center().is_finite())
+            .reduce(Bounds::union)
+    }
+
+    /// Where the middle of a part is now, roughly.
+    pub(crate) fn center_of(&self, geometry: &Geometry) -> Vec3 {
+        let Some(bone) = self.bones.get(geometry.center_bone) else { return geometry.center };
+        let point = geometry.center.extend(1.0);
+        Vec3::from_array(bone.rows.map(|row| point.dot(row.into())))
+    }
+}

@@ -1,0 +1,170 @@
+//! Draws frames.
+
+use crate::avatar::model::AvatarModel;
+use crate::avatar::state::AvatarState;
+use crate::frame::passes::{FRAME_PASSES, Pass};
+use crate::frame::record::Recording;
+use crate::frame::renderer::Renderer;
+use crate::frame::strands::strands_in_view;
+use crate::frame::targets::Targets;
+use crate::frame::timer::PassTimer;
+use crate::gpu::color::srgb_from_linear;
+use crate::view::scene::Scene;
+use crate::view::seen::Seen;
+use crate::view::shadows::{GpuShadowView, ShadowViews};
+use crate::view::uniforms::GpuFrame;
+
+/// Why a frame was not drawn. Nothing was recorded then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DrawError {
+    /// The state of another model.
+    #[error("avatar {avatar}: expected the state of its model, found that of another one")]
+    StateOfAnotherModel {
+        /// Position in the slice of avatars.
+        avatar: usize,
+    },
+    /// Targets that were made for another renderer.
+    #[error("expected targets made for this renderer, found those of another one")]
+    TargetsOfAnotherRenderer,
+    /// A view that cannot be drawn into with these targets.
+    #[error(
+        "expected a single-sampled view of {width}×{height} pixels in {format:?} that can be drawn into, found {found_width}×{found_height} in {found_format:?}"
+    )]
+    View {
+        /// Width of the targets.
+        width: u32,
+        /// Height of the targets.
+        height: u32,
+        /// Format of the renderer.
+        format: wgpu::TextureFormat,
+        /// Width of the view's texture.
+        found_width: u32,
+        /// Height of the view's texture.
+        found_height: u32,
+        /// Format of the view's texture.
+        found_format: wgpu::TextureFormat,
+    },
+}
+
+impl Renderer {
+    /// Records one frame: clears `view`, then draws all avatars. Colours are premultiplied by alpha in the view.
+    ///
+    /// Shadow maps are fitted around the avatars in the picture, but for those that look less than an eighth as large as the
+    /// largest; what is beyond the map is in no cast shadow. All in a lamp's way cast shadows, in the picture or not. How soft
+    /// shadows are and how far hollows darken follows from the height of the avatar that looks largest.
+    ///
+    /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be recorded before a
+    /// submission, with 4096 heads of hair in all; they share one environment, the last one's. A change of the environment takes some milliseconds.
+    ///
+    /// # Errors
+    /// A view, targets or states that do not belong together; nothing is recorded then.
+    pub fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &wgpu::TextureView,
+        targets: &Targets,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<(), DrawError> {
+        self.draw_timed(encoder, view, targets, queue, scene, avatars, None)
+    }
+
+    /// [`Renderer::draw`] that notes when each pass starts and ends.
+    ///
+    /// # Errors
+    /// As above.
+    #[allow(clippy::too_many_arguments, reason = "those of `draw` and one more")]
+    pub fn draw_timed(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &wgpu::TextureView,
+        targets: &Targets,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        timer: Option<&PassTimer>,
+    ) -> Result<(), DrawError> {
+        self.check(view, targets, avatars)?;
+        let terms = self.config().shading.terms();
+        let boxes = avatars.iter().map(|(model, state)| (state.bounds(model), model.height));
+        let seen = Seen::new(&scene.camera, boxes.clone());
+        let casters = boxes.filter_map(|(bounds, _)| bounds);
+        let shadows = ShadowViews::new(&scene.light, seen.bounds, casters, terms.shadows);
+        let irradiance = self.resources.environment.irradiance(queue, &scene.light.environment, terms);
+        let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), seen.height);
+        let pixels_per_unit = gpu_frame.pixels_per_unit;
+        let has_hair = avatars.iter().any(|(model, state)| {
+            strands_in_view(model, state, scene, pixels_per_unit, f32::INFINITY).is_some()
+        });
+        if has_hair {
+            gpu_frame.set_hair(&scene.camera, seen.bounds, Pass::HairShadow.runs(terms, has_hair));
+        }
+        let frame = Recording {
+            renderer: self,
+            view,
+            targets,
+            scene,
+            avatars,
+            clear: self.clear_color(scene.background),
+            frame_offset: self.resources.frames.push(queue, &gpu_frame),
+            shadow_offsets: shadows.0.map(|view| {
+                let shadow_from_world = view.shadow_from_world.to_cols_array_2d();
+                self.shadow_views.push(queue, &GpuShadowView { shadow_from_world })
+            }),
+            timer,
+            has_hair,
+            pixels_per_unit,
+            queue,
+        };
+        let passes = || FRAME_PASSES.into_iter().filter(|pass| pass.runs(terms, has_hair));
+        for pass in passes() {
+            frame.record(encoder, pass);
+        }
+        if let Some(timer) = timer {
+            timer.finish(encoder, passes());
+        }
+        Ok(())
+    }
+
+    fn clear_color(&self, [r, g, b, a]: [f32; 4]) -> wgpu::Color {
+        let channel = |linear: f32| {
+            let encoded = if self.config().encodes_in_shader() { srgb_from_linear(linear) } else { linear };
+            f64::from(encoded * a)
+        };
+        wgpu::Color { r: channel(r), g: channel(g), b: channel(b), a: f64::from(a) }
+    }
+
+    fn check(
+        &self,
+        view: &wgpu::TextureView,
+        targets: &Targets,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<(), DrawError> {
+        if targets.renderer != self.id() {
+            return Err(DrawError::TargetsOfAnotherRenderer);
+        }
+        let texture = view.texture();
+        // A view of a smaller mip level does not tell its size.
+        let size_fits = texture.mip_level_count() > 1
+            || (texture.width() == targets.width && texture.height() == targets.height);
+        // A view may differ from its texture in being sRGB.
+        let format_fits =
+            texture.format().remove_srgb_suffix() == self.config().color_format.remove_srgb_suffix();
+        let drawable = texture.usage().contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
+        if !(size_fits && format_fits && drawable && texture.sample_count() == 1) {
+            return Err(DrawError::View {
+                width: targets.width,
+                height: targets.height,
+                format: self.config().color_format,
+                found_width: texture.width(),
+                found_height: texture.height(),
+                found_format: texture.format(),
+            });
+        }
+        match avatars.iter().position(|(model, state)| !state.fits(model)) {
+            Some(avatar) => Err(DrawError::StateOfAnotherModel { avatar }),
+            None => Ok(()),
+        }
+    }
+}

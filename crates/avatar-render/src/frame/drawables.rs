@@ -1,0 +1,49 @@
+//! What is drawn in the picture, as one list.
+
+use crate::frame::programs::{NATURAL, OUTLINE, PLAIN, Programs, TOON};
+use crate::gpu::program::Program;
+use crate::view::shading::Shading;
+use avatar_mesh::PartKind;
+
+/// What of the picture is drawn with one pipeline.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drawable {
+    /// Which parts.
+    pub(crate) kind: PartKind,
+    /// Name of its group in graphics debuggers.
+    pub(crate) label: &'static str,
+    pub(crate) program: Program,
+    pub(crate) cull_mode: Option<wgpu::Face>,
+    /// Blended over what is there, and hiding nothing.
+    pub(crate) is_transparent: bool,
+}
+
+/// The order in which the picture is drawn, all avatars step by step. The skin comes first because it hides most of the
+/// rest; its back sides after everything that hides them, by a program of their own: software renderers shade hidden
+/// pixels when there are several samples, and one full program for both sides doubled the cost of a frame there. What
+/// is transparent comes last, from far to near.
+pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
+    let programs: Programs = match shading {
+        Shading::Plain => PLAIN,
+        Shading::Natural(_) => NATURAL,
+        Shading::Toon => TOON,
+    };
+    let part =
+        |kind, label, program, cull_mode| Drawable { kind, label, program, cull_mode, is_transparent: false };
+    let (fronts, backs) = (Some(wgpu::Face::Back), Some(wgpu::Face::Front));
+    let cornea = part(PartKind::Cornea, "cornea", programs.cornea, fronts);
+    let mut order = vec![
+        part(PartKind::Skin, "skin", programs.skin, fronts),
+        // Rows of teeth are often open sheets: they are drawn from both sides.
+        part(PartKind::Surface, "teeth", programs.teeth, None),
+        // Eyeballs are closed: their back sides are never seen.
+        part(PartKind::Eyeball, "eyeball", programs.eyeball, fronts),
+        part(PartKind::Skin, "skin back", programs.skin_back, backs),
+    ];
+    if shading == Shading::Toon {
+        order.push(part(PartKind::Skin, "outline of skin", OUTLINE, backs));
+        order.push(part(PartKind::Eyeball, "outline of eyeball", OUTLINE, backs));
+    }
+    order.push(Drawable { is_transparent: true, ..cornea });
+    order
+}

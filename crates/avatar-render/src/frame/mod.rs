@@ -1,0 +1,12 @@
+//! One frame: its passes in their order, what they draw into, and the renderer that records them.
+
+pub(crate) mod draw;
+pub(crate) mod drawables;
+pub(crate) mod part_pipelines;
+pub(crate) mod passes;
+pub(crate) mod programs;
+pub(crate) mod record;
+pub(crate) mod renderer;
+pub(crate) mod strands;
+pub(crate) mod targets;
+pub(crate) mod timer;

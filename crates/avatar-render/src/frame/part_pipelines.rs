@@ -1,0 +1,231 @@
+//! Builds the pipelines of all passes that draw parts.
+
+use crate::deform::posed::GpuDeformedVertex;
+use crate::frame::drawables::Drawable;
+use crate::frame::programs::{OCCLUSION_PASS, PREPASS, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS};
+use crate::gpu::bindings::dynamic_uniform_entry;
+use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
+use crate::gpu::ring::Ring;
+use crate::model::bone::GpuBone;
+use crate::model::geometry::GpuVertex;
+use crate::model::part::look_layout;
+use crate::view::config::RendererConfig;
+use crate::view::inputs::view_layout;
+use crate::view::shadows::GpuShadowView;
+use std::mem::offset_of;
+
+/// Normals of the picture, 0…1.
+pub(crate) const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// How much ambient light arrives.
+pub(crate) const OCCLUSION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+/// Light under the skin, times the frame's pre-exposure.
+pub(crate) const SKIN_LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+/// Slots of the vertex buffers of a part.
+pub(crate) const BIND_SLOT: u32 = 0;
+/// What the deform pass wrote.
+pub(crate) const POSED_SLOT: u32 = 1;
+/// One f32 per vertex.
+pub(crate) const CURVATURE_SLOT: u32 = 2;
+/// The bone of a rigid part, for all vertices alike.
+pub(crate) const BONE_SLOT: u32 = 3;
+
+/// The layouts of passes that draw parts.
+#[derive(Debug)]
+pub(crate) struct Layouts {
+    /// Group 1: what earlier passes left.
+    pub(crate) view: wgpu::BindGroupLayout,
+    /// Group 0 of the shadow pass.
+    pub(crate) shadow: wgpu::BindGroupLayout,
+    pipeline: wgpu::PipelineLayout,
+    /// Passes over the whole picture know no parts.
+    whole_picture: wgpu::PipelineLayout,
+    shadow_pipeline: wgpu::PipelineLayout,
+}
+
+impl Layouts {
+    /// `frame` is the layout of group 0.
+    pub(crate) fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout) -> Self {
+        let view = view_layout(device);
+        let shadow = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("shadow view"),
+            entries: &[dynamic_uniform_entry(wgpu::ShaderStages::VERTEX, Ring::<GpuShadowView>::BYTES)],
+        });
+        Self {
+            pipeline: pipeline_layout(device, "parts of avatars", &[frame, &view, &look_layout(device)]),
+            whole_picture: pipeline_layout(device, "whole picture", &[frame, &view]),
+            shadow_pipeline: pipeline_layout(device, "shadow", &[&shadow]),
+            view,
+            shadow,
+        }
+    }
+}
+
+/// The pipelines of the passes before the picture, where the shading needs them.
+#[derive(Debug)]
+pub(crate) struct PassPipelines {
+    pub(crate) shadow: Option<wgpu::RenderPipeline>,
+    /// Skin and eyeballs from the front, teeth from both sides.
+    pub(crate) prepass: Option<[wgpu::RenderPipeline; 2]>,
+    pub(crate) occlusion: Option<wgpu::RenderPipeline>,
+    pub(crate) skin_light: Option<wgpu::RenderPipeline>,
+    pub(crate) scatter_across: Option<wgpu::RenderPipeline>,
+}
+
+impl PassPipelines {
+    pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts, config: RendererConfig) -> Self {
+        let terms = config.shading.terms();
+        let choices = config.choices();
+        let bind = bind_attributes();
+        let posed = posed_attributes();
+        let curvature = curvature_attributes();
+        let part = part_buffers(&bind, &posed, &curvature, None);
+        let front = Recipe {
+            program: &PREPASS,
+            layout: &layouts.pipeline,
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            buffers: &part,
+            cull_mode: Some(wgpu::Face::Back),
+            depth: Some((wgpu::CompareFunction::Greater, true)),
+            bias: Default::default(),
+            samples: 1,
+            target: color_target(NORMAL_FORMAT, None),
+            beside: None,
+        };
+        let on_skin = |program| Recipe {
+            program,
+            // What the depth pass saw, and nothing behind it.
+            depth: Some((wgpu::CompareFunction::GreaterEqual, false)),
+            target: color_target(SKIN_LIGHT_FORMAT, None),
+            ..front.clone()
+        };
+        let shadow_position = [wgpu::VertexAttribute { shader_location: 0, ..posed[0] }];
+        let shadow_buffers = [Some(buffer_layout(
+            size_of::<GpuDeformedVertex>(),
+            wgpu::VertexStepMode::Vertex,
+            &shadow_position,
+        ))];
+        let build = |needed: bool, recipe: Recipe<'_>| needed.then(|| recipe.build(device, &choices));
+        Self {
+            shadow: build(
+                terms.shadows.lamps() > 0,
+                Recipe {
+                    program: &SHADOW_PASS,
+                    layout: &layouts.shadow_pipeline,
+                    buffers: &shadow_buffers,
+                    // Open sheets cast shadows, too.
+                    cull_mode: None,
+                    depth: Some((wgpu::CompareFunction::Less, true)),
+                    bias: wgpu::DepthBiasState { constant: 0, slope_scale: 1.0, clamp: 0.0 },
+                    samples: 1,
+                    topology: wgpu::PrimitiveTopology::TriangleList,
+                    target: None,
+                    beside: None,
+                },
+            ),
+            prepass: terms.prepass().then(|| {
+                [front.clone(), Recipe { cull_mode: None, ..front.clone() }]
+                    .map(|recipe| recipe.build(device, &choices))
+            }),
+            occlusion: build(
+                terms.occlusion,
+                Recipe {
+                    program: &OCCLUSION_PASS,
+                    layout: &layouts.whole_picture,
+                    buffers: &[],
+                    cull_mode: None,
+                    depth: None,
+                    target: color_target(OCCLUSION_FORMAT, None),
+                    ..front.clone()
+                },
+            ),
+            skin_light: build(terms.separable(), on_skin(&SKIN_LIGHT_PASS)),
+            scatter_across: build(terms.separable(), on_skin(&SCATTER_PASS)),
+        }
+    }
+}
+
+/// Builds the pipeline of something in the picture.
+pub(crate) fn picture_pipeline(
+    device: &wgpu::Device,
+    layouts: &Layouts,
+    drawable: &Drawable,
+    config: RendererConfig,
+) -> wgpu::RenderPipeline {
+    let bind = bind_attributes();
+    let posed = posed_attributes();
+    let curvature = curvature_attributes();
+    let bone = bone_attributes();
+    let part = part_buffers(&bind, &posed, &curvature, Some(&bone));
+    let blend = drawable.is_transparent.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+    let recipe = Recipe {
+        program: &drawable.program,
+        layout: &layouts.pipeline,
+        topology: wgpu::PrimitiveTopology::TriangleList,
+        buffers: &part,
+        cull_mode: drawable.cull_mode,
+        // Depth is reversed: nearer is greater.
+        depth: Some((wgpu::CompareFunction::Greater, !drawable.is_transparent)),
+        bias: Default::default(),
+        samples: config.samples,
+        target: color_target(config.color_format, blend),
+        beside: None,
+    };
+    recipe.build(device, &config.choices())
+}
+
+const fn attribute(format: wgpu::VertexFormat, offset: usize, shader_location: u32) -> wgpu::VertexAttribute {
+    wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
+}
+
+fn bind_attributes() -> [wgpu::VertexAttribute; 2] {
+    use wgpu::VertexFormat::Float32x4;
+    [
+        attribute(Float32x4, offset_of!(GpuVertex, position), 0),
+        attribute(Float32x4, offset_of!(GpuVertex, normal), 1),
+    ]
+}
+
+fn posed_attributes() -> [wgpu::VertexAttribute; 2] {
+    use wgpu::VertexFormat::Float32x3;
+    [
+        attribute(Float32x3, offset_of!(GpuDeformedVertex, position), 2),
+        attribute(Float32x3, offset_of!(GpuDeformedVertex, normal), 3),
+    ]
+}
+
+fn curvature_attributes() -> [wgpu::VertexAttribute; 1] {
+    [attribute(wgpu::VertexFormat::Float32, 0, 4)]
+}
+
+fn bone_attributes() -> [wgpu::VertexAttribute; 3] {
+    let row = size_of::<[f32; 4]>();
+    [0, 1, 2].map(|i| attribute(wgpu::VertexFormat::Float32x4, i * row, 5 + i as u32))
+}
+
+fn buffer_layout(
+    stride: usize,
+    step_mode: wgpu::VertexStepMode,
+    attributes: &[wgpu::VertexAttribute],
+) -> wgpu::VertexBufferLayout<'_> {
+    wgpu::VertexBufferLayout { array_stride: stride as u64, step_mode, attributes }
+}
+
+/// The vertex buffers by their slots.
+fn part_buffers<'a>(
+    bind: &'a [wgpu::VertexAttribute],
+    posed: &'a [wgpu::VertexAttribute],
+    curvature: &'a [wgpu::VertexAttribute],
+    bone: Option<&'a [wgpu::VertexAttribute]>,
+) -> Vec<Option<wgpu::VertexBufferLayout<'a>>> {
+    let vertex = wgpu::VertexStepMode::Vertex;
+    let mut buffers = vec![
+        Some(buffer_layout(size_of::<GpuVertex>(), vertex, bind)),
+        Some(buffer_layout(size_of::<GpuDeformedVertex>(), vertex, posed)),
+        Some(buffer_layout(size_of::<f32>(), vertex, curvature)),
+    ];
+    buffers.extend(
+        bone.map(|bone| Some(buffer_layout(size_of::<GpuBone>(), wgpu::VertexStepMode::Instance, bone))),
+    );
+    buffers
+}

@@ -1,0 +1,77 @@
+//! The passes of a frame, as one list.
+
+use crate::view::shading::Terms;
+
+/// A pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pass {
+    /// Compute: all parts of all avatars into their pose.
+    Deform,
+    /// Compute: every strand of hair anew on the deformed skin.
+    GrowHair,
+    /// What the key and rim lamps see: depth.
+    Shadows,
+    /// How much of the key's light hair keeps off.
+    HairShadow,
+    /// Depth and normals, one sample a pixel.
+    Prepass,
+    /// How much ambient light arrives at each pixel.
+    Occlusion,
+    /// Diffuse light that arrives at the skin.
+    SkinLight,
+    /// That light, spread sideways below the skin.
+    ScatterAcross,
+    /// The picture: what is opaque, and what is clear as well where no hair comes in between.
+    Picture,
+    /// Strands, over what is opaque.
+    Hair,
+    /// What is clear, over hair.
+    Clear,
+}
+
+/// The order of a frame's passes. Each reads only what those before it wrote.
+pub(crate) const FRAME_PASSES: [Pass; 11] = [
+    Pass::Deform,
+    Pass::GrowHair,
+    Pass::Shadows,
+    Pass::HairShadow,
+    Pass::Prepass,
+    Pass::Occlusion,
+    Pass::SkinLight,
+    Pass::ScatterAcross,
+    Pass::Picture,
+    Pass::Hair,
+    Pass::Clear,
+];
+
+impl Pass {
+    /// Its name in graphics debuggers and timings.
+    pub(crate) fn label(self) -> &'static str {
+        match self {
+            Self::Deform => "deform",
+            Self::GrowHair => "grow hair",
+            Self::Shadows => "shadows",
+            Self::HairShadow => "shadow of hair",
+            Self::Prepass => "depth and normals",
+            Self::Occlusion => "ambient occlusion",
+            Self::SkinLight => "light on skin",
+            Self::ScatterAcross => "scatter across",
+            Self::Picture => "avatars",
+            Self::Hair => "hair",
+            Self::Clear => "corneas",
+        }
+    }
+
+    /// Whether a shading needs it.
+    pub(crate) fn runs(self, terms: Terms, with_hair: bool) -> bool {
+        match self {
+            Self::GrowHair | Self::Hair | Self::Clear => with_hair,
+            Self::Deform | Self::Picture => true,
+            Self::Shadows => terms.shadows.lamps() > 0,
+            Self::HairShadow => terms.shadows.lamps() > 0 && with_hair,
+            Self::Prepass => terms.prepass(),
+            Self::Occlusion => terms.occlusion,
+            Self::SkinLight | Self::ScatterAcross => terms.separable(),
+        }
+    }
+}

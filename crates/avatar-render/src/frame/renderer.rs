@@ -1,0 +1,116 @@
+//! What draws avatars: pipelines, tables and shadow maps.
+
+use crate::deform::deformer::Deformer;
+use crate::frame::drawables::{Drawable, draw_order};
+use crate::frame::part_pipelines::{Layouts, PassPipelines, picture_pipeline};
+use crate::gpu::identity::Identity;
+use crate::gpu::ring::Ring;
+use crate::hair::grower::Grower;
+use crate::hair::pipelines::{HairPipelines, HairViews};
+use crate::view::config::RendererConfig;
+use crate::view::lamps::SHADOW_COUNT;
+use crate::view::resources::Resources;
+use crate::view::shadows::GpuShadowView;
+
+/// Why there is no renderer for a configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RendererError {
+    /// Another number of samples than WebGPU promises.
+    #[error("expected 1 or 4 samples, found {found}")]
+    Samples {
+        /// The number.
+        found: u32,
+    },
+    /// A format that cannot be drawn into, blended or resolved with so many samples on every device.
+    #[error(
+        "expected a colour format that can be drawn, blended and resolved at {samples} samples, found {found:?}"
+    )]
+    Format {
+        /// The format.
+        found: wgpu::TextureFormat,
+        /// Samples per pixel.
+        samples: u32,
+    },
+}
+
+/// Draws avatars into texture views of one format.
+#[derive(Debug)]
+pub struct Renderer {
+    id: Identity,
+    config: RendererConfig,
+    pub(crate) resources: Resources,
+    pub(crate) layouts: Layouts,
+    pub(crate) deformer: Deformer,
+    pub(crate) passes: PassPipelines,
+    /// In the order of drawing.
+    pub(crate) picture: Vec<(Drawable, wgpu::RenderPipeline)>,
+    pub(crate) grower: Grower,
+    pub(crate) hair: HairPipelines,
+    pub(crate) hair_views: HairViews,
+    pub(crate) shadow_views: Ring<GpuShadowView>,
+    pub(crate) shadow_group: wgpu::BindGroup,
+}
+
+impl Renderer {
+    /// Builds the pipelines, tables and shadow maps.
+    ///
+    /// # Errors
+    /// A number of samples or a format that not every device draws.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        config: RendererConfig,
+    ) -> Result<Self, RendererError> {
+        check_config(device, config)?;
+        let resources = Resources::new(device, queue, config.shading.terms());
+        let layouts = Layouts::new(device, &resources.layout);
+        let shadow_views = Ring::new(device, "shadow views", SHADOW_COUNT as u32);
+        let shadow_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("shadow view"),
+            layout: &layouts.shadow,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: shadow_views.binding() }],
+        });
+        Ok(Self {
+            id: Identity::new(),
+            config,
+            deformer: Deformer::new(device),
+            grower: Grower::new(device),
+            hair: HairPipelines::new(device, &resources.layout, config),
+            hair_views: HairViews::new(device),
+            passes: PassPipelines::new(device, &layouts, config),
+            picture: (draw_order(config.shading).into_iter())
+                .map(|drawable| (drawable, picture_pipeline(device, &layouts, &drawable, config)))
+                .collect(),
+            resources,
+            layouts,
+            shadow_views,
+            shadow_group,
+        })
+    }
+
+    /// What it was built for.
+    pub fn config(&self) -> RendererConfig {
+        self.config
+    }
+
+    /// Tells renderers apart.
+    pub(crate) fn id(&self) -> Identity {
+        self.id
+    }
+}
+
+fn check_config(device: &wgpu::Device, config: RendererConfig) -> Result<(), RendererError> {
+    if !matches!(config.samples, 1 | 4) {
+        return Err(RendererError::Samples { found: config.samples });
+    }
+    let features = config.color_format.guaranteed_format_features(device.features());
+    let mut needed = wgpu::TextureFormatFeatureFlags::BLENDABLE;
+    if config.samples > 1 {
+        needed |= wgpu::TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE;
+    }
+    let drawable = features.allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
+    match drawable && features.flags.contains(needed) && !config.color_format.is_depth_stencil_format() {
+        true => Ok(()),
+        false => Err(RendererError::Format { found: config.color_format, samples: config.samples }),
+    }
+}

@@ -1,0 +1,159 @@
+//! Records the passes that draw strands.
+
+use crate::avatar::model::AvatarModel;
+use crate::avatar::state::AvatarState;
+use crate::deform::pose::Pose;
+use crate::frame::passes::Pass;
+use crate::frame::record::Recording;
+use crate::hair::detail::GpuHairView;
+use crate::hair::pipelines::Strands;
+use crate::hair::state::HairState;
+use crate::view::scene::Scene;
+use avatar_groom::SEGMENTS;
+
+/// Corners of a ribbon.
+const CORNERS: u32 = 2 * (SEGMENTS as u32 + 1);
+
+/// What of an avatar's hair a pass draws that affords `most` strands; `None` without any.
+pub(crate) fn strands_in_view<'a>(
+    model: &AvatarModel,
+    state: &'a AvatarState,
+    scene: &Scene,
+    pixels_per_unit: f32,
+    most: f32,
+) -> Option<(GpuHairView, &'a HairState)> {
+    let (hair, grown) = model.hair.as_ref().zip(state.hair.as_ref())?;
+    let skin = model.parts.get(hair.part)?;
+    let distance = state.pose.center_of(&skin.geometry).distance(scene.camera.eye());
+    let head_pixels = model.height * pixels_per_unit / distance.max(1e-6);
+    let view = state.hair_detail.view(hair.strand_count, head_pixels, most);
+    (view.count() > 0).then_some((view, grown))
+}
+
+impl<'a> Recording<'a> {
+    fn with_hair(&self, most: f32) -> impl Iterator<Item = (GpuHairView, &'a HairState)> {
+        self.avatars.iter().filter_map(move |(model, state)| {
+            strands_in_view(model, state, self.scene, self.pixels_per_unit, most)
+        })
+    }
+
+    /// How many strands of each avatar are to grow.
+    pub(crate) fn growing(&self) -> impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone {
+        self.avatars.iter().filter_map(|(model, state)| {
+            let (view, hair) =
+                strands_in_view(model, state, self.scene, self.pixels_per_unit, f32::INFINITY)?;
+            Some((&state.pose, hair, view.count() as u32))
+        })
+    }
+
+    fn draw_strands(&self, pass: &mut wgpu::RenderPass<'_>, most: f32) {
+        for (view, hair) in self.with_hair(most) {
+            let offset = self.renderer.hair_views.ring.push(self.queue, &view);
+            pass.set_bind_group(2, &hair.draw, &[]);
+            pass.set_bind_group(3, &self.renderer.hair_views.group, &[offset]);
+            pass.draw(0..CORNERS, 0..view.count() as u32);
+        }
+    }
+
+    /// What the key sees of hair.
+    pub(crate) fn hair_shadow(&self, encoder: &mut wgpu::CommandEncoder) {
+        let Some(pipeline) = &self.renderer.hair.shadow else { return };
+        let map = &self.renderer.resources.hair_map;
+        let shadows = self.renderer.config().shading.terms().shadows;
+        let mut pass = self.begin(encoder, Pass::HairShadow, Some(map), None);
+        self.set_groups(&mut pass, &self.targets.hair.for_shadow);
+        pass.set_pipeline(pipeline);
+        self.draw_strands(&mut pass, shadows.strands());
+    }
+
+    /// Hair writes depth, so that corneas lie rightly before or behind it.
+    pub(crate) fn strands(&self, encoder: &mut wgpu::CommandEncoder) {
+        match &self.renderer.hair.strands {
+            Strands::Masked(pipeline) => {
+                let times = self.timer.and_then(|timer| timer.render_pass(Pass::Hair));
+                let mut pass = self.begin_picture(encoder, Pass::Hair, false, false, times);
+                pass.set_bind_group(1, &self.targets.hair.for_strands, &[]);
+                pass.set_pipeline(pipeline);
+                self.draw_strands(&mut pass, f32::INFINITY);
+            }
+            Strands::Layered { layers, slices, blended, compose } => {
+                self.strand_layers(encoder, layers);
+                self.strand_slices(encoder, slices);
+                self.blended_strands(encoder, blended);
+                let times = self.timer.and_then(|timer| timer.render_pass_part(Pass::Hair, false, true));
+                let mut pass = self.begin_picture(encoder, Pass::Hair, false, false, times);
+                pass.set_bind_group(1, &self.targets.hair.for_composing, &[]);
+                for pipeline in compose {
+                    pass.set_pipeline(pipeline);
+                    pass.draw(0..3, 0..1);
+                }
+            }
+        }
+    }
+
+    /// Where strands lie in each pixel.
+    fn strand_layers(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("hair: layers"),
+            color_attachments: &[cleared(&self.targets.hair.layers, wgpu::Color::TRANSPARENT)],
+            depth_stencil_attachment: Some(self.depth_to_compare()),
+            timestamp_writes: self.timer.and_then(|timer| timer.render_pass_part(Pass::Hair, true, false)),
+            ..Default::default()
+        });
+        self.set_groups(&mut pass, &self.targets.hair.for_shadow);
+        pass.set_pipeline(pipeline);
+        self.draw_strands(&mut pass, f32::INFINITY);
+    }
+
+    /// How much strands cover at each depth.
+    fn strand_slices(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+        let targets = self.targets;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("hair: slices"),
+            color_attachments: &targets
+                .hair
+                .slices
+                .each_ref()
+                .map(|view| cleared(view, wgpu::Color::TRANSPARENT)),
+            depth_stencil_attachment: Some(self.depth_to_compare()),
+            ..Default::default()
+        });
+        self.set_groups(&mut pass, &targets.hair.for_slices);
+        pass.set_pipeline(pipeline);
+        self.draw_strands(&mut pass, f32::INFINITY);
+    }
+
+    /// The depth of what is opaque, not to be written.
+    fn depth_to_compare(&self) -> wgpu::RenderPassDepthStencilAttachment<'a> {
+        wgpu::RenderPassDepthStencilAttachment {
+            view: &self.targets.depth,
+            depth_ops: None,
+            stencil_ops: None,
+        }
+    }
+
+    fn blended_strands(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+        let targets = self.targets;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("hair: blended"),
+            color_attachments: &[
+                cleared(&targets.hair.sum, wgpu::Color::TRANSPARENT),
+                cleared(&targets.hair.clear, wgpu::Color::WHITE),
+            ],
+            depth_stencil_attachment: Some(self.depth_to_compare()),
+            ..Default::default()
+        });
+        self.set_groups(&mut pass, &targets.hair.for_strands);
+        pass.set_pipeline(pipeline);
+        self.draw_strands(&mut pass, f32::INFINITY);
+    }
+}
+
+fn cleared(view: &wgpu::TextureView, color: wgpu::Color) -> Option<wgpu::RenderPassColorAttachment<'_>> {
+    Some(wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(color), store: wgpu::StoreOp::Store },
+    })
+}

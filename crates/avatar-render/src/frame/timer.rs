@@ -1,0 +1,123 @@
+//! Measures passes.
+
+use crate::frame::passes::{FRAME_PASSES, Pass};
+use crate::gpu::readback::{ReadbackError, mapped};
+
+/// Measures how long the passes of a frame take on the GPU, where the device has [`wgpu::Features::TIMESTAMP_QUERY`].
+#[derive(Debug)]
+pub struct PassTimer {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    readable: wgpu::Buffer,
+    nanoseconds_per_tick: f32,
+}
+
+const QUERIES: u32 = 2 * FRAME_PASSES.len() as u32;
+/// The times of a pass lie where a resolution may start.
+const PASS_BYTES: u64 = wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
+
+impl PassTimer {
+    /// A timer, or `None` where the device has no timestamps.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Option<Self> {
+        if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return None;
+        }
+        let buffer = |label, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: FRAME_PASSES.len() as u64 * PASS_BYTES,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        Some(Self {
+            queries: device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("times of passes"),
+                ty: wgpu::QueryType::Timestamp,
+                count: QUERIES,
+            }),
+            resolved: buffer(
+                "times of passes",
+                wgpu::BufferUsages::QUERY_RESOLVE
+                    | wgpu::BufferUsages::COPY_SRC
+                    | wgpu::BufferUsages::COPY_DST,
+            ),
+            readable: buffer(
+                "times of passes: readable",
+                wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            ),
+            nanoseconds_per_tick: queue.get_timestamp_period(),
+        })
+    }
+
+    fn slots(pass: Pass) -> (u32, u32) {
+        let place = FRAME_PASSES.iter().position(|other| *other == pass).unwrap_or(0) as u32;
+        (2 * place, 2 * place + 1)
+    }
+
+    pub(crate) fn compute_pass(&self, pass: Pass) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        let (start, end) = Self::slots(pass);
+        Some(wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(start),
+            end_of_pass_write_index: Some(end),
+        })
+    }
+
+    pub(crate) fn render_pass(&self, pass: Pass) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        self.render_pass_part(pass, true, true)
+    }
+
+    /// For a pass of several render passes: the first notes the start, the last the end.
+    pub(crate) fn render_pass_part(
+        &self,
+        pass: Pass,
+        first: bool,
+        last: bool,
+    ) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        let (start, end) = Self::slots(pass);
+        (first || last).then(|| wgpu::RenderPassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: first.then_some(start),
+            end_of_pass_write_index: last.then_some(end),
+        })
+    }
+
+    /// Keeps the times of the passes that ran and forgets those of other frames.
+    pub(crate) fn finish(&self, encoder: &mut wgpu::CommandEncoder, passes: impl Iterator<Item = Pass>) {
+        encoder.clear_buffer(&self.resolved, 0, None);
+        for (start, end) in passes.map(Self::slots) {
+            let offset = u64::from(start / 2) * PASS_BYTES;
+            encoder.resolve_query_set(&self.queries, start..end + 1, &self.resolved, offset);
+        }
+        encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, self.readable.size());
+    }
+
+    /// Waits for the last frame that was submitted with this timer: names of its passes and how many nanoseconds each
+    /// took. Passes that the shading does not need are missing.
+    ///
+    /// # Errors
+    /// A lost device.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn read(&self, device: &wgpu::Device) -> Result<Vec<(&'static str, f64)>, ReadbackError> {
+        crate::gpu::readback::block_on(self.read_async(device))
+    }
+
+    /// The same, for callers that cannot block.
+    ///
+    /// # Errors
+    /// As above.
+    pub async fn read_async(&self, device: &wgpu::Device) -> Result<Vec<(&'static str, f64)>, ReadbackError> {
+        let view = mapped(device, &self.readable).await?;
+        let ticks: &[u64] = bytemuck::cast_slice(&view);
+        let period = f64::from(self.nanoseconds_per_tick);
+        let per_pass = ticks.chunks_exact(PASS_BYTES as usize / size_of::<u64>());
+        // Those of passes that did not run are cleared.
+        let ran = FRAME_PASSES.iter().zip(per_pass).filter(|(_, pair)| pair[1] != 0);
+        let times = ran.map(|(pass, pair)| (pass.label(), pair[1].saturating_sub(pair[0]) as f64 * period));
+        let times = times.collect();
+        drop(view);
+        self.readable.unmap();
+        Ok(times)
+    }
+}

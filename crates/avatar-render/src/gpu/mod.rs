@@ -1,0 +1,16 @@
+//! What all rooms need of the GPU: devices, buffers, textures, bindings, programs and pipelines. Knows nothing of faces.
+
+pub(crate) mod attachment;
+pub(crate) mod bindings;
+pub(crate) mod buffers;
+pub(crate) mod color;
+pub(crate) mod device;
+pub(crate) mod identity;
+pub(crate) mod image;
+pub(crate) mod mips;
+pub(crate) mod pipeline;
+pub(crate) mod program;
+pub(crate) mod readback;
+pub(crate) mod ring;
+pub(crate) mod texture;
+pub(crate) mod vec4_texture;

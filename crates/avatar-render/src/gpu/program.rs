@@ -1,0 +1,73 @@
+//! WGSL programs: modules of text behind the constants that Rust hands to them, so that each fact stands once.
+
+/// A number that Rust owns and WGSL reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Value {
+    /// `bool`.
+    Flag(bool),
+    /// `u32`.
+    Count(u32),
+    /// `i32`.
+    Signed(i32),
+    /// `f32`.
+    Float(f32),
+}
+
+/// A constant of a program: its name in WGSL, and its value.
+pub(crate) type Constant = (&'static str, Value);
+
+/// A piece of WGSL that programs are joined of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Module {
+    pub(crate) text: &'static str,
+    /// What it reads of Rust. A constant that several modules of a program read belongs to the one that all of them build on.
+    pub(crate) constants: fn() -> Vec<Constant>,
+}
+
+/// A WGSL program: a pass and the modules that it calls.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Program {
+    pub(crate) label: &'static str,
+    /// Entry point of the vertex or compute stage.
+    pub(crate) entry: &'static str,
+    /// Entry point of the fragment stage, if there is one.
+    pub(crate) fragment: Option<&'static str>,
+    pub(crate) modules: &'static [Module],
+}
+
+impl Module {
+    /// One that reads no constants, or only those of others.
+    pub(crate) const fn of(text: &'static str) -> Self {
+        Self { text, constants: Vec::new }
+    }
+}
+
+impl Program {
+    /// The whole text. `choices` are the constants that differ from renderer to renderer.
+    pub(crate) fn source(&self, choices: &[Constant]) -> String {
+        let of_modules = self.modules.iter().flat_map(|module| (module.constants)());
+        let mut source: String = choices.iter().copied().chain(of_modules).map(declaration).collect();
+        for module in self.modules {
+            source.push('\n');
+            source.push_str(module.text);
+        }
+        source
+    }
+
+    /// The program on a device.
+    pub(crate) fn compiled(&self, device: &wgpu::Device, choices: &[Constant]) -> wgpu::ShaderModule {
+        device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(self.label),
+            source: wgpu::ShaderSource::Wgsl(self.source(choices).into()),
+        })
+    }
+}
+
+fn declaration((name, value): Constant) -> String {
+    match value {
+        Value::Flag(value) => format!("const {name}: bool = {value};\n"),
+        Value::Count(value) => format!("const {name}: u32 = {value}u;\n"),
+        Value::Signed(value) => format!("const {name}: i32 = {value};\n"),
+        Value::Float(value) => format!("const {name}: f32 = {value:e};\n"),
+    }
+}

@@ -1,0 +1,109 @@
+//! Uniforms of several draws in one buffer.
+
+use super::buffers::written_buffer;
+use std::num::NonZeroU64;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Room for several values in one uniform buffer, bound with a dynamic offset. A write to a buffer takes effect before
+/// the whole submission, so two draws that are submitted together must not share a slot.
+#[derive(Debug)]
+pub(crate) struct Ring<T> {
+    pub(crate) buffer: wgpu::Buffer,
+    next: AtomicU32,
+    of: std::marker::PhantomData<fn(T)>,
+}
+
+/// Draws per submission that are told apart.
+pub(crate) const FRAME_SLOTS: u32 = 256;
+
+impl<T: bytemuck::Pod> Ring<T> {
+    /// WebGPU's default alignment of dynamic offsets.
+    const SLOT_BYTES: u32 = (size_of::<T>() as u32).next_multiple_of(256);
+    const FOR_TESTS: wgpu::BufferUsages =
+        if cfg!(test) { wgpu::BufferUsages::COPY_SRC } else { wgpu::BufferUsages::empty() };
+    /// Size of the binding.
+    pub(crate) const BYTES: Option<NonZeroU64> = NonZeroU64::new(size_of::<T>() as u64);
+
+    pub(crate) fn new(device: &wgpu::Device, label: &str, slots_per_frame: u32) -> Self {
+        let size = u64::from(Self::SLOT_BYTES * FRAME_SLOTS * slots_per_frame);
+        let buffer = written_buffer(device, label, size, wgpu::BufferUsages::UNIFORM | Self::FOR_TESTS);
+        Self { buffer, next: AtomicU32::new(0), of: std::marker::PhantomData }
+    }
+
+    /// The binding of one slot; which one, its dynamic offset says.
+    pub(crate) fn binding(&self) -> wgpu::BindingResource<'_> {
+        let buffer = &self.buffer;
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size: Self::BYTES })
+    }
+
+    /// Writes a value into the next slot and returns its offset for the bind group.
+    pub(crate) fn push(&self, queue: &wgpu::Queue, value: &T) -> u32 {
+        let slots = (self.buffer.size() / u64::from(Self::SLOT_BYTES)) as u32;
+        let offset = self.next.fetch_add(1, Ordering::Relaxed) % slots * Self::SLOT_BYTES;
+        queue.write_buffer(&self.buffer, u64::from(offset), bytemuck::bytes_of(value));
+        offset
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::device::{Gpu, GpuOptions, open_blocking};
+    use crate::gpu::readback::{block_on, mapped};
+    use std::io::Write as _;
+
+    /// The first number in each slot, after `also` was submitted together with what reads them.
+    fn slots(gpu: &Gpu, ring: &Ring<[u32; 4]>, also: usize) -> Vec<u8> {
+        let size = ring.buffer.size();
+        let buffer = || {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readable"),
+                size,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let readable = buffer();
+        let encoder =
+            || gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("slots") });
+        let mut commands = vec![encoder()];
+        commands[0].copy_buffer_to_buffer(&ring.buffer, 0, &readable, 0, size);
+        commands.extend((0..also).map(|_| {
+            let mut encoder = encoder();
+            encoder.clear_buffer(&buffer(), 0, Some(16));
+            encoder
+        }));
+        gpu.queue.submit(commands.into_iter().map(wgpu::CommandEncoder::finish).collect::<Vec<_>>());
+        let view = block_on(mapped(&gpu.device, &readable)).expect("mapped");
+        view.chunks_exact(Ring::<[u32; 4]>::SLOT_BYTES as usize).map(|slot| slot[0]).collect()
+    }
+
+    #[allow(clippy::disallowed_methods, reason = "the test is about threads")]
+    #[test]
+    fn a_slot_keeps_its_value_while_another_thread_submits() {
+        let gpu = match open_blocking(GpuOptions::default()) {
+            Ok(gpu) => gpu,
+            Err(reason) => {
+                let _ = writeln!(std::io::stderr(), "SKIPPED: {reason}");
+                return;
+            }
+        };
+        for round in 0..100 {
+            let ring = Ring::new(&gpu.device, "ring", 1);
+            let start = std::sync::Barrier::new(2);
+            std::thread::scope(|scope| {
+                scope.spawn(|| {
+                    start.wait();
+                    // Long enough for the other to write meanwhile.
+                    slots(&gpu, &ring, 100);
+                });
+                start.wait();
+                for _ in 0..FRAME_SLOTS {
+                    ring.push(&gpu.queue, &[7; 4]);
+                }
+            });
+            let lost = slots(&gpu, &ring, 0).iter().filter(|value| **value != 7).count();
+            assert_eq!(lost, 0, "round {round}");
+        }
+    }
+}

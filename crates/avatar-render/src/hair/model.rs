@@ -1,0 +1,169 @@
+//! The hair of a model on the GPU.
+
+use crate::deform::posed::GpuDeformedVertex;
+use crate::gpu::identity::Identity;
+use crate::gpu::vec4_texture::Vec4Texture;
+use crate::hair::error::HairError;
+use crate::hair::swing::GpuMote;
+use crate::hair::uniforms::{GROW_WORKGROUP_SIZE, GpuHair, GpuHairRegion, GpuRoot, IS_GUIDE, POINT_STRIDE};
+use avatar_groom::{COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle};
+use bytemuck::Zeroable;
+use wgpu::util::DeviceExt;
+
+/// Strands over a square of the skin's height that styles give their radii for; fewer are wider in proportion.
+const REFERENCE_STRANDS: f32 = 100_000.0;
+const WIDEST: f32 = 5.0;
+const VEC4S_PER_VERTEX: usize = size_of::<GpuDeformedVertex>() / size_of::<[f32; 4]>();
+
+/// The hair that all avatars of a model share.
+#[derive(Debug)]
+pub(crate) struct HairModel {
+    /// Tells hair apart that other hair was planted in the place of.
+    pub(crate) id: Identity,
+    /// The part that it grows on.
+    pub(crate) part: usize,
+    pub(crate) strand_count: u32,
+    pub(crate) guide_count: u32,
+    /// Swings a second of the tips of guides.
+    pub(crate) swing: f32,
+    pub(crate) hair: wgpu::Buffer,
+    pub(crate) roots: Vec4Texture,
+    /// The roots of the guides once more, without guides of their own.
+    pub(crate) guide_roots: Vec4Texture,
+    pub(crate) field: wgpu::TextureView,
+    pub(crate) head_bone: u32,
+    pub(crate) other_bones: [u32; OTHER_BONES],
+}
+
+impl HairModel {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        part: usize,
+        vertices: u32,
+        bones: u32,
+        groom: &Groom,
+    ) -> Result<Self, HairError> {
+        let limits = device.limits();
+        let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let per_strand = (POINT_STRIDE * size_of::<[f32; 4]>()) as u64;
+        let groups = limits.max_compute_workgroups_per_dimension as usize * GROW_WORKGROUP_SIZE as usize;
+        let most_roots = Vec4Texture::most(&limits) / (size_of::<GpuRoot>() / size_of::<[f32; 4]>());
+        let limit = ((binding / per_strand) as usize).min(groups).min(most_roots);
+        let found = groom.roots.len();
+        if found > limit {
+            return Err(HairError::TooMany { found, limit });
+        }
+        let mut roots = Vec::with_capacity(found);
+        for (strand, root) in groom.roots.iter().enumerate() {
+            if let Some(&found) = root.corners.iter().find(|corner| **corner >= vertices) {
+                return Err(HairError::Corner { strand, found, vertices });
+            }
+            roots.push(gpu_root(groom, strand).ok_or(HairError::Incomplete { strand })?);
+        }
+        if let Some(&found) = groom.guides.iter().find(|guide| **guide as usize >= groom.roots.len()) {
+            return Err(HairError::Guide { found, strands: groom.roots.len() });
+        }
+        let most_guides = (binding / (POINT_STRIDE * size_of::<GpuMote>()) as u64) as usize;
+        if groom.guides.len() > most_guides {
+            return Err(HairError::TooManyGuides { found: groom.guides.len(), limit: most_guides });
+        }
+        let guide_root =
+            |strand: &u32| roots.get(*strand as usize).map(|root| GpuRoot { guide: IS_GUIDE, ..*root });
+        let mut guide_roots: Vec<GpuRoot> = groom.guides.iter().filter_map(guide_root).collect();
+        let (strand_count, guide_count) = (roots.len() as u32, guide_roots.len() as u32);
+        // WebGPU binds no empty buffers.
+        for roots in [&mut roots, &mut guide_roots].into_iter().filter(|roots| roots.is_empty()) {
+            roots.push(GpuRoot::zeroed());
+        }
+        let field = &groom.field;
+        let places = field.size.iter().map(|n| u64::from(*n)).product::<u64>();
+        let known = field.distances.len().min(field.shares.len()).min(field.slopes.len());
+        if field.size.iter().any(|n| *n < 2) || known as u64 != places {
+            return Err(HairError::Field { expected: field.size, found: known });
+        }
+        if let Some(&found) = field.bones.iter().chain([&groom.head_bone]).find(|bone| **bone >= bones) {
+            return Err(HairError::Bone { found, bones });
+        }
+        if field.size.iter().any(|n| *n > limits.max_texture_dimension_3d) {
+            return Err(HairError::FieldSize { found: field.size, limit: limits.max_texture_dimension_3d });
+        }
+        if guide_roots.len() > Vec4Texture::most(&limits) / POINT_STRIDE {
+            return Err(HairError::TooMany { found, limit: Vec4Texture::most(&limits) / POINT_STRIDE });
+        }
+        let most = Vec4Texture::most(&limits) / VEC4S_PER_VERTEX;
+        if vertices as usize > most {
+            return Err(HairError::SkinSize { found: vertices, limit: most });
+        }
+        let region = |style: &RegionStyle| GpuHairRegion::new(style, groom.height);
+        let hair = GpuHair {
+            regions: [region(&groom.style.scalp), region(&groom.style.brows), region(&groom.style.lashes)],
+            field_origin: field.origin.to_array(),
+            field_cell: field.cell,
+            field_size: field.size,
+            margin: MARGIN * groom.height,
+            per_combed_reach: 1.0 / (COMBED_REACH * groom.height),
+            per_lock_reach: 1.0 / (LOCK_REACH * groom.height),
+            strand_count,
+            width_factor: (REFERENCE_STRANDS / groom.strands.max(1.0)).clamp(0.5, WIDEST),
+            field_range: field.range(),
+            field_cells: 1.0 / field.cell,
+            pad: [0.0; 2],
+        };
+        let list =
+            |label, roots: &[GpuRoot]| Vec4Texture::with(device, queue, label, bytemuck::cast_slice(roots));
+        Ok(Self {
+            id: Identity::new(),
+            part,
+            strand_count,
+            guide_count,
+            swing: groom.style.scalp.swing,
+            hair: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("hair"),
+                contents: bytemuck::bytes_of(&hair),
+                usage: wgpu::BufferUsages::UNIFORM,
+            }),
+            roots: list("hair: roots", &roots),
+            guide_roots: list("hair: roots of guides", &guide_roots),
+            field: field_texture(device, queue, field),
+            head_bone: groom.head_bone,
+            other_bones: field.bones,
+        })
+    }
+}
+
+fn field_texture(device: &wgpu::Device, queue: &wgpu::Queue, field: &Field) -> wgpu::TextureView {
+    let [width, height, depth_or_array_layers] = field.size;
+    let label = Some("hair: distances from the skin");
+    let descriptor = wgpu::TextureDescriptor {
+        label,
+        size: wgpu::Extent3d { width, height, depth_or_array_layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D3,
+        format: wgpu::TextureFormat::Rg32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let texels = field.texels();
+    let order = wgpu::util::TextureDataOrder::LayerMajor;
+    let texture = device.create_texture_with_data(queue, &descriptor, order, bytemuck::cast_slice(&texels));
+    texture.create_view(&wgpu::TextureViewDescriptor { label, ..Default::default() })
+}
+
+fn gpu_root(groom: &Groom, strand: usize) -> Option<GpuRoot> {
+    let root = groom.roots.get(strand)?;
+    let [x, y, z, _] = root.random;
+    let guide = *groom.guide_of.get(strand)?;
+    Some(GpuRoot {
+        corners: root.corners,
+        region: root.region as u32,
+        barycentric: root.barycentric,
+        // A guide that does not exist leads nobody.
+        guide: if (guide as usize) < groom.guides.len() { guide } else { NO_GUIDE },
+        comb: groom.combs.get(strand)?.to_array(),
+        length: *groom.lengths.get(strand)?,
+        random: [x, y, z],
+        phase: *groom.phases.get(strand)?,
+    })
+}

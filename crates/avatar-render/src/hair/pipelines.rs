@@ -1,0 +1,166 @@
+//! Builds the pipelines that draw strands.
+
+use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
+use crate::gpu::ring::Ring;
+use crate::hair::detail::GpuHairView;
+use crate::hair::layouts::{compose_layout, draw_layout, hair_view_layout, inputs_layout};
+use crate::hair::programs::{
+    COMPOSE_HAIR, COMPOSE_HAIR_DEPTH, HAIR_SHADOW_PASS, LAYERED_STRANDS, MASKED_STRANDS, STRAND_LAYERS,
+    STRAND_SLICES,
+};
+use crate::hair::targets::{HAIR_CLEAR_FORMAT, HAIR_SUM_FORMAT};
+use crate::view::config::RendererConfig;
+use crate::view::resources::HAIR_MAP_FORMAT;
+
+/// The pipelines of all passes that draw strands.
+#[derive(Debug)]
+pub(crate) struct HairPipelines {
+    /// What the key sees of hair, where the shading has shadows.
+    pub(crate) shadow: Option<wgpu::RenderPipeline>,
+    pub(crate) strands: Strands,
+}
+
+/// How strands get into the picture.
+#[derive(Debug)]
+pub(crate) enum Strands {
+    /// Each covers some of a pixel's samples.
+    Masked(wgpu::RenderPipeline),
+    /// Where pixels have one sample: where they lie, how much they cover at each depth, all of them blended, and
+    /// the two steps that lay them over the picture: colour and depth.
+    Layered {
+        layers: wgpu::RenderPipeline,
+        slices: wgpu::RenderPipeline,
+        blended: wgpu::RenderPipeline,
+        compose: [wgpu::RenderPipeline; 2],
+    },
+}
+
+impl HairPipelines {
+    /// `frame` is the layout of group 0.
+    pub(crate) fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, config: RendererConfig) -> Self {
+        use wgpu::CompareFunction::{Always, Greater};
+        let terms = config.shading.terms();
+        let choices = config.choices();
+        let (inputs, drawn, view) = (inputs_layout(device), draw_layout(device), hair_view_layout(device));
+        let strands_layout = pipeline_layout(device, "hair", &[frame, &inputs, &drawn, &view]);
+        let compose_layout =
+            pipeline_layout(device, "hair over the picture", &[frame, &compose_layout(device)]);
+        let ribbons = Recipe {
+            program: &MASKED_STRANDS,
+            layout: &strands_layout,
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            buffers: &[],
+            // Ribbons have no sides.
+            cull_mode: None,
+            depth: Some((Greater, true)),
+            bias: Default::default(),
+            samples: config.samples,
+            target: color_target(config.color_format, None),
+            beside: None,
+        };
+        let shadow = (terms.shadows.lamps() > 0).then(|| {
+            let recipe = Recipe {
+                program: &HAIR_SHADOW_PASS,
+                depth: None,
+                samples: 1,
+                target: blended(HAIR_MAP_FORMAT, added(), largest()),
+                ..ribbons.clone()
+            };
+            recipe.build(device, &choices)
+        });
+        if config.samples > 1 {
+            return Self { shadow, strands: Strands::Masked(ribbons.build(device, &choices)) };
+        }
+        let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+        let compose = Recipe {
+            program: &COMPOSE_HAIR,
+            layout: &compose_layout,
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            depth: Some((Always, false)),
+            target: blended(config.color_format, over.color, over.alpha),
+            ..ribbons.clone()
+        };
+        let compose_depth = Recipe {
+            program: &COMPOSE_HAIR_DEPTH,
+            depth: Some((Greater, true)),
+            target: Some(wgpu::ColorTargetState {
+                write_mask: wgpu::ColorWrites::empty(),
+                ..config.color_format.into()
+            }),
+            ..compose.clone()
+        };
+        let layers = Recipe {
+            program: &STRAND_LAYERS,
+            depth: Some((Greater, false)),
+            target: blended(HAIR_SUM_FORMAT, added(), largest()),
+            ..ribbons.clone()
+        };
+        let slices = Recipe {
+            program: &STRAND_SLICES,
+            target: blended(HAIR_SUM_FORMAT, added(), added()),
+            beside: blended(HAIR_SUM_FORMAT, added(), added()),
+            ..layers.clone()
+        };
+        let layered = Recipe {
+            program: &LAYERED_STRANDS,
+            depth: Some((Greater, false)),
+            target: blended(HAIR_SUM_FORMAT, added(), added()),
+            beside: blended(HAIR_CLEAR_FORMAT, multiplied(), multiplied()),
+            ..ribbons.clone()
+        };
+        let strands = Strands::Layered {
+            layers: layers.build(device, &choices),
+            slices: slices.build(device, &choices),
+            blended: layered.build(device, &choices),
+            compose: [compose, compose_depth].map(|recipe| recipe.build(device, &choices)),
+        };
+        Self { shadow, strands }
+    }
+}
+
+/// Which strands each draw of a frame draws: group 3 of the passes that draw them.
+#[derive(Debug)]
+pub(crate) struct HairViews {
+    pub(crate) ring: Ring<GpuHairView>,
+    pub(crate) group: wgpu::BindGroup,
+}
+
+/// Two for each avatar with hair: its shadow and itself.
+const HAIR_VIEWS_PER_FRAME: u32 = 48;
+
+impl HairViews {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let ring = Ring::new(device, "views of hair", HAIR_VIEWS_PER_FRAME);
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("view of hair"),
+            layout: &hair_view_layout(device),
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: ring.binding() }],
+        });
+        Self { ring, group }
+    }
+}
+
+fn blended(
+    format: wgpu::TextureFormat,
+    color: wgpu::BlendComponent,
+    alpha: wgpu::BlendComponent,
+) -> Option<wgpu::ColorTargetState> {
+    color_target(format, Some(wgpu::BlendState { color, alpha }))
+}
+
+fn added() -> wgpu::BlendComponent {
+    use wgpu::{BlendFactor::One, BlendOperation::Add};
+    wgpu::BlendComponent { src_factor: One, dst_factor: One, operation: Add }
+}
+
+fn largest() -> wgpu::BlendComponent {
+    use wgpu::{BlendFactor::One, BlendOperation::Max};
+    wgpu::BlendComponent { src_factor: One, dst_factor: One, operation: Max }
+}
+
+/// What is there, by what the source leaves clear.
+fn multiplied() -> wgpu::BlendComponent {
+    use wgpu::{BlendFactor, BlendOperation::Add};
+    let dst_factor = BlendFactor::OneMinusSrc;
+    wgpu::BlendComponent { src_factor: BlendFactor::Zero, dst_factor, operation: Add }
+}

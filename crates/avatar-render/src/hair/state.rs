@@ -1,0 +1,136 @@
+//! The hair of one avatar.
+
+use crate::deform::posed::GpuDeformedVertex;
+use crate::gpu::identity::Identity;
+use crate::gpu::vec4_texture::Vec4Texture;
+use crate::hair::layouts::{draw_layout, grow_layouts};
+use crate::hair::model::HairModel;
+use crate::hair::swing::SwingState;
+use crate::hair::uniforms::{GpuHairPose, POINT_STRIDE};
+use avatar_groom::OTHER_BONES;
+use glam::Affine3A;
+use wgpu::util::DeviceExt;
+
+/// The hair of one avatar.
+#[derive(Debug)]
+pub(crate) struct HairState {
+    /// That of the model's hair.
+    pub(crate) id: Identity,
+    pub(crate) points: wgpu::Buffer,
+    pub(crate) guide_count: u32,
+    /// How guides swing; still until time passes.
+    pub(crate) swing: SwingState,
+    /// Group 0 of the growing pass: of guides, and of all strands.
+    pub(crate) grow_guides: wgpu::BindGroup,
+    pub(crate) grow: wgpu::BindGroup,
+    /// Group 2 of the growing pass: the deformed skin, and the bones that hair moves with.
+    pub(crate) skin: wgpu::BindGroup,
+    /// What the guides' growth writes, how far they swing from there, the deformed skin; and where strands read that.
+    guides: (wgpu::Buffer, Vec4Texture),
+    offsets: Vec4Texture,
+    vertices: (wgpu::Buffer, Vec4Texture),
+    pose: wgpu::Buffer,
+    head_bone: u32,
+    other_bones: [u32; OTHER_BONES],
+    /// Group 2 of the drawing.
+    pub(crate) draw: wgpu::BindGroup,
+}
+
+impl HairState {
+    pub(crate) fn new(device: &wgpu::Device, hair: &HairModel, skin: &wgpu::Buffer) -> Self {
+        let buffer = |label, strands: u32| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: u64::from(strands.max(1)) * (POINT_STRIDE * size_of::<[f32; 4]>()) as u64,
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            })
+        };
+        let points = buffer("hair: points", hair.strand_count);
+        let guides = buffer("hair: points of guides", hair.guide_count);
+        let guide_texture = Vec4Texture::new(device, "hair: points of guides", &guides);
+        let skin_texture = Vec4Texture::new(device, "hair: deformed skin", skin);
+        let pose = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("hair: pose"),
+            contents: bytemuck::bytes_of(&GpuHairPose::new(
+                Affine3A::IDENTITY,
+                [Affine3A::IDENTITY; OTHER_BONES],
+            )),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        });
+        let [grow_layout, skin_layout] = grow_layouts(device);
+        let group = |label, layout: &wgpu::BindGroupLayout, resources: &[wgpu::BindingResource<'_>]| {
+            let entries: Vec<_> = (0u32..)
+                .zip(resources)
+                .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: resource.clone() })
+                .collect();
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(label),
+                layout,
+                entries: &entries,
+            })
+        };
+        let swing = SwingState::new(device, &guides, hair.guide_count, hair.swing);
+        let offset_texture = Vec4Texture::new(device, "hair: offsets of guides", &swing.offsets);
+        let grow = |label, roots: &Vec4Texture, points: &wgpu::Buffer| {
+            let resources = [
+                hair.hair.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&roots.view),
+                wgpu::BindingResource::TextureView(&hair.field),
+                points.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&guide_texture.view),
+                wgpu::BindingResource::TextureView(&offset_texture.view),
+            ];
+            group(label, &grow_layout, &resources)
+        };
+        let drawn = [
+            hair.hair.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&hair.roots.view),
+            points.as_entire_binding(),
+        ];
+        debug_assert_eq!(skin.size() % size_of::<GpuDeformedVertex>() as u64, 0);
+        Self {
+            id: hair.id,
+            guide_count: hair.guide_count,
+            // Guides follow no guides: they do not read what is bound for the strands.
+            grow_guides: grow("grow guides of hair", &hair.guide_roots, &guides),
+            grow: grow("grow hair", &hair.roots, &points),
+            skin: group(
+                "deformed skin",
+                &skin_layout,
+                &[wgpu::BindingResource::TextureView(&skin_texture.view), pose.as_entire_binding()],
+            ),
+            draw: group("draw hair", &draw_layout(device), &drawn),
+            swing,
+            points,
+            guides: (guides, guide_texture),
+            offsets: offset_texture,
+            vertices: (skin.clone(), skin_texture),
+            pose,
+            head_bone: hair.head_bone,
+            other_bones: hair.other_bones,
+        }
+    }
+
+    /// Records the copy of the deformed skin to where growth reads it.
+    pub(crate) fn take_skin(&self, encoder: &mut wgpu::CommandEncoder) {
+        let (vertices, texture) = &self.vertices;
+        texture.fill(encoder, vertices);
+    }
+
+    /// Records the copy of the guides to where strands read them.
+    pub(crate) fn take_guides(&self, encoder: &mut wgpu::CommandEncoder) {
+        let (guides, texture) = &self.guides;
+        texture.fill(encoder, guides);
+        if self.swing.is_moving() {
+            self.offsets.fill(encoder, &self.swing.offsets);
+        }
+    }
+
+    /// Takes over the bones of a pose.
+    pub(crate) fn set_pose(&self, queue: &wgpu::Queue, bones: &[Affine3A]) {
+        let Some(head) = bones.get(self.head_bone as usize) else { return };
+        let others = self.other_bones.map(|bone| bones.get(bone as usize).copied().unwrap_or(*head));
+        queue.write_buffer(&self.pose, 0, bytemuck::bytes_of(&GpuHairPose::new(*head, others)));
+    }
+}

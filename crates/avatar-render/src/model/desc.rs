@@ -1,0 +1,46 @@
+//! Parts as callers describe them.
+
+use crate::gpu::image::Image;
+use avatar_mesh::{Mesh, PartKind};
+
+/// A part to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct PartDesc<'a> {
+    /// Name in graphics debuggers and messages.
+    pub label: &'a str,
+    /// The undeformed mesh. Its k-th shape follows the avatar's weight number `first_weight + k`.
+    pub mesh: &'a Mesh,
+    /// The weight that the first shape of the mesh follows: 0 where all parts share their shapes, else where the part's own
+    /// begin in the list of all.
+    pub first_weight: usize,
+    /// How it is drawn.
+    pub kind: PartKind,
+    /// What moves it.
+    pub bones: PartBones,
+    /// Its pictures.
+    pub textures: PartTextures<'a>,
+}
+
+/// What moves a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PartBones {
+    /// Every vertex names up to four bones of the palette ([`avatar_mesh::Skinning`]).
+    PerVertex,
+    /// The whole part follows the bone at this position in the palette.
+    Rigid(usize),
+}
+
+/// The pictures of a part; each may have its own size. `None` leaves the visible default of the kind.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PartTextures<'a> {
+    /// Colour in sRGB; where it is transparent, the material's own colour shows.
+    pub color: Option<&'a Image>,
+    /// Share of the ambient light that arrives: the red channel, linear.
+    pub occlusion: Option<&'a Image>,
+    /// 0 matte, 1 glossy: the red channel, linear.
+    pub gloss: Option<&'a Image>,
+    /// Normals in tangent space, green up, linear.
+    pub normal: Option<&'a Image>,
+    /// How thick the part is behind each point, black thin, white as thick as the material says: the red channel, linear.
+    pub thickness: Option<&'a Image>,
+}

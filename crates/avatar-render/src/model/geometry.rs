@@ -1,0 +1,283 @@
+//! The geometry of one part on the GPU, shared by all avatars of a model.
+
+use crate::gpu::bindings::{storage_entry, uniform_entry};
+use crate::model::active_shapes::{GpuActiveShape, GpuActiveShapesHead};
+use crate::model::curvature::curvatures;
+use crate::model::desc::{PartBones, PartDesc};
+use crate::model::error::{PartProblem, fits};
+use crate::model::shape_blocks::{SHAPE_BLOCK, ShapeBlocks};
+use avatar_mesh::{DeformBounds, Mesh, Offsets, Winding};
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+use wgpu::util::DeviceExt;
+
+/// WGSL `Part`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuPart {
+    pub(crate) vertex_count: u32,
+    pub(crate) first_weight: u32,
+    pub(crate) shape_count: u32,
+    pub(crate) rigid_bone: u32,
+    pub(crate) has_vertex_bones: u32,
+}
+
+/// WGSL `Vertex`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuVertex {
+    pub(crate) position: [f32; 3],
+    pub(crate) u: f32,
+    pub(crate) normal: [f32; 3],
+    pub(crate) v: f32,
+}
+
+/// WGSL `VertexBones`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct GpuVertexBones {
+    pub(crate) indices: [u32; 4],
+    pub(crate) weights: [f32; 4],
+}
+
+/// What drawing and deforming a part need.
+#[derive(Debug)]
+pub(crate) struct Geometry {
+    pub(crate) vertex_count: u32,
+    pub(crate) index_count: u32,
+    pub(crate) indices: wgpu::Buffer,
+    /// [`GpuVertex`] per vertex: vertices of the deform pass, and texture coordinates of the passes that draw.
+    pub(crate) vertices: wgpu::Buffer,
+    /// 1 / radius of the surface, one f32 per vertex.
+    pub(crate) curvatures: wgpu::Buffer,
+    /// For the deform pass.
+    pub(crate) bind_group: wgpu::BindGroup,
+    /// The bone that a rigid part follows; 0 for others.
+    pub(crate) rigid_bone: u32,
+    /// Largest z at bind pose, and 1 / (largest - smallest).
+    pub(crate) front_z: f32,
+    pub(crate) per_depth: f32,
+    /// Length at bind pose that the texture's width covers, on average over the part; 0 without texture coordinates.
+    pub(crate) length_per_uv: f32,
+    /// Boxes around all that bones move, with any shapes.
+    pub(crate) bounds: DeformBounds,
+    /// The weight that the first shape follows.
+    pub(crate) first_weight: usize,
+    /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by distance.
+    pub(crate) center: Vec3,
+    pub(crate) center_bone: usize,
+}
+
+impl Geometry {
+    pub(crate) fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+        let compute = wgpu::ShaderStages::COMPUTE;
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("part geometry"),
+            entries: &[
+                uniform_entry(0, compute),
+                storage_entry(1, compute, true),
+                storage_entry(2, compute, true),
+                storage_entry(3, compute, true),
+                storage_entry(4, compute, true),
+            ],
+        })
+    }
+
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        layout: &wgpu::BindGroupLayout,
+        desc: &PartDesc<'_>,
+        palette_len: usize,
+    ) -> Result<Self, PartProblem> {
+        let PartDesc { label, mesh, bones, first_weight, .. } = *desc;
+        let limits = device.limits();
+        check(mesh, bones, palette_len, &limits)?;
+        if !mesh.shapes.is_empty() {
+            let weights = first_weight.saturating_add(mesh.shapes.len());
+            let room = binding(&limits).saturating_sub(size_of::<GpuActiveShapesHead>() as u64);
+            fits("weights", weights, size_of::<GpuActiveShape>(), room)?;
+        }
+        let shapes = ShapeBlocks::new(mesh, binding(&limits))?;
+        let skinning = mesh.skinning.as_ref().filter(|_| bones == PartBones::PerVertex);
+        let rigid_bone = match bones {
+            PartBones::Rigid(bone) => bone,
+            PartBones::PerVertex => 0,
+        };
+        let bounds = mesh.bounds();
+        let depth = bounds.map_or(0.0, |bounds| bounds.size().z);
+        let head = GpuPart {
+            vertex_count: mesh.positions.len() as u32,
+            first_weight: first_weight as u32,
+            shape_count: shapes.shape_count,
+            rigid_bone: rigid_bone as u32,
+            has_vertex_bones: skinning.is_some().into(),
+        };
+        let part = buffer(device, &[head], label, "part", wgpu::BufferUsages::UNIFORM);
+        let vertices = storage_and_vertices(device, &vertices(mesh), label, "vertices");
+        let curvatures = storage_and_vertices(device, &curvatures(mesh), label, "curvatures");
+        let vertex_bones: Vec<GpuVertexBones> = skinning.map_or_else(Vec::new, |skinning| {
+            let both = skinning.bones.iter().zip(&skinning.weights);
+            both.map(|(b, w)| GpuVertexBones { indices: b.map(u32::from), weights: *w }).collect()
+        });
+        let vertex_bones = storage(device, &vertex_bones, label, "vertex bones");
+        let shape_blocks = storage(device, &shapes.table, label, "shape blocks");
+        let shape_offsets = storage(device, &shapes.offsets, label, "shape offsets");
+        let center_bone = match skinning.and_then(|skinning| skinning.bones.first()) {
+            Some(bones) => bones[0].into(),
+            None => rigid_bone,
+        };
+        Ok(Self {
+            vertex_count: head.vertex_count,
+            index_count: (mesh.triangles.len() * 3) as u32,
+            indices: buffer(device, &triangles(mesh), label, "indices", wgpu::BufferUsages::INDEX),
+            bind_group: device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(&format!("{label}: geometry")),
+                layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: part.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 1, resource: vertices.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 2, resource: vertex_bones.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 3, resource: shape_blocks.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 4, resource: shape_offsets.as_entire_binding() },
+                ],
+            }),
+            vertices,
+            curvatures,
+            rigid_bone: head.rigid_bone,
+            front_z: bounds.map_or(0.0, |bounds| bounds.max.z),
+            per_depth: if depth > 0.0 { depth.recip() } else { 0.0 },
+            length_per_uv: length_per_uv(mesh),
+            bounds: match bones {
+                PartBones::PerVertex => DeformBounds::new(mesh),
+                PartBones::Rigid(bone) => DeformBounds::rigid(mesh, bone),
+            },
+            first_weight,
+            center: bounds.map_or(Vec3::ZERO, |bounds| bounds.center()),
+            center_bone,
+        })
+    }
+}
+
+fn vertices(mesh: &Mesh) -> Vec<GpuVertex> {
+    let all = mesh.positions.iter().zip(&mesh.normals).zip(&mesh.uvs);
+    all.map(|((position, normal), uv)| GpuVertex {
+        position: position.to_array(),
+        u: uv.x,
+        normal: normal.to_array(),
+        v: uv.y,
+    })
+    .collect()
+}
+
+/// The root of the part's area by the area of its texture coordinates.
+fn length_per_uv(mesh: &Mesh) -> f32 {
+    let (mut area, mut painted) = (0.0f64, 0.0f64);
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners.map(|i| (mesh.positions[i as usize], mesh.uvs[i as usize]));
+        area += f64::from((b.0 - a.0).cross(c.0 - a.0).length());
+        painted += f64::from((b.1 - a.1).perp_dot(c.1 - a.1).abs());
+    }
+    if painted > 0.0 { (area / painted).sqrt() as f32 } else { 0.0 }
+}
+
+/// The triangles, turned around where most contradict their normals (mirrored parts with the original's indices).
+fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
+    match Winding::of(mesh).is_inside_out() {
+        true => mesh.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect(),
+        false => mesh.triangles.clone(),
+    }
+}
+
+/// A storage buffer. WebGPU binds no empty buffers: an empty one gets a zero element that no shader reads.
+fn storage<T: Pod>(device: &wgpu::Device, values: &[T], label: &str, what: &str) -> wgpu::Buffer {
+    filled(device, values, label, what, wgpu::BufferUsages::STORAGE)
+}
+
+/// The same, for passes that draw from it as well.
+fn storage_and_vertices<T: Pod>(
+    device: &wgpu::Device,
+    values: &[T],
+    label: &str,
+    what: &str,
+) -> wgpu::Buffer {
+    filled(device, values, label, what, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX)
+}
+
+fn filled<T: Pod>(
+    device: &wgpu::Device,
+    values: &[T],
+    label: &str,
+    what: &str,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    match values {
+        [] => buffer(device, &[T::zeroed()], label, what, usage),
+        values => buffer(device, values, label, what, usage),
+    }
+}
+
+fn buffer<T: Pod>(
+    device: &wgpu::Device,
+    values: &[T],
+    label: &str,
+    what: &str,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(&format!("{label}: {what}")),
+        contents: bytemuck::cast_slice(values),
+        usage,
+    })
+}
+
+fn check(
+    mesh: &Mesh,
+    bones: PartBones,
+    palette_len: usize,
+    limits: &wgpu::Limits,
+) -> Result<(), PartProblem> {
+    let expected = mesh.positions.len();
+    let count = |what, found| match found == expected {
+        true => Ok(()),
+        false => Err(PartProblem::Count { what, expected, found }),
+    };
+    count("normals", mesh.normals.len())?;
+    count("uvs", mesh.uvs.len())?;
+    for shape in &mesh.shapes {
+        count("position offsets of a shape", shape.positions.len())?;
+        let normals = shape.normals.as_ref().map_or(expected, Offsets::len);
+        count("normal offsets of a shape", normals)?;
+    }
+    match (bones, &mesh.skinning) {
+        (PartBones::Rigid(found), _) if found >= palette_len => {
+            return Err(PartProblem::RigidBone { found, palette_len });
+        }
+        (PartBones::Rigid(_), _) => {}
+        (PartBones::PerVertex, None) => return Err(PartProblem::NoVertexBones),
+        (PartBones::PerVertex, Some(skinning)) => {
+            count("bone indices", skinning.bones.len())?;
+            count("bone weights", skinning.weights.len())?;
+            let beyond = |bones: &[u16; 4]| bones.iter().copied().find(|b| usize::from(*b) >= palette_len);
+            let mut vertices = skinning.bones.iter().enumerate();
+            if let Some((vertex, found)) = vertices.find_map(|(vertex, bones)| Some((vertex, beyond(bones)?)))
+            {
+                return Err(PartProblem::VertexBone { vertex, found: found.into(), palette_len });
+            }
+        }
+    }
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        if let Some(&found) = corners.iter().find(|corner| **corner as usize >= expected) {
+            return Err(PartProblem::Index { triangle, found, vertices: expected });
+        }
+    }
+    // Each block of vertices takes a workgroup of a single row.
+    let dispatched = u64::from(limits.max_compute_workgroups_per_dimension) * u64::from(SHAPE_BLOCK);
+    let deformed = dispatched.saturating_mul(size_of::<GpuVertex>() as u64);
+    fits("vertices", expected, size_of::<GpuVertex>(), binding(limits).min(deformed))?;
+    fits("triangles", mesh.triangles.len(), size_of::<[u32; 3]>(), limits.max_buffer_size)
+}
+
+/// Bytes that a shader can read from one buffer.
+fn binding(limits: &wgpu::Limits) -> u64 {
+    limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
+}

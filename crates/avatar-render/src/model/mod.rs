@@ -1,0 +1,12 @@
+//! What all avatars of a model share, part by part: geometry, blend shapes, textures, materials.
+
+pub(crate) mod active_shapes;
+pub(crate) mod bone;
+pub(crate) mod curvature;
+pub(crate) mod desc;
+pub(crate) mod error;
+pub(crate) mod eye;
+pub(crate) mod geometry;
+pub(crate) mod material;
+pub(crate) mod part;
+pub(crate) mod shape_blocks;

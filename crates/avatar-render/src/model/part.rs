@@ -1,0 +1,151 @@
+//! A part on the GPU: geometry and looks.
+
+use crate::gpu::bindings::{texture_entry, uniform_entry};
+use crate::gpu::image::Image;
+use crate::gpu::texture::{TextureUse, upload};
+use crate::model::desc::{PartBones, PartDesc};
+use crate::model::error::PartProblem;
+use crate::model::eye::{EyeShape, eye_shape};
+use crate::model::geometry::Geometry;
+use crate::model::material::{
+    COLOR_TEXTURE, GLOSS_TEXTURE, GpuMaterial, NORMAL_TEXTURE, OCCLUSION_TEXTURE, THICKNESS_TEXTURE,
+};
+use avatar_look::Material;
+use avatar_mesh::{Bounds, PartKind};
+use wgpu::util::DeviceExt;
+
+/// A part on the GPU.
+#[derive(Debug)]
+pub(crate) struct ModelPart {
+    pub(crate) label: String,
+    pub(crate) kind: PartKind,
+    pub(crate) geometry: Geometry,
+    pub(crate) look: wgpu::BindGroup,
+    material: wgpu::Buffer,
+    textures: u32,
+    eye: Option<EyeShape>,
+}
+
+/// The cornea that moves with an eyeball.
+fn cornea_of<'a, 'b>(ball: &PartDesc<'b>, parts: &'a [PartDesc<'b>]) -> Option<&'a PartDesc<'b>> {
+    let is_its_cornea = |part: &&PartDesc<'_>| part.kind == PartKind::Cornea && part.bones == ball.bones;
+    let center = ball.mesh.bounds()?.center();
+    let distance = |part: &PartDesc<'_>| {
+        part.mesh.bounds().map_or(f32::INFINITY, |bounds| bounds.center().distance(center))
+    };
+    match (ball.kind, ball.bones) {
+        // The view is turned back to bind pose by one bone: eyes with bones per vertex are drawn as they are.
+        (PartKind::Eyeball, PartBones::Rigid(_)) => {
+            parts.iter().filter(is_its_cornea).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        }
+        _ => None,
+    }
+}
+
+/// The height of the skin, or of everything where there is no skin; never 0.
+pub(crate) fn height(parts: &[PartDesc<'_>]) -> f32 {
+    let bounds = |skin_only: bool| {
+        parts
+            .iter()
+            .filter(|part| !skin_only || part.kind == PartKind::Skin)
+            .filter_map(|part| part.mesh.bounds())
+            .reduce(Bounds::union)
+    };
+    let height = bounds(true).or_else(|| bounds(false)).map_or(0.0, |bounds| bounds.size().y);
+    if height > 0.0 { height } else { 1.0 }
+}
+
+/// The layouts of the groups that every part has.
+#[derive(Debug)]
+pub(crate) struct PartLayouts {
+    geometry: wgpu::BindGroupLayout,
+    looks: wgpu::BindGroupLayout,
+}
+
+impl PartLayouts {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        Self { geometry: Geometry::layout(device), looks: look_layout(device) }
+    }
+}
+
+/// Layout of group 2 of the passes that draw parts: their looks.
+pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let texture = |binding| {
+        let filtered = wgpu::TextureSampleType::Float { filterable: true };
+        texture_entry(binding, wgpu::ShaderStages::FRAGMENT, filtered, wgpu::TextureViewDimension::D2)
+    };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("part looks"),
+        entries: &[
+            uniform_entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT),
+            texture(1),
+            texture(2),
+            texture(3),
+            texture(4),
+            texture(5),
+        ],
+    })
+}
+
+impl ModelPart {
+    /// Uploads one of `parts`. `height` is that of the skin.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layouts: &PartLayouts,
+        desc: &PartDesc<'_>,
+        parts: &[PartDesc<'_>],
+        palette_len: usize,
+        height: f32,
+    ) -> Result<Self, PartProblem> {
+        let label = desc.label;
+        let geometry = Geometry::new(device, &layouts.geometry, desc, palette_len)?;
+        let eye = cornea_of(desc, parts).and_then(|cornea| eye_shape(cornea.mesh, desc.mesh));
+        // Bound where there is no texture, and never sampled there.
+        let blank = Image { width: 1, height: 1, rgba: vec![255; 4] };
+        let mut textures = 0;
+        let mut view = |bit: u32, which: &'static str, image: Option<&Image>, usage: TextureUse| {
+            textures |= if image.is_some() { bit } else { 0 };
+            let label = format!("{label}: {which}");
+            upload(device, queue, &label, image.unwrap_or(&blank), usage)
+                .map_err(|error| PartProblem::Texture { which, error })
+        };
+        let views = [
+            view(COLOR_TEXTURE, "color", desc.textures.color, TextureUse::Color)?,
+            view(OCCLUSION_TEXTURE, "occlusion", desc.textures.occlusion, TextureUse::Value)?,
+            view(GLOSS_TEXTURE, "gloss", desc.textures.gloss, TextureUse::Value)?,
+            view(NORMAL_TEXTURE, "normal", desc.textures.normal, TextureUse::Normal)?,
+            view(THICKNESS_TEXTURE, "thickness", desc.textures.thickness, TextureUse::Value)?,
+        ];
+        let gpu_material =
+            GpuMaterial::new(&Material::of(desc.kind), &geometry, eye.as_ref(), height, textures);
+        let material = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(&format!("{label}: material")),
+            contents: bytemuck::bytes_of(&gpu_material),
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        });
+        let texture = |binding: u32, view| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::TextureView(view),
+        };
+        let look = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(&format!("{label}: looks")),
+            layout: &layouts.looks,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: material.as_entire_binding() },
+                texture(1, &views[0]),
+                texture(2, &views[1]),
+                texture(3, &views[2]),
+                texture(4, &views[3]),
+                texture(5, &views[4]),
+            ],
+        });
+        Ok(Self { label: label.to_owned(), kind: desc.kind, geometry, look, material, textures, eye })
+    }
+
+    /// Replaces the looks, from the next submission on.
+    pub(crate) fn set_material(&self, queue: &wgpu::Queue, material: &Material, height: f32) {
+        let gpu = GpuMaterial::new(material, &self.geometry, self.eye.as_ref(), height, self.textures);
+        queue.write_buffer(&self.material, 0, bytemuck::bytes_of(&gpu));
+    }
+}

@@ -1,0 +1,108 @@
+//! Every program is parsed and validated, without a GPU.
+
+use crate::deform::deformer::DEFORM_PASS;
+use crate::frame::programs::{
+    NATURAL, OCCLUSION_PASS, OUTLINE, PLAIN, PREPASS, Programs, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS,
+    TOON,
+};
+use crate::gpu::program::{Constant, Program};
+use crate::hair::programs::{
+    COMPOSE_HAIR, COMPOSE_HAIR_DEPTH, GROW_PASS, HAIR_SHADOW_PASS, LAYERED_STRANDS, MASKED_STRANDS,
+    STRAND_LAYERS, STRAND_SLICES, SWING_PASS, swinging,
+};
+use crate::view::config::RendererConfig;
+use crate::view::shading::{Shading, Terms};
+
+/// Every program.
+pub(crate) fn all() -> Vec<Program> {
+    let styles = [PLAIN, NATURAL, TOON];
+    let of_style = |p: Programs| [p.skin, p.teeth, p.eyeball, p.skin_back, p.cornea];
+    let passes = [
+        OUTLINE,
+        DEFORM_PASS,
+        SHADOW_PASS,
+        PREPASS,
+        OCCLUSION_PASS,
+        SKIN_LIGHT_PASS,
+        SCATTER_PASS,
+        GROW_PASS,
+        SWING_PASS,
+        MASKED_STRANDS,
+        LAYERED_STRANDS,
+        STRAND_LAYERS,
+        STRAND_SLICES,
+        HAIR_SHADOW_PASS,
+        COMPOSE_HAIR,
+        COMPOSE_HAIR_DEPTH,
+    ];
+    styles.into_iter().flat_map(of_style).chain(passes).collect()
+}
+
+/// What a renderer of this shading and number of samples chooses.
+pub(crate) fn choices(shading: Shading, samples: u32) -> Vec<Constant> {
+    // One that encodes by itself, and one that does not.
+    let color_format = match samples {
+        1 => wgpu::TextureFormat::Rgba8Unorm,
+        _ => wgpu::TextureFormat::Rgba8UnormSrgb,
+    };
+    let mut choices = RendererConfig { color_format, samples, shading }.choices();
+    choices.push(swinging(samples == 1));
+    choices
+}
+
+pub(crate) fn parsed(program: &Program, choices: &[Constant]) -> naga::Module {
+    let source = program.source(choices);
+    match naga::front::wgsl::parse_str(&source) {
+        Ok(module) => module,
+        Err(error) => panic!("{}: {}", program.label, error.emit_to_string(&source)),
+    }
+}
+
+#[test]
+fn every_program_parses_and_validates_without_optional_capabilities() {
+    let natural = [Terms::NONE, Terms::LOW, Terms::MEDIUM, Terms::HIGH].map(Shading::Natural);
+    for shading in natural.into_iter().chain([Shading::Plain, Shading::Toon]) {
+        for choices in [1, 4].map(|samples| choices(shading, samples)) {
+            for program in all() {
+                let module = parsed(&program, &choices);
+                let mut validator = naga::valid::Validator::new(
+                    naga::valid::ValidationFlags::all(),
+                    naga::valid::Capabilities::empty(),
+                );
+                if let Err(error) = validator.validate(&module) {
+                    panic!("{}: {}", program.label, error.emit_to_string(&program.source(&choices)));
+                }
+                for entry in [Some(program.entry), program.fragment].into_iter().flatten() {
+                    assert!(module.entry_points.iter().any(|e| e.name == entry), "{}", program.label);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn no_program_needs_more_bindings_than_webgpu_promises() {
+    for program in all() {
+        let module = parsed(&program, &choices(Shading::Natural(Terms::HIGH), 1));
+        let count = |wanted: &dyn Fn(&naga::TypeInner, naga::AddressSpace) -> bool| {
+            let variables = module.global_variables.iter();
+            variables.filter(|(_, v)| wanted(&module.types[v.ty].inner, v.space)).count()
+        };
+        let storage = count(&|_, space| matches!(space, naga::AddressSpace::Storage { .. }));
+        let textures = count(&|inner, _| matches!(inner, naga::TypeInner::Image { .. }));
+        let samplers = count(&|inner, _| matches!(inner, naga::TypeInner::Sampler { .. }));
+        let groups = module.global_variables.iter().filter_map(|(_, v)| v.binding).map(|b| b.group);
+        assert!(storage <= 8, "{}", program.label);
+        assert!(textures <= 16 && samplers <= 16, "{}", program.label);
+        assert!(groups.max().unwrap_or(0) < 4, "{}", program.label);
+    }
+}
+
+#[test]
+fn no_shader_is_longer_than_a_few_screens() {
+    for program in all() {
+        for module in program.modules {
+            assert!(module.text.lines().count() <= 160, "{}: {:.60}", program.label, module.text);
+        }
+    }
+}

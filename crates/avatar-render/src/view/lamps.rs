@@ -1,0 +1,34 @@
+//! The lamps of a frame.
+
+use avatar_look::Lamp;
+use bytemuck::Zeroable;
+use glam::Vec3;
+
+/// Lamps of a frame: key, fill, rim.
+pub(crate) const LAMP_COUNT: usize = 3;
+/// Place of the key lamp.
+pub(crate) const KEY_LAMP: usize = 0;
+/// Place of the rim lamp.
+pub(crate) const RIM_LAMP: usize = 2;
+/// Lamps that may cast shadows: key, rim.
+pub(crate) const SHADOW_COUNT: usize = 2;
+/// WGSL `Lamp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct GpuLamp {
+    pub(crate) direction_world: [f32; 3],
+    pub(crate) pad_0: f32,
+    pub(crate) radiance: [f32; 3],
+    pub(crate) pad_1: f32,
+}
+
+impl GpuLamp {
+    pub(crate) fn new(lamp: &Lamp) -> Self {
+        Self { direction_world: direction(lamp).to_array(), radiance: lamp.radiance, ..Self::zeroed() }
+    }
+}
+
+/// Toward a lamp, unit length.
+pub(crate) fn direction(lamp: &Lamp) -> Vec3 {
+    lamp.direction_world.normalize_or(Vec3::Y)
+}

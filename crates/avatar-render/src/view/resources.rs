@@ -1,0 +1,220 @@
+//! What a renderer holds for all its frames: tables, samplers, the environment, shadow maps.
+
+use crate::gpu::bindings::{dynamic_uniform_entry, sampler_entry, texture_entry};
+use crate::gpu::color::half_bits;
+use crate::gpu::pipeline::DEPTH_FORMAT;
+use crate::gpu::ring::Ring;
+use crate::view::environment::EnvironmentMap;
+use crate::view::lamps::SHADOW_COUNT;
+use crate::view::pores::{PORE_SIZE, pore_tile};
+use crate::view::shading::Terms;
+use crate::view::uniforms::GpuFrame;
+use avatar_look::{scatter_table, split_sum};
+use wgpu::util::DeviceExt;
+
+/// Texels of the split-sum table on a side.
+const SPLIT_SUM_SIZE: u32 = 32;
+/// Texels of the scattering table.
+const SCATTER_SIZE: (u32, u32) = (128, 32);
+/// What the key sees of hair.
+pub(crate) const HAIR_MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+
+/// See the module.
+#[derive(Debug)]
+pub(crate) struct Resources {
+    pub(crate) frames: Ring<GpuFrame>,
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) bind_group: wgpu::BindGroup,
+    /// A map per lamp, for reading.
+    pub(crate) shadow_map: wgpu::TextureView,
+    /// The same maps one by one, for drawing into.
+    pub(crate) shadow_layers: Vec<wgpu::TextureView>,
+    pub(crate) shadow_sampler: wgpu::Sampler,
+    /// What hair keeps off; a single texel where no lamp casts shadows.
+    pub(crate) hair_map: wgpu::TextureView,
+    pub(crate) environment: EnvironmentMap,
+}
+
+impl Resources {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, terms: Terms) -> Self {
+        let frames = Ring::new(device, "frame: camera and light", 1);
+        let layout = layout(device);
+        let split_sum: Vec<u16> =
+            split_sum(SPLIT_SUM_SIZE as usize).into_iter().flatten().map(half_bits).collect();
+        let scatter: Vec<u16> = scatter_table(SCATTER_SIZE.0 as usize, SCATTER_SIZE.1 as usize)
+            .into_iter()
+            .map(half_bits)
+            .collect();
+        let pores: Vec<u8> = pore_tile().concat();
+        let square = (SPLIT_SUM_SIZE, SPLIT_SUM_SIZE);
+        let tables = [
+            table(
+                device,
+                queue,
+                "table: split sum",
+                square,
+                wgpu::TextureFormat::Rg16Float,
+                bytemuck::cast_slice(&split_sum),
+            ),
+            table(
+                device,
+                queue,
+                "table: scattering",
+                SCATTER_SIZE,
+                wgpu::TextureFormat::R16Float,
+                bytemuck::cast_slice(&scatter),
+            ),
+            table(device, queue, "pores", (PORE_SIZE, PORE_SIZE), wgpu::TextureFormat::Rg8Unorm, &pores),
+        ];
+        let environment = EnvironmentMap::new(device);
+        let samplers =
+            [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge].map(|m| sampler(device, m));
+        let texture = |binding, view| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::TextureView(view),
+        };
+        let sampler = |binding, sampler| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::Sampler(sampler),
+        };
+        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout: &layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: frames.binding() },
+                sampler(1, &samplers[0]),
+                sampler(2, &samplers[1]),
+                texture(3, &tables[0]),
+                texture(4, &tables[1]),
+                texture(5, &environment.cube),
+                texture(6, &tables[2]),
+            ],
+        });
+        let (shadow_map, shadow_layers) = shadow_map(device, terms);
+        let shadow_sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("shadow"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            compare: Some(wgpu::CompareFunction::LessEqual),
+            ..Default::default()
+        });
+        Self {
+            frames,
+            layout,
+            bind_group,
+            shadow_map,
+            shadow_layers,
+            shadow_sampler,
+            hair_map: hair_map(device, terms),
+            environment,
+        }
+    }
+}
+
+fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let fragment = wgpu::ShaderStages::FRAGMENT;
+    let filtered = wgpu::TextureSampleType::Float { filterable: true };
+    let texture = |binding, dimension| texture_entry(binding, fragment, filtered, dimension);
+    let sampler = |binding| sampler_entry(binding, fragment, wgpu::SamplerBindingType::Filtering);
+    let flat = wgpu::TextureViewDimension::D2;
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("frame"),
+        entries: &[
+            dynamic_uniform_entry(wgpu::ShaderStages::VERTEX_FRAGMENT, Ring::<GpuFrame>::BYTES),
+            sampler(1),
+            sampler(2),
+            texture(3, flat),
+            texture(4, flat),
+            texture(5, wgpu::TextureViewDimension::Cube),
+            texture(6, flat),
+        ],
+    })
+}
+
+fn sampler(device: &wgpu::Device, mode: wgpu::AddressMode) -> wgpu::Sampler {
+    let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+    // Free in hardware, several samples per sample in software; of use only where things repeat and tilt.
+    let anisotropic = mode == wgpu::AddressMode::Repeat && !software;
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(if mode == wgpu::AddressMode::Repeat { "repeat, trilinear" } else { "clamp, trilinear" }),
+        address_mode_u: mode,
+        address_mode_v: mode,
+        address_mode_w: mode,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        anisotropy_clamp: if anisotropic { 8 } else { 1 },
+        ..Default::default()
+    })
+}
+
+fn table(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    label: &str,
+    (width, height): (u32, u32),
+    format: wgpu::TextureFormat,
+    bytes: &[u8],
+) -> wgpu::TextureView {
+    let texture = device.create_texture_with_data(
+        queue,
+        &wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        bytes,
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() })
+}
+
+fn hair_map(device: &wgpu::Device, terms: Terms) -> wgpu::TextureView {
+    let size = terms.shadows.hair_map_size();
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow of hair"),
+        size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: HAIR_MAP_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor { label: Some("shadow of hair"), ..Default::default() })
+}
+
+fn shadow_map(device: &wgpu::Device, terms: Terms) -> (wgpu::TextureView, Vec<wgpu::TextureView>) {
+    let size = terms.shadows.map_size();
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow maps"),
+        // One layer would make it no array.
+        size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: SHADOW_COUNT as u32 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let all = texture.create_view(&wgpu::TextureViewDescriptor {
+        label: Some("shadow maps"),
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    });
+    let layer = |layer| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            label: Some("shadow map"),
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layer,
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    };
+    (all, (0..terms.shadows.lamps()).map(layer).collect())
+}

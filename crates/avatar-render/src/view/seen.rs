@@ -1,0 +1,110 @@
+//! What of the avatars the camera sees: the sizes of shadow maps, and the lengths of effects in the picture, follow from it.
+
+use crate::view::camera::Camera;
+use avatar_mesh::Bounds;
+use glam::Vec4;
+
+/// Hair reaches beyond the box around the skin.
+const ROOM: f32 = 1.3;
+/// An avatar that looks this much smaller than the largest has no say in how fine shadows are.
+const SMALL: f32 = 0.125;
+
+/// What of the avatars the camera sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Seen {
+    /// Around those in the picture, without those that look small beside another one.
+    pub(crate) bounds: Option<Bounds>,
+    /// Height of the skin of the one that looks largest; of the first one where none is seen.
+    pub(crate) height: f32,
+}
+
+impl Seen {
+    /// `avatars` are the boxes around them and the heights of their skins. Whole avatars, not their shares of the picture:
+    /// shadows must not change while a camera comes nearer.
+    pub(crate) fn new(camera: &Camera, avatars: impl Iterator<Item = (Option<Bounds>, f32)> + Clone) -> Self {
+        let in_view = avatars.clone().filter_map(|(bounds, height)| {
+            let bounds = bounds.filter(|bounds| is_in_view(camera, *bounds))?;
+            Some((bounds, apparent_size(camera, bounds), height))
+        });
+        // The first of several that look alike.
+        let largest = in_view.clone().reduce(|a, b| if b.1 > a.1 { b } else { a });
+        let size = largest.map_or(0.0, |(_, size, _)| size);
+        Self {
+            bounds: in_view
+                .filter(|(_, of_one, _)| *of_one >= SMALL * size)
+                .map(|(bounds, ..)| bounds)
+                .reduce(Bounds::union),
+            height: largest
+                .map(|(.., height)| height)
+                .or_else(|| avatars.clone().next().map(|(_, height)| height))
+                .unwrap_or(1.0),
+        }
+    }
+}
+
+/// By the distance to its nearest point.
+fn apparent_size(camera: &Camera, bounds: Bounds) -> f32 {
+    let eye = camera.eye();
+    let distance = eye.clamp(bounds.min, bounds.max).distance(eye);
+    bounds.size().length() / distance.max(camera.valid_near())
+}
+
+/// Whether a box may be in the picture: it is not wholly beyond one of the picture's edges or behind the camera. Boxes
+/// near the corners may pass without being seen (U. Assarsson and T. Möller, "Optimized View Frustum Culling Algorithms
+/// for Bounding Boxes", 2000).
+fn is_in_view(camera: &Camera, bounds: Bounds) -> bool {
+    let clip_from_world = camera.clip_from_world();
+    let [x, y, w] = [0, 1, 3].map(|row| clip_from_world.row(row));
+    let (center, half) = (bounds.center(), bounds.size() * 0.5 * ROOM);
+    let is_inside =
+        |plane: Vec4| plane.truncate().dot(center) + plane.truncate().abs().dot(half) + plane.w >= 0.0;
+    [w + x, w - x, w + y, w - y, w].into_iter().all(is_inside)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    const NEAR: Bounds = Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE };
+
+    fn moved(by: Vec3) -> Bounds {
+        Bounds { min: NEAR.min + by, max: NEAR.max + by }
+    }
+
+    fn seen(others: &[Bounds]) -> Seen {
+        let camera = Camera::orbit(Vec3::ZERO, 8.0, 0.3, 0.2, 0.5, 1.0);
+        let all = [NEAR].iter().chain(others).zip([2.0, 5.0, 7.0]);
+        Seen::new(&camera, all.map(|(bounds, height)| (Some(*bounds), height)))
+    }
+
+    #[test]
+    fn only_what_is_in_the_picture_counts() {
+        for beyond in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z] {
+            assert_eq!(seen(&[moved(beyond * 30.0)]), Seen { bounds: Some(NEAR), height: 2.0 }, "{beyond}");
+        }
+        let beside = moved(Vec3::X * 2.0);
+        assert_eq!(seen(&[beside]).bounds, Some(NEAR.union(beside)));
+    }
+
+    #[test]
+    fn what_looks_small_beside_the_nearest_does_not_count() {
+        assert_eq!(seen(&[moved(Vec3::NEG_Z * 90.0)]), Seen { bounds: Some(NEAR), height: 2.0 });
+        // Not so small that its shadows would be missed.
+        assert_ne!(seen(&[moved(Vec3::NEG_Z * 20.0)]).bounds, Some(NEAR));
+    }
+
+    #[test]
+    fn the_height_is_that_of_the_avatar_that_looks_largest() {
+        let nearer = moved(Vec3::new(0.5, 0.5, 3.5));
+        assert_eq!(seen(&[nearer]).height, 5.0);
+        assert_eq!(seen(&[moved(Vec3::NEG_Z * 20.0), nearer]).height, 7.0);
+    }
+
+    #[test]
+    fn nothing_in_view_and_no_avatars_at_all_have_a_height_as_well() {
+        let camera = Camera::orbit(Vec3::X * 90.0, 8.0, 0.0, 0.0, 0.5, 1.0);
+        assert_eq!(Seen::new(&camera, [(Some(NEAR), 3.0)].into_iter()), Seen { bounds: None, height: 3.0 });
+        assert_eq!(Seen::new(&camera, std::iter::empty()), Seen { bounds: None, height: 1.0 });
+    }
+}
