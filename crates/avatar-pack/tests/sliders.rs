@@ -112,7 +112,63 @@ fn a_slider_is_one_control() {
 fn clips_set_the_shapes_themselves() {
     let import = avatar();
     let at = import.pack.motion().expect("clips").at("half", 0.0).expect("the clip");
-    assert_eq!(at.weights, [(1, 1.0), (2, 0.0)]);
+    // All of the node that has a channel, and nothing of the other.
+    assert_eq!(at.weights, [(1, 1.0), (2, 0.0), (3, 0.0), (4, 0.0)]);
+}
+
+/// A clip that takes a head from turned to rest and back, and a shape from 1 to rest; each also has a control.
+#[test]
+fn what_a_clip_brings_to_rest_stays_its_own() {
+    let key = |node, target, values: Vec<f32>| Channel {
+        node,
+        target,
+        interpolation: Interpolation::Linear,
+        times: vec![0.0, 1.0, 2.0],
+        values,
+    };
+    let quarter = Quat::from_rotation_y(FRAC_PI_2).to_array();
+    let turns = [quarter, Quat::IDENTITY.to_array(), quarter].concat();
+    let scene = RawScene {
+        nodes: vec![
+            Node { name: "Head".to_owned(), weights: vec![0.0, 0.0], ..Node::default() },
+            Node { name: "Jaw".to_owned(), parent: Some(0), ..Node::default() },
+        ],
+        parts: vec![part("face", 0, &[("smile", Vec3::X), ("frown", Vec3::Y)]), part("teeth", 1, &[])],
+        clips: vec![Clip {
+            name: "shake".to_owned(),
+            channels: vec![
+                key(0, ChannelTarget::Rotation, turns),
+                key(0, ChannelTarget::Weights, vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
+            ],
+        }],
+        ..RawScene::default()
+    };
+    let import = Import::from_scene(Scene::from_raw(scene).expect("a scene")).expect("an avatar");
+    let pack = &import.pack;
+    let motion = pack.motion().expect("clips");
+    let mut sampler = motion.sampler(0).expect("the clip");
+    // Every control is off its default while the clip plays.
+    let mut values = pack.controls().defaults();
+    for (value, control) in values.iter_mut().zip(pack.controls().controls()) {
+        *value = control.max;
+    }
+    let mut state = FaceState::new(pack);
+    let head = pack.rig().joint("Head").expect("a head").index();
+    let mut turned_at = |time_secs| {
+        let clip = motion.sample(&mut sampler, time_secs).clone();
+        state.pose_toward(pack, &values, &clip, 1.0).expect("a pose");
+        let nose = state.rig_pose().world_from_joint()[head].transform_vector3(Vec3::Z);
+        (nose.x.atan2(nose.z).to_degrees(), state.weights().to_vec())
+    };
+    for (time_secs, degrees, smile) in [(0.0, 90.0, 1.0), (0.5, 45.0, 0.5), (1.0, 0.0, 0.0), (1.5, 45.0, 0.5)]
+    {
+        let (turned, weights) = turned_at(time_secs);
+        assert!((turned - degrees).abs() < 1e-3, "{turned} of {degrees} degrees at {time_secs} s");
+        assert!((weights[0] - smile).abs() < 1e-6 && weights[1] == 0.0, "{weights:?} at {time_secs} s");
+    }
+    // The jaw has no channel: its control keeps it.
+    let jaw = pack.rig().joint("Jaw").expect("a jaw");
+    assert!(motion.at("shake", 1.0).expect("the clip").locals.iter().all(|(joint, _)| *joint != jaw));
 }
 
 #[test]

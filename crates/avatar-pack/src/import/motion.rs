@@ -1,4 +1,4 @@
-use avatar_exchange::{Scene, ScenePose};
+use avatar_exchange::{ChannelTarget, Clip, Scene, ScenePose, Transform};
 use glam::{Affine3A, DAffine3};
 use rig_core::JointId;
 
@@ -9,6 +9,36 @@ pub struct SceneMotion {
     joints: Vec<JointId>,
     node_from_parent: Vec<DAffine3>,
     first_shape: Vec<usize>,
+    /// Per clip what it moves.
+    moved: Vec<Moved>,
+}
+
+/// The nodes that a clip has channels for, each once, in the order of the nodes.
+#[derive(Clone, Debug, Default)]
+struct Moved {
+    locals: Vec<usize>,
+    weights: Vec<usize>,
+}
+
+impl Moved {
+    fn by(clip: &Clip, scene: &Scene) -> Self {
+        let mut moved = Self::default();
+        for channel in &clip.channels {
+            let is_movable = |node: &usize| {
+                scene.nodes.get(*node).is_some_and(|node| matches!(node.local, Transform::Trs(_)))
+            };
+            match channel.target {
+                ChannelTarget::Weights => moved.weights.push(channel.node),
+                // A node whose place is given as a matrix has none of what channels set.
+                _ => moved.locals.extend(Some(channel.node).filter(is_movable)),
+            }
+        }
+        for nodes in [&mut moved.locals, &mut moved.weights] {
+            nodes.sort_unstable();
+            nodes.dedup();
+        }
+        moved
+    }
 }
 
 /// A clip that there is not.
@@ -24,9 +54,10 @@ pub struct MotionError {
 /// What a clip sets at one time: the `L` of joints, and weights by their places in [`crate::Pack::shapes`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionAt {
-    /// Local transforms of joints that move.
+    /// Local transforms of all joints that the clip moves, also of those that are at rest at this time: a control must not
+    /// move them meanwhile.
     pub locals: Vec<(JointId, Affine3A)>,
-    /// Weights of shapes.
+    /// Weights of all shapes that the clip moves.
     pub weights: Vec<(usize, f32)>,
 }
 
@@ -45,7 +76,8 @@ impl SceneMotion {
         node_from_parent: Vec<DAffine3>,
         first_shape: Vec<usize>,
     ) -> Self {
-        Self { scene, joints, node_from_parent, first_shape }
+        let moved = scene.clips.iter().map(|clip| Moved::by(clip, &scene)).collect();
+        Self { scene, joints, node_from_parent, first_shape, moved }
     }
 
     /// The scene that the avatar was made of.
@@ -101,19 +133,20 @@ impl SceneMotion {
         if self.scene.apply(*clip, time_secs as f32, pose).is_err() {
             return at;
         }
-        for (node, local) in pose.locals.iter().enumerate() {
-            if *local != self.scene.nodes[node].local {
-                let moved = self.node_from_parent[node] * local.affine();
-                let columns = moved.to_cols_array().map(|x| x as f32);
-                at.locals.push((self.joints[node], Affine3A::from_cols_array(&columns)));
-            }
+        let Some(moved) = self.moved.get(*clip) else { return at };
+        for &node in &moved.locals {
+            let (local, rest) = (&pose.locals[node], &self.scene.nodes[node].local);
+            let here = match local == rest {
+                // To the bit, as without the clip.
+                true => Affine3A::IDENTITY,
+                false => narrow(self.node_from_parent[node] * local.affine()),
+            };
+            at.locals.push((self.joints[node], here));
         }
-        for (node, weights) in pose.weights.iter().enumerate() {
-            let moved = weights
-                .iter()
-                .enumerate()
-                .filter(|(k, weight)| self.scene.nodes[node].weights.get(*k) != Some(*weight));
-            at.weights.extend(moved.map(|(k, weight)| (self.first_shape[node] + k, *weight)));
+        for &node in &moved.weights {
+            let first = self.first_shape[node];
+            let weights = pose.weights[node].iter().enumerate();
+            at.weights.extend(weights.map(|(shape, weight)| (first + shape, *weight)));
         }
         at
     }
@@ -125,4 +158,8 @@ impl SceneMotion {
     fn missing(&self, clip: &str) -> MotionError {
         MotionError { found: clip.to_owned(), clips: self.clips() }
     }
+}
+
+fn narrow(affine: DAffine3) -> Affine3A {
+    Affine3A::from_cols_array(&affine.to_cols_array().map(|x| x as f32))
 }
