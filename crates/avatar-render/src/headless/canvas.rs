@@ -11,7 +11,9 @@ use crate::gpu::image::Image;
 use crate::gpu::readback::{ReadbackError, mapped};
 use crate::view::config::RendererConfig;
 use crate::view::scene::Scene;
-use crate::view::shading::{Quality, Shading, Style};
+use crate::view::shading::Shading;
+#[cfg(not(target_arch = "wasm32"))]
+use crate::view::shading::{Quality, Style};
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
