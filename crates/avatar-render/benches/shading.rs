@@ -6,11 +6,11 @@
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
-use avatar_pack::{FaceState, Pack, PartImages, Source, SourceError, Textures};
+use avatar_pack::{FaceState, Pack, Source, SourceError, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Image, Light, PartBones, PartDesc, PartTextures, PassTimer, Quality,
-    Renderer, RendererConfig, Scattering, Scene, Shading, Shadows, Style, Targets, Terms,
+    AvatarModel, AvatarState, Camera, Light, PassTimer, Quality, Renderer, RendererConfig, Scattering, Scene,
+    Shading, Shadows, Style, Targets, Terms,
 };
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -171,35 +171,7 @@ fn avatar(gpu: &Gpu) -> (AvatarModel, AvatarState, Scene) {
     let folder = Folder(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne"));
     let pack = Pack::load(&folder).expect("the built-in avatar");
     let textures = Textures::load(&folder);
-    let image = |image: &image::RgbaImage| Image {
-        width: image.width(),
-        height: image.height(),
-        rgba: image.as_raw().clone(),
-    };
-    let images: Vec<[Option<Image>; 5]> = (pack.parts().iter().enumerate())
-        .map(|(index, part)| {
-            let PartImages { color, occlusion, gloss, normal, thickness } =
-                textures.of_part(index, part.kind);
-            [color, occlusion, gloss, normal, thickness].map(|of| of.map(image))
-        })
-        .collect();
-    let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&images))
-        .map(|(part, [color, occlusion, gloss, normal, thickness])| PartDesc {
-            label: &part.name,
-            mesh: &part.mesh,
-            first_weight: part.first_shape,
-            kind: part.kind,
-            bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
-            textures: PartTextures {
-                color: color.as_ref(),
-                occlusion: occlusion.as_ref(),
-                gloss: gloss.as_ref(),
-                normal: normal.as_ref(),
-                thickness: thickness.as_ref(),
-            },
-        })
-        .collect();
-    let model = AvatarModel::new(&gpu.device, &gpu.queue, &parts, pack.palette().len()).expect("a model");
+    let model = avatar_stage::upload(&gpu.device, &gpu.queue, &pack, &textures).expect("a model");
     let mut state = AvatarState::new(&gpu.device, &model);
     let mut face = FaceState::new(&pack);
     let mut values = pack.controls().defaults();

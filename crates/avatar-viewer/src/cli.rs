@@ -231,6 +231,13 @@ pub(crate) struct Size {
     pub(crate) height: u32,
 }
 
+impl Size {
+    /// Width by height.
+    pub(crate) fn aspect(self) -> f32 {
+        self.width.max(1) as f32 / self.height.max(1) as f32
+    }
+}
+
 /// The largest side that every WebGPU adapter can draw.
 const MAX_SIDE: u32 = 8192;
 

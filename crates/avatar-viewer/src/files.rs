@@ -2,13 +2,11 @@ use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::{Format, TextFile};
 use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning, load_poses};
-use include_dir::{Dir, include_dir};
+use avatar_stage::DefaultFace;
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use std::borrow::Cow;
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
-
-static BUILT_IN: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/marsienne");
 
 /// Where a pack comes from: a folder, or this program.
 #[derive(Debug)]
@@ -252,7 +250,7 @@ impl Source for WithoutBooks<'_> {
 impl Source for Files {
     fn read(&self, name: &str) -> Result<Option<Cow<'_, [u8]>>, SourceError> {
         let folder = match self {
-            Self::BuiltIn => return Ok(BUILT_IN.get_file(name).map(|file| Cow::Borrowed(file.contents()))),
+            Self::BuiltIn => return DefaultFace.read(name),
             // A file of an interchange format holds all there is.
             Self::File(..) => return Ok(None),
             Self::Folder(folder) => folder,
@@ -268,7 +266,7 @@ impl Source for Files {
 
     fn locate(&self, name: &str) -> String {
         match self {
-            Self::BuiltIn => format!("(built-in)/{name}"),
+            Self::BuiltIn => DefaultFace.locate(name),
             Self::Folder(folder) => folder.join(name).display().to_string(),
             Self::File(path, _) => path.display().to_string(),
         }

@@ -16,7 +16,6 @@ mod offscreen;
 mod output;
 mod picture_args;
 mod progress;
-mod scene;
 mod script;
 mod store;
 mod usage;

@@ -1,13 +1,13 @@
 use crate::cli::Size;
 use crate::face_args::FaceChoice;
 use crate::look_args::LookArgs;
-use crate::scene::{self, View};
 use anyhow::{Context, Result, bail};
 use avatar_groom::SEGMENTS;
 use avatar_mesh::Deformed;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking};
 use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
+use avatar_stage::{View, upload_with_hair};
 use glam::Vec3;
 use image::RgbaImage;
 
@@ -35,7 +35,7 @@ impl Offscreen {
     pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let gpu = open_blocking(GpuOptions::default())?;
         let hair = look.hair.choose(pack.hair());
-        let model = scene::upload(pack, textures, &gpu.device, &gpu.queue, hair)?;
+        let model = upload_with_hair(&gpu.device, &gpu.queue, pack, textures, hair.as_ref())?;
         let mut avatar = AvatarState::new(&gpu.device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         check(&gpu)?;
@@ -71,7 +71,7 @@ impl Offscreen {
                 Canvas::new(&self.gpu, size.width, size.height, self.samples, shading)?
             }
         };
-        let scene = scene::scene(pack, view, size.width, size.height, background, self.look.light());
+        let scene = view.scene(pack, size.aspect(), background, self.look.light());
         let picture = canvas.render(&self.gpu, &scene, &[(&self.model, &self.avatar)])?;
         self.canvas = Some((size, canvas));
         RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")

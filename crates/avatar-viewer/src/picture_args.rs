@@ -1,18 +1,19 @@
 //! Where the camera stands and what is behind the face, as the command line says it.
 
-use crate::scene::{BACKGROUND, Frame, SAMPLES, View};
 use crate::usage;
 use anyhow::Result;
 use avatar_pack::Pack;
-use clap::{Args, ValueEnum};
+use avatar_stage::{BACKGROUND, Framing, NamedView, SAMPLES, View};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::fmt;
 use std::str::FromStr;
 
 #[derive(Clone, Debug, Args)]
 pub(crate) struct PictureArgs {
     /// Where the camera stands; `left` looks at the character's left side
-    #[arg(long, value_enum, default_value = "front")]
-    view: ViewName,
+    #[arg(long, value_parser = named_view(), default_value = NamedView::Front.name())]
+    view: NamedView,
     /// Camera's angle around the vertical axis in degrees: 90 stands at the character's left [default: the view's]
     #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
     yaw: Option<f32>,
@@ -33,39 +34,23 @@ pub(crate) struct PictureArgs {
 impl PictureArgs {
     /// Where the camera stands around this pack.
     pub(crate) fn view(&self, pack: &Pack) -> Result<View> {
-        let frame = match self.frame.as_deref() {
-            None => Frame::Whole,
-            Some("face") if pack.part("face").is_none() => Frame::Face,
-            Some(name) => Frame::Part(usage::part(pack, name)?),
+        let framing = match self.frame.as_deref() {
+            None => Framing::Whole,
+            Some("face") if pack.part("face").is_none() => Framing::Face,
+            Some(name) => Framing::Part(usage::part(pack, name)?),
         };
-        let mut view = View { frame, ..self.view.view() };
+        let mut view = View { framing, ..self.view.view() };
         view.yaw_degrees = self.yaw.unwrap_or(view.yaw_degrees);
         view.pitch_degrees = self.pitch.unwrap_or(view.pitch_degrees);
         Ok(view)
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ViewName {
-    Front,
-    Left,
-    Right,
-    ThreeQuarter,
-    Back,
-}
-
-impl ViewName {
-    /// Where the camera stands.
-    fn view(self) -> View {
-        let around = |yaw_degrees| View { yaw_degrees, ..View::FRONT };
-        match self {
-            Self::Front => View::FRONT,
-            Self::Left => around(90.0),
-            Self::Right => around(-90.0),
-            Self::ThreeQuarter => View::THREE_QUARTER,
-            Self::Back => around(180.0),
-        }
-    }
+/// Reads the name of a view; the help lists them in this order.
+fn named_view() -> impl TypedValueParser<Value = NamedView> {
+    use NamedView::{Back, Front, Left, Right, ThreeQuarter};
+    let names = [Front, Left, Right, ThreeQuarter, Back].map(NamedView::name);
+    PossibleValuesParser::new(names).map(|name| NamedView::from_name(&name).unwrap_or(Front))
 }
 
 /// A background in sRGB with straight alpha.

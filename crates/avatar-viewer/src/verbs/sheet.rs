@@ -4,8 +4,8 @@ use crate::film;
 use crate::label;
 use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
-use crate::scene::{BACKGROUND, Frame, SAMPLES, View};
 use anyhow::Result;
+use avatar_stage::{BACKGROUND, Framing, NamedView, SAMPLES, View};
 use image::{Rgba, RgbaImage, imageops};
 
 /// A pose's cell: the face from the front and three-quarter, side by side, above the label.
@@ -41,8 +41,9 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
 
         let cell = RgbaImage::from_pixel(cell_width, cell_height, Rgba(BACKGROUND));
         imageops::replace(&mut sheet, &cell, left.into(), top.into());
-        for (place, view) in [View::FRONT, View::THREE_QUARTER].into_iter().enumerate() {
-            let view = View { frame: Frame::FaceOfBody, ..view };
+        for (place, view) in [NamedView::Front.view(), NamedView::ThreeQuarter.view()].into_iter().enumerate()
+        {
+            let view = View { framing: Framing::Head, ..view };
             let picture = offscreen.picture(&pack, &face, view, FACE, BACKGROUND)?;
             let x = left + place as u32 * FACE.width;
             imageops::replace(&mut sheet, &picture, x.into(), top.into());

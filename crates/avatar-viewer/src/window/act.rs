@@ -1,6 +1,7 @@
 //! What the user wants, by key or by panel, is carried out.
 
 use super::App;
+use super::camera::Place;
 use super::keys::Action as KeyAction;
 use super::messages::About;
 use super::shot::Shot;
@@ -112,7 +113,11 @@ impl App {
             Action::Picture => self.save_picture(),
             Action::Film { format, clip } => self.film(format, clip),
             Action::StopFilm => self.stop_film(),
-            Action::Camera(place) => self.camera.go(place),
+            Action::Camera(place) => {
+                if let Some(place) = Place::ALL.get(place) {
+                    self.camera.go(*place);
+                }
+            }
             Action::FullScreen => {
                 if let Some(stage) = &self.stage {
                     let fills = stage.window().fullscreen().is_some();

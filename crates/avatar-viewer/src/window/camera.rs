@@ -1,4 +1,4 @@
-use crate::scene::{Frame, View};
+use avatar_stage::{Framing, NamedView, View};
 use std::ops::RangeInclusive;
 
 /// Degrees that the camera turns for a pixel of dragging.
@@ -12,10 +12,34 @@ const MAX_PAN: f32 = 1.0;
 /// One notch of the wheel.
 const WHEEL_ZOOM: f32 = 0.92;
 
-/// Places that the camera can be taken to, by name.
-pub(crate) const PLACES: [&str; 6] = ["front", "three-quarter", "left", "right", "back", "face"];
-/// The last of them keeps the direction from which the face is looked at.
-pub(crate) const FACE: usize = 5;
+/// Where the camera can be taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// A view of the whole avatar.
+    View(NamedView),
+    /// Near enough that the face fills the picture, in the direction in which the camera looks already.
+    Face,
+}
+
+impl Place {
+    /// All of them, in the order in which the panel shows them.
+    pub(crate) const ALL: [Self; 6] = [
+        Self::View(NamedView::Front),
+        Self::View(NamedView::ThreeQuarter),
+        Self::View(NamedView::Left),
+        Self::View(NamedView::Right),
+        Self::View(NamedView::Back),
+        Self::Face,
+    ];
+
+    /// Its name, for people.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::View(view) => view.name(),
+            Self::Face => "face",
+        }
+    }
+}
 
 /// The camera, moved by hand.
 #[derive(Clone, Copy, Debug)]
@@ -26,16 +50,11 @@ pub(super) struct Camera {
 impl Camera {
     pub(super) const START: Self = Self { view: View::FRONT };
 
-    /// Goes to one of [`PLACES`]; others are left alone.
-    pub(super) fn go(&mut self, place: usize) {
+    /// Goes to a place.
+    pub(super) fn go(&mut self, place: Place) {
         self.view = match place {
-            0 => View::FRONT,
-            1 => View::THREE_QUARTER,
-            2 => View { yaw_degrees: 90.0, ..View::FRONT },
-            3 => View { yaw_degrees: -90.0, ..View::FRONT },
-            4 => View { yaw_degrees: 180.0, ..View::FRONT },
-            FACE => View { distance: 1.0, pan: [0.0; 2], frame: Frame::Face, ..self.view },
-            _ => self.view,
+            Place::View(view) => view.view(),
+            Place::Face => View { distance: 1.0, pan: [0.0; 2], framing: Framing::Face, ..self.view },
         };
     }
 

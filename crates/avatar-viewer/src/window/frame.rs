@@ -1,14 +1,14 @@
 //! One frame: time passes, the panel is laid out, the face is drawn beside it, and the next frame is asked for if there is to be one.
 
 use super::App;
-use super::camera::PLACES;
+use super::camera::Place;
 use super::filming::{Filming, formats};
 use super::keys::MOUSE;
 use super::shot::Shot;
 use super::stage::Stage;
-use crate::scene::BACKGROUND;
 use anyhow::Result;
 use avatar_panel::{FileClip, FilePlayback, KeyRow, Model, Playback, Stats, Theme};
+use avatar_stage::BACKGROUND;
 use pose_anim::Pose;
 use std::time::{Duration, Instant};
 use winit::event_loop::ActiveEventLoop;
@@ -241,7 +241,7 @@ impl App {
                 frame_ms: &self.frames.history,
             },
             recent: &recent,
-            cameras: &PLACES,
+            cameras: &Place::ALL.map(Place::name),
             film_formats: &formats,
             film: self.filming.as_ref().map(Filming::progress),
             full_screen: stage.window().fullscreen().is_some(),

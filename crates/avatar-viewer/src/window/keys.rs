@@ -1,7 +1,9 @@
 //! Which key does what in the window: one table that handles keys, prints them and shows them as help.
 
+use super::camera::Place;
 use super::key_name::KeyName;
 use avatar_pack::Pack;
+use avatar_stage::NamedView;
 use placed_toml::{Document, TomlError};
 use pose_anim::Pose;
 use winit::event::Modifiers;
@@ -16,8 +18,8 @@ pub(crate) enum Action {
     Zoom(f32),
     /// Move the picture: shares of its height to the right and up.
     Pan(f32, f32),
-    /// Camera to one of its places, by its index in [`super::camera::PLACES`].
-    Camera(usize),
+    /// Camera to one of its places.
+    Camera(Place),
     /// Back to the default face.
     Defaults,
     /// Other hair: the next, or the one before.
@@ -89,8 +91,8 @@ pub(crate) const ROWS: [Row; 26] = [
     row("pan-right", &["Shift+Right"], "picture to the right", CAMERA, Action::Pan(0.05, 0.0)),
     row("pan-up", &["Shift+Up"], "picture up", CAMERA, Action::Pan(0.0, 0.05)),
     row("pan-down", &["Shift+Down"], "picture down", CAMERA, Action::Pan(0.0, -0.05)),
-    row("front", &["Home"], "camera to the front", CAMERA, Action::Camera(0)),
-    row("frame-face", &["f"], "the face fills the picture", CAMERA, Action::Camera(super::camera::FACE)),
+    row("front", &["Home"], "camera to the front", CAMERA, Action::Camera(Place::View(NamedView::Front))),
+    row("frame-face", &["f"], "the face fills the picture", CAMERA, Action::Camera(Place::Face)),
     row("gaze", &["g"], "eyes follow the pointer, or no longer", FACE, Action::Gaze),
     row("hair", &["h"], "other hair", FACE, Action::Hair { backward: false }),
     row("hair-before", &["Shift+h"], "the hair before", FACE, Action::Hair { backward: true }),

@@ -1,7 +1,8 @@
+use crate::cli::Size;
 use crate::look_args::LookArgs;
-use crate::scene::{self, View};
 use avatar_pack::{FaceState, Pack};
 use avatar_render::Scene;
+use avatar_stage::View;
 use glam::{Affine3A, Vec2};
 
 /// What a frame shows.
@@ -23,8 +24,8 @@ impl Shot<'_> {
             None => (Vec2::ZERO, whole),
         };
         let free = (max - min).max(Vec2::ONE);
-        let mut scene =
-            scene::scene(self.pack, self.view, free.x as u32, free.y as u32, self.background, look.light());
+        let size = Size { width: free.x as u32, height: free.y as u32 };
+        let mut scene = self.view.scene(self.pack, size.aspect(), self.background, look.light());
         // Not even by rounding: where nothing covers it, the picture is the one of `render`.
         if (min, max) != (Vec2::ZERO, whole) {
             scene.camera = scene.camera.within(whole, min, max);

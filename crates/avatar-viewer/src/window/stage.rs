@@ -1,12 +1,12 @@
 use super::overlay::{Overlay, Painted};
 use super::shot::{Kept, Shot, kept};
 use crate::look_args::LookArgs;
-use crate::scene::{self, Frame, SAMPLES, View};
 use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_for_surface_blocking};
 use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, Targets};
+use avatar_stage::{Framing, SAMPLES, View, upload_with_hair};
 use image::RgbaImage;
 use std::sync::Arc;
 use wgpu::CurrentSurfaceTexture as Acquired;
@@ -98,7 +98,7 @@ impl Stage {
         let renderer_config = RendererConfig { color_format: config.format, samples: SAMPLES, shading };
         let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
         let hair = look.hair.choose(pack.hair());
-        let model = scene::upload(pack, textures, device, &gpu.queue, hair)?;
+        let model = upload_with_hair(device, &gpu.queue, pack, textures, hair.as_ref())?;
         let mut avatar = AvatarState::new(device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         let style = hair.map(|hair| hair.style);
@@ -158,7 +158,7 @@ impl Stage {
     /// The device cannot hold it; then the old one stays.
     pub(super) fn set_avatar(&mut self, pack: &Pack, textures: &Textures, look: LookArgs) -> Result<()> {
         let hair = look.hair.choose(pack.hair());
-        let model = scene::upload(pack, textures, &self.gpu.device, &self.gpu.queue, hair)?;
+        let model = upload_with_hair(&self.gpu.device, &self.gpu.queue, pack, textures, hair.as_ref())?;
         if let Some(error) = self.gpu.errors.take() {
             bail!("expected adapter {:?} to hold the avatar, found: {error}", self.gpu.info.name);
         }
@@ -249,8 +249,8 @@ impl Stage {
         let Miniatures { canvas, avatar, state } = self.miniatures.insert(miniatures);
         state.pose(pack, values)?;
         avatar.set(&self.gpu.queue, state.bones(), state.weights())?;
-        let view = View { distance: 0.92, frame: Frame::FaceOfBody, ..View::FRONT };
-        let scene = scene::scene(pack, view, MINIATURE, MINIATURE, background, self.look.light());
+        let view = View { distance: 0.92, framing: Framing::Head, ..View::FRONT };
+        let scene = view.scene(pack, 1.0, background, self.look.light());
         let picture = canvas.render(&self.gpu, &scene, &[(&self.model, avatar)])?;
         RgbaImage::from_raw(picture.width, picture.height, picture.rgba).context("a whole picture")
     }
@@ -261,7 +261,7 @@ impl Stage {
     /// A model with fewer parts than the pack has.
     pub(super) fn set_materials(&mut self, pack: &Pack) -> Result<()> {
         self.is_stale();
-        scene::set_materials(pack, &self.model, &self.gpu.queue)
+        Ok(avatar_stage::set_materials(&self.gpu.queue, pack, &self.model)?)
     }
 
     /// Plants this hair, or takes it away.
@@ -269,7 +269,8 @@ impl Stage {
     /// # Errors
     /// More strands than the device binds; the hair stays as it is then.
     pub(super) fn set_hair(&mut self, pack: &Pack, textures: &Textures, hair: Option<Hair>) -> Result<()> {
-        scene::set_hair(pack, textures, &mut self.model, &self.gpu.device, &self.gpu.queue, hair)?;
+        let Gpu { device, queue, .. } = &self.gpu;
+        avatar_stage::set_hair(device, queue, pack, textures, &mut self.model, hair.as_ref())?;
         self.style = hair.map(|hair| hair.style);
         self.avatar = AvatarState::new(&self.gpu.device, &self.model);
         self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));

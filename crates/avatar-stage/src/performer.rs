@@ -1,0 +1,353 @@
+use avatar_look::Materials;
+use avatar_pack::{ContentsError, FaceError, FaceState, Gaze, Pack};
+use avatar_render::avatar_groom::Hair;
+use avatar_render::glam::{Affine3A, Vec3};
+#[cfg(doc)]
+use pose_anim::Player;
+use pose_anim::{
+    AdvanceError, Clip, ClipError, ClipSet, JumpError, Layers, MixError, Pose, PoseSet, Wrap, face,
+};
+use std::sync::Arc;
+
+/// Seconds in which a single control goes to its value: as fast as a hand moves a slider.
+const SET_SECS: f64 = 0.12;
+/// Share of the way to a point by which the head turns, and the seconds that it takes: the eyes are there long before.
+const HEAD_SHARE: f32 = 0.45;
+const HEAD_SECS: f64 = 0.9;
+/// Seconds that the eyes take.
+const EYE_SECS: f64 = 0.1;
+/// Degrees by which a control has to be off before it is corrected.
+const OFF_DEGREES: f32 = 0.25;
+/// A control that is this near to the start of a clip need not be led there.
+const AT_START: f64 = 1e-3;
+/// Controls that a gaze moves: two of each eye, two of the head.
+const GAZE_CONTROLS: usize = 6;
+
+/// Why a performer does not do what it was told. Nothing has changed then.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PerformerError {
+    /// No pose of this name, or a mixture that cannot be read.
+    #[error(transparent)]
+    Pose(#[from] MixError),
+    /// No control of this name.
+    #[error("expected the name of a control, found {found:?}{}", hint(.nearest))]
+    UnknownControl {
+        /// The name.
+        found: String,
+        /// The name that is probably meant.
+        nearest: Option<String>,
+    },
+    /// No clip of this name.
+    #[error("expected the name of a clip, found {found:?}{}", hint(.nearest))]
+    UnknownClip {
+        /// The name.
+        found: String,
+        /// The name that is probably meant.
+        nearest: Option<String>,
+    },
+    /// A time to start at that is NaN or infinite.
+    #[error(transparent)]
+    Clip(#[from] ClipError),
+    /// A time step that is negative or NaN.
+    #[error(transparent)]
+    Advance(#[from] AdvanceError),
+    /// Another number of values than there are controls, or a value that is not finite.
+    #[error(transparent)]
+    Jump(#[from] JumpError),
+    /// Control values that do not become a face.
+    #[error(transparent)]
+    Face(#[from] FaceError),
+}
+
+fn hint(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
+}
+
+/// A face that acts: a pack, the motion of its controls, and the bones and weights that come of it.
+///
+/// [`Self::press`], [`Self::set`], [`Self::play`] and [`Self::look_at`] say where the face is to go; [`Self::advance`] lets
+/// time pass, and then [`Self::bones`] and [`Self::weights`] are what
+/// [`AvatarState::set`](avatar_render::AvatarState::set) takes. Each motion takes over smoothly from the one before.
+///
+/// The pack is shared: `Performer::new(Arc::clone(&pack))` makes one of many faces, `Performer::new(pack)` the only one.
+/// Only making a performer, replacing something of its pack, reading a mixture and starting a clip allocate.
+#[derive(Clone, Debug)]
+pub struct Performer {
+    pack: Arc<Pack>,
+    layers: Layers,
+    state: FaceState,
+    gaze: Option<Gaze>,
+    playing: Option<Playing>,
+    /// Where all controls are heading, for the search of a gaze.
+    targets: Vec<f32>,
+    /// What a gaze found.
+    found: Vec<(usize, f32)>,
+    /// A pose that is filled anew for each press of single controls.
+    single: Pose,
+}
+
+/// A clip that was started.
+#[derive(Clone, Debug)]
+struct Playing {
+    /// What is left of it from where it was started.
+    rest: Arc<Clip>,
+    from_secs: f64,
+    /// Seconds after which it repeats itself.
+    period_secs: Option<f64>,
+}
+
+impl Performer {
+    /// A face with all controls at rest at their defaults.
+    pub fn new(pack: impl Into<Arc<Pack>>) -> Self {
+        let pack = pack.into();
+        let mut state = FaceState::new(&pack);
+        let layers = Layers::new(pack.controls());
+        // The defaults of a pack's own table always fit it; should they not, the face is at bind pose.
+        let _ = state.pose(&pack, layers.values());
+        Self {
+            gaze: Gaze::new(&pack),
+            playing: None,
+            targets: Vec::with_capacity(pack.controls().len()),
+            found: Vec::with_capacity(GAZE_CONTROLS),
+            single: Pose::new("single controls", Vec::with_capacity(GAZE_CONTROLS)),
+            layers,
+            state,
+            pack,
+        }
+    }
+
+    /// The pack.
+    pub fn pack(&self) -> &Arc<Pack> {
+        &self.pack
+    }
+
+    /// Heads for a pose of the pack by its name, or for a mixture such as `smile:0.5 wink-left` ([`PoseSet::mix`]).
+    ///
+    /// [`PoseSet::mix`]: pose_anim::PoseSet::mix
+    ///
+    /// # Errors
+    /// No pose of this name, with the one that is probably meant; a mixture that cannot be read.
+    pub fn press(&mut self, name: &str) -> Result<(), PerformerError> {
+        // A name in a file may hold what separates a mixture's parts.
+        match self.pack.poses().get(name) {
+            Some(pose) => self.layers.base().press(pose),
+            None => self.layers.base().press(&self.pack.poses().mix(name, self.pack.controls())?),
+        }
+        Ok(())
+    }
+
+    /// Heads for any pose, as [`Player::press`] does.
+    pub fn press_pose(&mut self, pose: &Pose) {
+        self.layers.base().press(pose);
+    }
+
+    /// Takes one control to a value, in the time that a hand needs for a slider; clamped to its range.
+    ///
+    /// # Errors
+    /// No control of this name, with the one that is probably meant.
+    pub fn set(&mut self, control: &str, value: f32) -> Result<(), PerformerError> {
+        let controls = self.pack.controls();
+        let index = controls.index(control).ok_or_else(|| PerformerError::UnknownControl {
+            found: control.to_owned(),
+            nearest: controls.nearest(control).map(str::to_owned),
+        })?;
+        self.set_control(index, value);
+        Ok(())
+    }
+
+    /// As [`Self::set`], by the control's index. An index out of range and a value that is not finite change nothing.
+    pub fn set_control(&mut self, control: usize, value: f32) {
+        self.press_single([(control, value)].into_iter(), Some(SET_SECS));
+    }
+
+    /// Puts all controls at rest at these values, at once; they are clamped to their ranges.
+    ///
+    /// # Errors
+    /// Not one value per control, or a value that is not finite; then nothing changes.
+    pub fn jump_to(&mut self, values: &[f32]) -> Result<(), PerformerError> {
+        self.layers.jump_to(values)?;
+        self.playing = None;
+        Ok(self.state.pose(&self.pack, self.layers.values())?)
+    }
+
+    /// Plays a clip of the pack from its start.
+    ///
+    /// # Errors
+    /// No clip of this name, with the one that is probably meant.
+    pub fn play(&mut self, name: &str) -> Result<(), PerformerError> {
+        let pack = Arc::clone(&self.pack);
+        let clip = pack.clips().get(name).ok_or_else(|| PerformerError::UnknownClip {
+            found: name.to_owned(),
+            nearest: pack.clips().nearest(name).map(str::to_owned),
+        })?;
+        self.play_clip(clip, 0.0)
+    }
+
+    /// Plays any clip, from a time in seconds after its start.
+    ///
+    /// # Errors
+    /// A time that is NaN or infinite.
+    pub fn play_clip(&mut self, clip: &Clip, from_secs: f64) -> Result<(), PerformerError> {
+        let rest = Arc::new(clip.starting_at(from_secs)?);
+        let values = self.layers.base_ref().values();
+        let is_there = rest.tracks().iter().all(|track| {
+            let here = values.get(track.control()).copied().unwrap_or_default();
+            (f64::from(here) - track.at(0.0).value).abs() < AT_START
+        });
+        self.layers.base().play(&rest, is_there.then_some(0.0));
+        let period_secs = match clip.wrap {
+            Wrap::Once => None,
+            Wrap::Loop => Some(clip.duration_secs()),
+            Wrap::PingPong => Some(2.0 * clip.duration_secs()),
+        };
+        self.playing = Some(Playing { rest, from_secs, period_secs });
+        Ok(())
+    }
+
+    /// Where the clip stands that was started last, in seconds from its start, as
+    /// [`Player::clip_time_secs`] says it; `None` where it has ended or moves nothing any more.
+    pub fn clip_time_secs(&self) -> Option<f64> {
+        let Playing { rest, from_secs, period_secs } = self.playing.as_ref()?;
+        let secs = from_secs + self.layers.base_ref().clip_time_secs(rest)?;
+        Some(period_secs.map_or(secs, |period_secs| secs.rem_euclid(period_secs)))
+    }
+
+    /// Brings everything to rest where it is, as soon as is smooth. A clip ends.
+    pub fn stop(&mut self) {
+        self.layers.base().stop();
+        self.playing = None;
+    }
+
+    /// Looks at a point in world space: the eyes at once, the head a part of the way after them. Call it before each
+    /// [`Self::advance`] while the face is to follow a point that moves; it changes nothing while the face looks there
+    /// already, or for a point that is not finite. Returns whether it changed anything.
+    ///
+    /// # Errors
+    /// Control values that do not become a face.
+    pub fn look_at(&mut self, point: Vec3) -> Result<bool, PerformerError> {
+        let Some(gaze) = &mut self.gaze else { return Ok(false) };
+        self.targets.clear();
+        self.targets.extend(self.layers.base_ref().targets());
+        gaze.face_toward(&self.pack, &self.targets, point, HEAD_SHARE, &mut self.found)?;
+        let turns = self.lead(HEAD_SECS);
+        let Some(gaze) = &mut self.gaze else { return Ok(turns) };
+        gaze.look_at(&self.pack, self.layers.values(), point, &mut self.found)?;
+        Ok(self.lead(EYE_SECS) || turns)
+    }
+
+    /// Looks straight ahead again.
+    pub fn look_ahead(&mut self) {
+        let pack = Arc::clone(&self.pack);
+        let controls = pack.controls();
+        let names = face::EYES.iter().chain([&face::FACING]).flatten();
+        let ahead = names.filter_map(|name| {
+            let index = controls.index(name)?;
+            Some((index, controls.controls().get(index)?.default))
+        });
+        self.press_single(ahead, None);
+    }
+
+    /// Takes those controls to what a gaze found that are not nearly there; whether there were any.
+    fn lead(&mut self, secs: f64) -> bool {
+        let Self { layers, found, .. } = self;
+        let target = |control: usize| layers.base_ref().target(control).unwrap_or_default();
+        found.retain(|(control, value)| (target(*control) - value).abs() > OFF_DEGREES);
+        let found = std::mem::take(&mut self.found);
+        let is_off = !found.is_empty();
+        if is_off {
+            self.press_single(found.iter().copied(), Some(secs));
+        }
+        self.found = found;
+        is_off
+    }
+
+    fn press_single(&mut self, values: impl Iterator<Item = (usize, f32)>, secs: Option<f64>) {
+        self.single.values.clear();
+        self.single.values.extend(values);
+        self.single.duration_secs = secs;
+        self.layers.base().press(&self.single);
+    }
+
+    /// Lets time pass, and poses the face.
+    ///
+    /// # Errors
+    /// A time step that is negative or NaN; then nothing changes.
+    pub fn advance(&mut self, dt_secs: f64) -> Result<(), PerformerError> {
+        self.layers.advance(dt_secs)?;
+        Ok(self.state.pose(&self.pack, self.layers.values())?)
+    }
+
+    /// Poses the face in another way than by its values alone, until the next [`Self::advance`]: `pose` gets the pack,
+    /// the values of the controls and the state to be posed.
+    ///
+    /// # Errors
+    /// What `pose` returns.
+    pub fn pose_with<E>(
+        &mut self,
+        pose: impl FnOnce(&Pack, &[f32], &mut FaceState) -> Result<(), E>,
+    ) -> Result<(), E> {
+        pose(&self.pack, self.layers.values(), &mut self.state)
+    }
+
+    /// Whether all controls have arrived.
+    pub fn is_at_rest(&self) -> bool {
+        self.layers.is_at_rest()
+    }
+
+    /// Bone matrices in the order of the pack's palette.
+    pub fn bones(&self) -> &[Affine3A] {
+        self.state.bones()
+    }
+
+    /// Blend weights in the order of the pack's shapes.
+    pub fn weights(&self) -> &[f32] {
+        self.state.weights()
+    }
+
+    /// Values of the controls as they are now, in degrees or as weights, before couplings.
+    pub fn values(&self) -> &[f32] {
+        self.layers.values()
+    }
+
+    /// Where the controls are heading, one value each ([`Player::targets`]).
+    pub fn targets(&self) -> impl ExactSizeIterator<Item = f32> {
+        self.layers.base_ref().targets()
+    }
+
+    /// The face as it was posed last.
+    pub fn state(&self) -> &FaceState {
+        &self.state
+    }
+
+    /// The layers, to add some over the poses: breathing, speech.
+    pub fn layers(&mut self) -> &mut Layers {
+        &mut self.layers
+    }
+
+    /// Replaces the pack's poses. A pack that others share is copied first, here and in the three below.
+    ///
+    /// # Errors
+    /// A pose of a control that the pack does not have; the poses then stay as they were.
+    pub fn set_poses(&mut self, poses: PoseSet) -> Result<(), ContentsError> {
+        Arc::make_mut(&mut self.pack).set_poses(poses)
+    }
+
+    /// Replaces the pack's clips. One that plays goes on.
+    ///
+    /// # Errors
+    /// A track of a control that the pack does not have; the clips then stay as they were.
+    pub fn set_clips(&mut self, clips: ClipSet) -> Result<(), ContentsError> {
+        Arc::make_mut(&mut self.pack).set_clips(clips)
+    }
+
+    /// Replaces the pack's materials; [`crate::set_materials`] shows them.
+    pub fn set_materials(&mut self, materials: Materials) {
+        Arc::make_mut(&mut self.pack).set_materials(materials);
+    }
+
+    /// Replaces the pack's hair; [`crate::set_hair`] plants it.
+    pub fn set_hair(&mut self, hair: Option<Hair>) {
+        Arc::make_mut(&mut self.pack).set_hair(hair);
+    }
+}

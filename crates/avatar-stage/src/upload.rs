@@ -1,0 +1,140 @@
+use avatar_pack::{Pack, PartImages, Textures};
+use avatar_render::avatar_groom::Hair;
+use avatar_render::avatar_mesh::PartKind;
+use avatar_render::{
+    AvatarModel, HairError, Image, ModelError, NoSuchPart, PartBones, PartDesc, PartTextures, wgpu,
+};
+use image::RgbaImage;
+
+/// Why a pack cannot be uploaded.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum UploadError {
+    /// A part, a picture or the number of bones is not what the renderer takes.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// More strands of hair than the device can hold.
+    #[error("density of hair: expected a number from 0 to {most:.2}, found {found}: {error}")]
+    HairDensity {
+        /// The density that the device can hold, about.
+        most: f32,
+        /// The density that was asked for.
+        found: f32,
+        /// What the renderer says of it.
+        error: HairError,
+    },
+    /// Another reason why the hair cannot be planted.
+    #[error(transparent)]
+    Hair(#[from] HairError),
+    /// The model has fewer parts than the pack: it was made from another one.
+    #[error(transparent)]
+    Part(#[from] NoSuchPart),
+}
+
+/// Uploads the pack's meshes, textures and materials, and plants its hair where it has some ([`Pack::hair`]). The model
+/// serves any number of faces.
+///
+/// # Errors
+/// Meshes, textures or hair that this device cannot hold.
+pub fn upload(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pack: &Pack,
+    textures: &Textures,
+) -> Result<AvatarModel, UploadError> {
+    upload_with_hair(device, queue, pack, textures, pack.hair())
+}
+
+/// As [`upload`], with this hair instead of the pack's own; `None` for a bald head.
+///
+/// # Errors
+/// As [`upload`].
+pub fn upload_with_hair(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pack: &Pack,
+    textures: &Textures,
+    hair: Option<&Hair>,
+) -> Result<AvatarModel, UploadError> {
+    let of_parts: Vec<_> = (pack.parts().iter().enumerate())
+        .map(|(index, part)| {
+            let PartImages { color, occlusion, gloss, normal, thickness } =
+                textures.of_part(index, part.kind);
+            [color, occlusion, gloss, normal, thickness]
+        })
+        .collect();
+    // Several parts may share a picture, which is copied once.
+    let mut distinct: Vec<&RgbaImage> = Vec::new();
+    for picture in of_parts.iter().flatten().copied().flatten() {
+        if !distinct.iter().any(|other| std::ptr::eq(*other, picture)) {
+            distinct.push(picture);
+        }
+    }
+    let images: Vec<Image> = distinct
+        .iter()
+        .map(|picture| Image {
+            width: picture.width(),
+            height: picture.height(),
+            rgba: picture.as_raw().clone(),
+        })
+        .collect();
+    let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&of_parts))
+        .map(|(part, pictures)| {
+            let [color, occlusion, gloss, normal, thickness] = pictures.map(|picture| {
+                let picture = picture?;
+                images.get(distinct.iter().position(|other| std::ptr::eq(*other, picture))?)
+            });
+            PartDesc {
+                label: &part.name,
+                mesh: &part.mesh,
+                first_weight: part.first_shape,
+                kind: part.kind,
+                bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
+                textures: PartTextures { color, occlusion, gloss, normal, thickness },
+            }
+        })
+        .collect();
+    let mut model = AvatarModel::new(device, queue, &parts, pack.palette().len())?;
+    set_hair(device, queue, pack, textures, &mut model, hair)?;
+    set_materials(queue, pack, &model)?;
+    Ok(model)
+}
+
+/// Plants this hair, or takes it away. An [`avatar_render::AvatarState`] that was made before does not fit the model any
+/// more: make it anew.
+///
+/// # Errors
+/// More strands than the device can hold; the model keeps its hair then.
+pub fn set_hair(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pack: &Pack,
+    textures: &Textures,
+    model: &mut AvatarModel,
+    hair: Option<&Hair>,
+) -> Result<(), UploadError> {
+    let groom = hair.and_then(|hair| pack.groom(textures, hair));
+    let Some(skin) = pack.parts().iter().position(|part| part.kind == PartKind::Skin) else {
+        return Ok(());
+    };
+    let density = hair.map_or(0.0, |hair| hair.density);
+    model.set_hair(device, queue, skin, groom.as_ref().map(|(_, groom)| groom)).map_err(|error| match error {
+        HairError::TooMany { found, limit } => UploadError::HairDensity {
+            most: density * limit as f32 / found.max(1) as f32,
+            found: density,
+            error,
+        },
+        other => other.into(),
+    })
+}
+
+/// Gives the parts the materials that the pack has now.
+///
+/// # Errors
+/// A model with fewer parts than the pack has.
+pub fn set_materials(queue: &wgpu::Queue, pack: &Pack, model: &AvatarModel) -> Result<(), UploadError> {
+    for index in 0..pack.parts().len() {
+        model.set_material(queue, index, &pack.material(index))?;
+    }
+    Ok(())
+}

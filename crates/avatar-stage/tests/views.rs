@@ -1,0 +1,70 @@
+//! Where cameras stand, by what is in their pictures.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod common;
+
+use avatar_stage::avatar_render::{Camera, Light, linear_from_srgb8};
+use avatar_stage::glam::Vec3;
+use avatar_stage::{BACKGROUND, Framing, NamedView, View, portrait};
+use common::pack;
+
+#[test]
+fn names_and_views_belong_together() {
+    for view in NamedView::ALL {
+        assert_eq!(NamedView::from_name(view.name()), Some(view));
+    }
+    assert_eq!(NamedView::from_name("Front"), None);
+    let center = pack().bounds().unwrap().center();
+    let toward = |view: NamedView| (view.view().camera(pack(), 1.0).eye() - center).normalize_or_zero();
+    // The character's left is +X, and it looks along +Z.
+    for (view, direction) in [
+        (NamedView::Front, Vec3::Z),
+        (NamedView::Left, Vec3::X),
+        (NamedView::Right, Vec3::NEG_X),
+        (NamedView::Back, Vec3::NEG_Z),
+    ] {
+        assert!((toward(view) - direction).length() < 1e-5, "{view:?}");
+    }
+    let three_quarter = toward(NamedView::ThreeQuarter);
+    assert!(three_quarter.x > 0.3 && three_quarter.z > 0.3);
+}
+
+/// The corners of the head's front, in the picture: from -1 to 1.
+fn extent(camera: &Camera) -> f32 {
+    let bounds = pack().bounds().unwrap();
+    let clip_from_world = camera.clip_from_world();
+    let half = bounds.size() / 2.0;
+    let sides = [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y].map(|side| bounds.center() + half * side);
+    sides
+        .into_iter()
+        .map(|side| clip_from_world.project_point3(side))
+        .fold(0.0, |most, at| f32::max(most, at.x.abs().max(at.y.abs())))
+}
+
+#[test]
+fn a_portrait_holds_the_whole_head_and_fills_the_picture() {
+    for aspect in [0.4, 1.0, 1.3, 3.0] {
+        let scene = portrait(pack(), aspect);
+        assert!((0.75..=1.0).contains(&extent(&scene.camera)), "{aspect}: {}", extent(&scene.camera));
+        assert_eq!(scene.background, linear_from_srgb8(BACKGROUND));
+        assert_eq!(scene, View::default().scene(pack(), aspect, BACKGROUND, Light::studio()));
+    }
+}
+
+#[test]
+fn nearer_framings_show_more_of_less() {
+    let distance = |framing: Framing| {
+        let view = View { framing, ..View::FRONT };
+        let camera = view.camera(pack(), 1.0);
+        camera.eye().z
+    };
+    let whole = distance(Framing::Whole);
+    assert_eq!(distance(Framing::Head), whole, "this avatar is no more than a head");
+    assert!(distance(Framing::Face) < whole);
+    let eye = pack().parts().iter().position(|part| part.name == "left-eyeball").unwrap();
+    assert!(distance(Framing::Part(eye)) < distance(Framing::Face));
+    assert_eq!(distance(Framing::Part(999)), whole, "no such part");
+    let moved = View { pan: [0.25, 0.0], ..View::FRONT }.camera(pack(), 1.0);
+    let center = moved.clip_from_world().project_point3(pack().bounds().unwrap().center());
+    assert!((center.x - 0.5).abs() < 1e-3, "a quarter of the height is half of what is from the middle up");
+}
