@@ -112,6 +112,7 @@ mod clip;
 mod text;
 mod range;
 mod quintic;
+mod brake;
 mod channel;
 mod soft_limit;
 mod player;

@@ -19,6 +19,12 @@ impl Range {
         self.max - self.min
     }
 
+    /// The range with a share of its width more at either end.
+    pub(crate) fn widened(self, share: f64) -> Self {
+        let margin = share * self.width();
+        Self { min: self.min - margin, max: self.max + margin }
+    }
+
     /// Whether a value is in the range, up to rounding.
     pub(crate) fn holds(self, value: f64) -> bool {
         (self.clamp(value) - value).abs() <= ROUNDING * self.width()

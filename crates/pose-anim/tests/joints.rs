@@ -96,6 +96,34 @@ proptest! {
         }
     }
 
+    /// Presses in quick succession, each at most 1.5 times slower than the one before and so of about its speed, or of any
+    /// other length: no coordinate leaves the span of its targets by more than half the span's width.
+    #[test]
+    fn no_number_of_presses_overshoots_by_more_than_half_the_span(
+        first in 0.02f64..0.2,
+        presses in prop::collection::vec(
+            (prop_oneof![-1.0f32..1.0, Just(-1.0), Just(1.0)], prop_oneof![4 => 1.2f64..1.5, 1 => 0.05f64..8.0], 0.0f64..1.0),
+            2..16,
+        ),
+    ) {
+        let mut player = JointPlayer::new(START);
+        let (mut least, mut greatest, mut secs) = (0.0f64, 0.0f64, first);
+        for (index, (at, factor, wait)) in presses.iter().enumerate() {
+            secs = (secs * factor).clamp(0.01, 100.0);
+            player.press(JointTarget { rotation: Quat::IDENTITY, translation: Vec3::X * *at }, secs);
+            (least, greatest) = (least.min(f64::from(*at)), greatest.max(f64::from(*at)));
+            // The first move gets up speed; most of the others are interrupted at once.
+            let is_last = index + 1 == presses.len();
+            let wait_secs = if is_last { secs } else if index == 0 { 0.5 * secs } else { wait.powi(6) * secs };
+            let margin = 0.5 * (greatest - least) + 1e-9;
+            for _ in 0..50 {
+                player.advance(0.02 * wait_secs).unwrap();
+                let x = player.translation().x;
+                prop_assert!((least - margin..=greatest + margin).contains(&x), "press {index}: {x}");
+            }
+        }
+    }
+
     /// From rest: the great arc, by minimum jerk.
     #[test]
     fn from_rest_it_is_the_great_arc(target in target(), s in 0.0f64..1.0) {

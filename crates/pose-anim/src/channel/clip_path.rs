@@ -1,4 +1,4 @@
-use super::brake::brake;
+use crate::brake::brake;
 use crate::quintic::Quintic;
 use crate::range::Range;
 use crate::{Clip, Jet, Pace, Wrap};

@@ -1,12 +1,12 @@
 //! Fades in fades: what they give, when they are over, and what becomes of them when they are too many.
 
 use super::Channel;
-use super::brake::brake;
 use super::cold::{Cold, Fade};
 use super::path::Path;
 #[cfg(test)]
 use super::tests;
 use crate::Jet;
+use crate::brake::brake;
 
 impl Channel {
     pub(super) fn running<'r>(&self, cold: &'r Cold) -> &'r [Fade] {

@@ -1,5 +1,4 @@
 mod move_spec;
-mod brake;
 mod clip_path;
 mod path;
 mod cold;

@@ -1,5 +1,5 @@
-use super::brake::tests::FALLBACKS;
 use super::*;
+use crate::brake::tests::FALLBACKS;
 use crate::{Easing, Key, Track, Wrap};
 use std::cell::Cell;
 

@@ -1,6 +1,10 @@
 mod rotation;
+#[cfg(test)]
+mod tests;
 
+use crate::brake::brake;
 use crate::quintic::Quintic;
+use crate::range::Range;
 use crate::{AdvanceError, Jet};
 use glam::{Affine3A, DQuat, DVec3, Quat, Vec3};
 use rig_core::{JointId, Locals, UnknownJoint};
@@ -28,9 +32,19 @@ pub struct JointTarget {
 /// derivatives follow from those of the running motion, taking the short way round, and each of its components goes to 0 by the
 /// move of least jerk. From rest this is the great arc, run through by minimum jerk.
 ///
-/// A move that is much slower than the one that it interrupts would fly far past the target first, and, interrupted again, ever
-/// further; a control has a range that forbids it, a joint has none. Then the old speed is first braked in the time of the old
-/// move, `b(t)`, and faded into the target meanwhile: `x(t) = (1 − r(t)) · b(t) + r(t) · target`, as controls do.
+/// # Overshoot
+///
+/// A move that is much slower than the one that it interrupts would fly far past its target first. A control has a
+/// range that forbids it; a joint has none. So it keeps the time scale in which its speed arose, and a move that is
+/// more than 1.5 times slower than that first brakes the old speed within the old time, `b(t)`, and fades into the
+/// target meanwhile: `x(t) = (1 − r(t)) · b(t) + r(t) · target`, as controls do. Many presses in quick succession
+/// keep the time scale of the first of them.
+///
+/// There is a bound for any number of presses at any moments. Take all targets since the joint last rested,
+/// and the place where it rested. A coordinate of the translation leaves their span by no more than half its width,
+/// on either side. A component of the rotation vector, which is 0 at the target, stays within 1.5 times the largest
+/// angle that a target was away when it was pressed, which is π at most. For a direct move is taken only where it
+/// stays in that range, `b(t)` stays in it, and a mean of two places in a range is in the range.
 #[derive(Clone, Debug)]
 pub struct JointPlayer {
     elapsed_secs: f64,
@@ -42,9 +56,19 @@ pub struct JointPlayer {
     /// The way that is left, as a rotation vector.
     offset: [Way; 3],
     translation: [Way; 3],
-    /// How long the old speed is braked.
-    brake_secs: f64,
+    /// Time scale of the present speed, until it has passed.
+    scale_secs: f64,
+    /// Largest angle of a target at its press since the joint last rested.
+    widest_rad: f64,
+    /// Span of the targets since the joint last rested, and of the place where it rested.
+    span: [Range; 3],
 }
+
+/// Moves that are slower by no more than this factor may be direct.
+const DIRECT: f64 = 1.5;
+
+/// How far the span of the targets may be left, as a share of its width.
+const MARGIN: f64 = 0.5;
 
 /// The motion of one coordinate.
 #[derive(Clone, Copy, Debug)]
@@ -56,13 +80,16 @@ enum Way {
 }
 
 impl Way {
-    fn new(state: Jet, end: f64, duration_secs: f64, brake_secs: f64) -> Self {
-        if brake_secs >= duration_secs {
-            return Self::Direct(Quintic::new(state, end, duration_secs));
+    /// From `state` to `end`, both in the range, in `duration_secs`; `old_secs` is the time scale of the state's speed.
+    fn new(state: Jet, end: f64, duration_secs: f64, old_secs: f64, range: Range) -> Self {
+        let direct = Quintic::new(state, end, duration_secs);
+        if duration_secs <= DIRECT * old_secs && direct.stays_within(range.min, range.max) {
+            return Self::Direct(direct);
         }
+        let secs = old_secs.min(duration_secs);
         // The free end of a move of least jerk.
-        let stop = state.value + brake_secs * (state.velocity / 2.0 + state.acceleration * brake_secs / 12.0);
-        Self::Braked { brake: Quintic::new(state, stop, brake_secs), end }
+        let stop = state.value + secs * (state.velocity / 2.0 + state.acceleration * secs / 12.0);
+        Self::Braked { brake: brake(state, stop, secs, range), end }
     }
 
     fn end(&self) -> f64 {
@@ -88,15 +115,17 @@ impl JointPlayer {
     /// is not finite as 0.
     pub fn new(at: JointTarget) -> Self {
         let (target, end) = unit(at.rotation).unwrap_or((DQuat::IDENTITY, Quat::IDENTITY));
-        let rest = |at: f32| Way::Direct(Quintic::rest(if at.is_finite() { at.into() } else { 0.0 }));
+        let place = at.translation.to_array().map(|at| if at.is_finite() { at.into() } else { 0.0 });
         Self {
             elapsed_secs: 0.0,
             duration_secs: 0.0,
             target,
             end,
             offset: [Way::Direct(Quintic::rest(0.0)); 3],
-            translation: at.translation.to_array().map(rest),
-            brake_secs: 0.0,
+            translation: place.map(|at| Way::Direct(Quintic::rest(at))),
+            scale_secs: 0.0,
+            widest_rad: 0.0,
+            span: place.map(|at| Range { min: at, max: at }),
         }
     }
 
@@ -108,28 +137,34 @@ impl JointPlayer {
         let duration_secs = if duration_secs.is_nan() { 0.001 } else { duration_secs.clamp(0.001, 3600.0) };
         let rotation = self.rotation_jets();
         let translation = self.translation_jets();
-        // The time scale of the running motion; a rest has none.
+        let rests = self.is_at_rest();
+        // A rest has no time scale.
         let old_secs = match self.elapsed_secs {
-            _ if self.is_at_rest() => f64::INFINITY,
-            elapsed_secs if elapsed_secs < self.brake_secs => self.brake_secs,
+            _ if rests => f64::INFINITY,
+            elapsed_secs if elapsed_secs < self.scale_secs => self.scale_secs,
             _ => self.duration_secs,
         };
-        // Moves of about the same speed may well be direct.
-        let brake_secs = if duration_secs > 1.5 * old_secs { old_secs } else { duration_secs };
         let (mut goal, mut end) = unit(target.rotation).unwrap_or((self.target, self.end));
         // Of the two quaternions of the goal, the one on the short way.
         let here = DQuat::from_array(rotation.map(|jet| jet.value));
         if here.dot(goal) < 0.0 {
             (goal, end) = (-goal, -end);
         }
-        self.offset = offset_from(&rotation, goal).map(|jet| Way::new(jet, 0.0, duration_secs, brake_secs));
-        for ((way, jet), at) in
-            self.translation.iter_mut().zip(translation).zip(target.translation.to_array())
-        {
+        let offset = offset_from(&rotation, goal);
+        let angle_rad = DVec3::from_array(offset.map(|jet| jet.value)).length();
+        self.widest_rad = if rests { angle_rad } else { self.widest_rad.max(angle_rad) };
+        let within = Range { min: -self.widest_rad, max: self.widest_rad }.widened(MARGIN / 2.0);
+        self.offset = offset.map(|jet| Way::new(jet, 0.0, duration_secs, old_secs, within));
+        let ways = self.translation.iter_mut().zip(&mut self.span).zip(translation);
+        for (((way, span), jet), at) in ways.zip(target.translation.to_array()) {
             let end = if at.is_finite() { at.into() } else { way.end() };
-            *way = Way::new(jet, end, duration_secs, brake_secs);
+            if rests {
+                *span = Range { min: jet.value, max: jet.value };
+            }
+            *span = Range { min: span.min.min(end), max: span.max.max(end) };
+            *way = Way::new(jet, end, duration_secs, old_secs, span.widened(MARGIN));
         }
-        self.brake_secs = brake_secs;
+        self.scale_secs = old_secs.min(duration_secs);
         self.target = goal;
         self.end = end;
         self.elapsed_secs = 0.0;
