@@ -32,8 +32,6 @@ impl ControlTable {
     /// A control names a joint or a shape that does not exist.
     pub fn bind(&self, rig: &Rig, shapes: &[&str]) -> Result<Binding, BindError> {
         let mut by_joint: Vec<(JointId, Vec<Factor>)> = Vec::new();
-        // Imported rigs have tens of thousands of joints: looking each up in turn takes the square of their number.
-        let ids: HashMap<&str, JointId> = rig.names().iter().map(String::as_str).zip(rig.joints()).collect();
         let mut places: HashMap<JointId, usize> = HashMap::new();
         let mut shape_places: HashMap<&str, Vec<usize>> = HashMap::new();
         shapes.iter().enumerate().for_each(|(at, name)| shape_places.entry(name).or_default().push(at));
@@ -41,7 +39,7 @@ impl ControlTable {
         for (index, control) in self.controls().iter().enumerate() {
             match &control.drives {
                 Drive::Joint { joint, axis, kind } => {
-                    let id = ids.get(joint.as_str()).copied().ok_or_else(|| BindError::UnknownJoint {
+                    let id = rig.joint(joint).ok_or_else(|| BindError::UnknownJoint {
                         control: control.name.clone(),
                         joint: joint.clone(),
                         nearest: placed_toml::nearest(joint, rig.names().iter().map(String::as_str))

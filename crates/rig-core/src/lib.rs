@@ -21,7 +21,7 @@
 //!
 //! | here | letter | formula |
 //! |---|---|---|
-//! | `parent_from_joint` | `B` | from the file, rigid |
+//! | `parent_from_joint` | `B` | from the file, rigid (see [`Rig::from_raw`]) |
 //! | `local` | `L` | set at run time, identity at first |
 //! | `world_from_bind` | `W` | `W_P · B`, `B` at a root |
 //! | `bind_from_world` | `W⁻¹` | `[Rᵀ ∣ −Rᵀt]` |

@@ -8,6 +8,9 @@ pub const RIGID_TOLERANCE: f32 = 1e-3;
 /// How far a bind matrix may move a joint along each axis: sums and rotations of such numbers stay finite.
 pub const TRANSLATION_LIMIT: f32 = 1e18;
 
+/// A matrix that is this near to a rotation is one that was rounded to `f32`: it keeps its bits.
+const ROUNDED: f32 = 1e-6;
+
 /// A joint of a [`Rig`]: its position in the parents-first arrays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct JointId(usize);
@@ -23,6 +26,8 @@ impl JointId {
 #[derive(Clone, Debug)]
 pub struct Rig {
     names: Vec<String>,
+    /// All joints in the order of their names.
+    by_name: Vec<JointId>,
     parents: Vec<Option<JointId>>,
     parent_from_joint: Vec<Affine3A>,
     world_from_bind: Vec<Affine3A>,
@@ -31,6 +36,11 @@ pub struct Rig {
 
 impl Rig {
     /// Freezes an edited rig.
+    ///
+    /// Files print few digits, so a rotation in them may be off by up to [`RIGID_TOLERANCE`]. The rotation part of such
+    /// a `B` is replaced by the nearest rotation, once and in `f64`; translations stay, and so does every bit of a `B`
+    /// that is a rotation up to the rounding of `f32`. Thus `[Rᵀ ∣ −Rᵀt]` is the inverse of `W` up to rounding, and
+    /// `X` of the undeformed rig the identity. [`RawRig`] keeps what the file says.
     ///
     /// # Errors
     /// Names that are not unique, parents that are missing or form a cycle, matrices that are not rigid.
@@ -62,6 +72,7 @@ impl Rig {
 
         let mut rig = Self {
             names: Vec::with_capacity(order.len()),
+            by_name: (0..order.len()).map(JointId).collect(),
             parents: Vec::with_capacity(order.len()),
             parent_from_joint: Vec::with_capacity(order.len()),
             world_from_bind: Vec::with_capacity(order.len()),
@@ -81,6 +92,7 @@ impl Rig {
             rig.world_from_bind.push(world_from_bind);
             rig.bind_from_world.push(inverse(world_from_bind));
         }
+        rig.by_name.sort_unstable_by(|a, b| rig.names[a.0].cmp(&rig.names[b.0]));
         Ok(rig)
     }
 
@@ -113,9 +125,10 @@ impl Rig {
         (0..self.names.len()).map(JointId)
     }
 
-    /// The joint of this name.
+    /// The joint of this name. Takes time that grows with the logarithm of the number of joints.
     pub fn joint(&self, name: &str) -> Option<JointId> {
-        self.names.iter().position(|other| other == name).map(JointId)
+        let found = self.by_name.binary_search_by(|joint| self.names[joint.0].as_str().cmp(name));
+        found.ok().map(|at| self.by_name[at])
     }
 
     /// Names, by [`JointId::index`].
@@ -128,7 +141,7 @@ impl Rig {
         &self.parents
     }
 
-    /// Bind matrices `B` relative to the parent, as the file has them.
+    /// Bind matrices `B` relative to the parent: the file's, with rotations as [`Rig::from_raw`] leaves them.
     pub fn parent_from_joint(&self) -> &[Affine3A] {
         &self.parent_from_joint
     }
@@ -163,7 +176,7 @@ fn affine(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
     near(joint, affine)
 }
 
-/// The matrix as an affine one, if it is rigid within [`RIGID_TOLERANCE`].
+/// The matrix as a rotation and a translation, if it is rigid within [`RIGID_TOLERANCE`].
 fn rigid(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
     if !matrix.is_finite() {
         return Err(RigError::NotFinite { joint: joint.to_owned() });
@@ -184,7 +197,20 @@ fn rigid(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
             return Err(RigError::NotRigid { joint: joint.to_owned(), what, deviation, tolerance });
         }
     }
-    near(joint, affine)
+    let rotation =
+        if largest(&off_identity) > ROUNDED { nearest_rotation(affine.matrix3) } else { affine.matrix3 };
+    near(joint, Affine3A { matrix3: rotation, ..affine })
+}
+
+/// The rotation that is nearest to a matrix which is nearly one: that of its polar decomposition, by Newton's
+/// iteration `R ← (R + R⁻ᵀ)/2` (N. J. Higham, *Computing the Polar Decomposition — with Applications*, 1986, eq. 3.3).
+/// Each step squares the error, so three of them take it from a thousandth to below the rounding of `f64`.
+fn nearest_rotation(matrix: Mat3A) -> Mat3A {
+    let mut rotation = matrix.as_dmat3();
+    for _ in 0..3 {
+        rotation = (rotation + rotation.inverse().transpose()) * 0.5;
+    }
+    Mat3A::from(rotation.as_mat3())
 }
 
 fn near(joint: &str, affine: Affine3A) -> Result<Affine3A, RigError> {

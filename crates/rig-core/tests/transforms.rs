@@ -127,6 +127,40 @@ proptest! {
         }
     }
 
+    /// A file prints few digits. Without local transforms, what is computed is still the bind pose up to the rounding of
+    /// f32, and a rig that was frozen once is frozen again to the same bits.
+    #[test]
+    fn rotations_of_few_digits_make_one_bind_pose(
+        case in case(),
+        off in prop::collection::vec(-1.5e-4..1.5e-4f32, 9),
+    ) {
+        let mut raw = case.raw;
+        for joint in &mut raw.joints {
+            for (at, off) in off.iter().enumerate() {
+                joint.parent_from_joint.col_mut(at / 3)[at % 3] += off;
+            }
+        }
+        let rig = Rig::from_raw(&raw).unwrap();
+        let (bind, mut pose) = (rig.pose(), rig.pose());
+        rig.update(rig.locals().as_slice(), &mut pose).unwrap();
+        prop_assert_eq!(pose.world_from_joint(), bind.world_from_joint());
+        for (i, x) in pose.posed_from_bind().iter().enumerate() {
+            let scale = 1.0 + rig.world_from_bind()[i].translation.abs().max_element();
+            prop_assert!(x.matrix3.abs_diff_eq(bind.posed_from_bind()[i].matrix3, 1e-5), "{x}");
+            prop_assert!(x.translation.abs().max_element() < 1e-5 * scale, "{x}");
+        }
+        for joint in &mut raw.joints {
+            let frozen = rig.parent_from_joint()[rig.joint(&joint.name).unwrap().index()];
+            // As near to the file as the file is to a rotation, and where the file says.
+            let file = Affine3A::from_mat4(joint.parent_from_joint);
+            prop_assert!(frozen.matrix3.abs_diff_eq(file.matrix3, 1e-3));
+            prop_assert_eq!(frozen.translation, file.translation);
+            joint.parent_from_joint = frozen.into();
+        }
+        let again = Rig::from_raw(&raw).unwrap();
+        prop_assert_eq!(again.parent_from_joint(), rig.parent_from_joint());
+    }
+
     #[test]
     fn the_inverse_of_w_undoes_w(case in case(), point in prop::array::uniform3(-20.0..20.0f32)) {
         let rig = Rig::from_raw(&case.raw).unwrap();
