@@ -5,31 +5,33 @@ use avatar_mesh::{Bounds, Mesh};
 use glam::{Affine3A, Vec2, Vec3};
 use std::collections::BTreeMap;
 
-/// The hair of one head: roots, how it falls, and what it stays outside of.
+/// A strand in its place: what stays the same in all poses of the head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlantedStrand {
+    /// Where it grows.
+    pub root: Root,
+    /// The direction in which it is combed, in the frame of its triangle at bind pose.
+    pub comb: Vec3,
+    /// Its length in the world.
+    pub length: f32,
+    /// Where curls begin around it, in radians from −π to π.
+    pub phase: f32,
+    /// The place in [`Groom::guides`] of the strand that it follows.
+    pub guide: Option<u32>,
+}
+
+/// The hair of one head: planted strands, how they fall, and what they stay outside of.
+///
+/// It holds together: guides are strands of it, and each strand follows one of them or none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Groom {
-    /// One per strand, in the order of drawing.
-    pub roots: Vec<Root>,
-    /// Directions in which strands are combed, in the frame of their triangle at bind pose, one per root.
-    pub combs: Vec<Vec3>,
-    /// Lengths in the world, one per root.
-    pub lengths: Vec<f32>,
-    /// Where curls begin around the strand, in radians from −π to π, one per root.
-    pub phases: Vec<f32>,
-    /// Strands that others follow, as indices to the roots.
-    pub guides: Vec<u32>,
-    /// The place in `guides` of the strand that each strand follows, or [`NO_GUIDE`](crate::NO_GUIDE).
-    pub guide_of: Vec<u32>,
-    /// How it looks and falls.
-    pub style: Style,
-    /// What strands stay outside of.
-    pub field: Field,
-    /// Strands that were asked for, over a square of the skin's height: how densely they stand, and so how wide they are.
-    pub strands: f32,
-    /// The bone that moves most of the hair.
-    pub head_bone: u32,
-    /// Height of the skin: what lengths of the style are measured by.
-    pub height: f32,
+    strands: Vec<PlantedStrand>,
+    guides: Vec<u32>,
+    style: Style,
+    field: Field,
+    strands_per_square: f32,
+    head_bone: u32,
+    height: f32,
 }
 
 /// Strands of one lock curl together, but for so much of a turn.
@@ -59,34 +61,67 @@ impl Groom {
         let positions: Vec<Vec3> = roots.iter().map(|root| position(skin, root)).collect();
         let parting = middle + style.scalp.parting * height;
         let guides = guides::choose(&roots);
+        let guide_of = guides::assign(&roots, &positions, &guides, |p| p.x < parting);
         let head_bone = head_bone(skin, &roots);
+        let planted = |(strand, (root, guide)): (usize, (Root, Option<u32>))| PlantedStrand {
+            comb: comb(skin, &root, eyes, &style, middle, height),
+            length: length(skin, density, &root, &style, height),
+            phase: phase(strand, guide.and_then(|guide| guides.get(guide as usize)), seed),
+            guide,
+            root,
+        };
         let mut groom = Self {
-            combs: roots.iter().map(|root| comb(skin, root, eyes, &style, middle, height)).collect(),
-            lengths: roots.iter().map(|root| length(skin, density, root, &style, height)).collect(),
-            guide_of: guides::assign(&roots, &positions, &guides, |p| p.x < parting),
-            phases: Vec::new(),
+            strands: roots.into_iter().zip(guide_of).enumerate().map(planted).collect(),
             field: Field::new(skin, head_bone),
             head_bone,
-            strands,
+            strands_per_square: strands,
             guides,
-            roots,
             style,
             height,
         };
-        groom.phases = (0..groom.roots.len()).map(|strand| groom.phase(strand, seed)).collect();
         groom.cut(skin, bounds.min.y);
         groom
     }
 
-    /// Strands of a lock begin their curls alike.
-    fn phase(&self, strand: usize, seed: u64) -> f32 {
-        let turn = |strand: usize| unit(seed ^ 0xC0A1, strand as u64);
-        let of_lock = self.guide(strand).map_or(0.0, turn);
-        let own =
-            if self.guide(strand).is_some() { PHASE_SPREAD * (turn(strand) - 0.5) } else { turn(strand) };
-        // Within half a turn, where the GPU's cosines are exact enough.
-        let turns = of_lock + own;
-        std::f32::consts::TAU * (turns - turns.round())
+    /// The strands, in the order of drawing: the first ones are a fair sample of all.
+    pub fn strands(&self) -> &[PlantedStrand] {
+        &self.strands
+    }
+
+    /// The strands that others follow, as indices to [`Groom::strands`].
+    pub fn guides(&self) -> &[u32] {
+        &self.guides
+    }
+
+    /// The strand that a strand follows, as an index to [`Groom::strands`].
+    pub fn guide(&self, strand: usize) -> Option<usize> {
+        let guide = self.strands.get(strand)?.guide?;
+        self.guides.get(guide as usize).map(|strand| *strand as usize)
+    }
+
+    /// How the hair looks and falls.
+    pub fn style(&self) -> &Style {
+        &self.style
+    }
+
+    /// What strands stay outside of.
+    pub fn field(&self) -> &Field {
+        &self.field
+    }
+
+    /// Strands that were asked for, over a square of the skin's height: how densely they stand, and so how wide they are.
+    pub fn strands_per_square(&self) -> f32 {
+        self.strands_per_square
+    }
+
+    /// The bone that moves most of the hair.
+    pub fn head_bone(&self) -> u32 {
+        self.head_bone
+    }
+
+    /// Height of the skin: what lengths of the style are measured by.
+    pub fn height(&self) -> f32 {
+        self.height
     }
 
     /// Shortens what would hang below the cut at bind pose, lock by lock: hair has one length in all poses.
@@ -94,20 +129,18 @@ impl Groom {
         let height = lowest + self.style.scalp.cut * self.height;
         let lengths: Vec<f32> =
             (self.guides.iter()).map(|&guide| self.length_to(skin, guide as usize, height)).collect();
-        for (strand, &number) in self.guide_of.iter().enumerate() {
-            let (Some(length), Some(root)) = (lengths.get(number as usize), self.roots.get(strand)) else {
-                continue;
-            };
+        for strand in &mut self.strands {
+            let Some(length) = strand.guide.and_then(|guide| lengths.get(guide as usize)) else { continue };
             // The strand's own may be shorter already.
-            let uneven = length * (1.0 - CUT_SPREAD * root.random[0]);
-            self.lengths[strand] = self.lengths[strand].min(uneven);
+            let uneven = length * (1.0 - CUT_SPREAD * strand.root.random[0]);
+            strand.length = strand.length.min(uneven);
         }
     }
 
     /// The length at which a strand ends at a height at bind pose, or the style's if it does not reach that low. A strand
     /// bends from point to point, so that a shorter one lies otherwise: the length is sought, not measured.
     fn length_to(&self, skin: &Mesh, strand: usize, height: f32) -> f32 {
-        let Some(root) = self.roots.get(strand) else { return 0.0 };
+        let Some(PlantedStrand { root, .. }) = self.strands.get(strand) else { return 0.0 };
         let corner = |i: usize| root.corners[i] as usize;
         let of = |all: &[Vec3], i: usize| all.get(corner(i)).copied().unwrap_or(Vec3::Y);
         let triangle = Triangle {
@@ -130,6 +163,16 @@ impl Groom {
         }
         above
     }
+}
+
+/// Where the curls of a strand begin: those of a lock begin alike. `guide` is the strand that it follows.
+fn phase(strand: usize, guide: Option<&u32>, seed: u64) -> f32 {
+    let turn = |strand: usize| unit(seed ^ 0xC0A1, strand as u64);
+    let of_lock = guide.map_or(0.0, |guide| turn(*guide as usize));
+    let own = if guide.is_some() { PHASE_SPREAD * (turn(strand) - 0.5) } else { turn(strand) };
+    // Within half a turn, where the GPU's cosines are exact enough.
+    let turns = of_lock + own;
+    std::f32::consts::TAU * (turns - turns.round())
 }
 
 /// The bone that moves most of the hair.

@@ -1,4 +1,4 @@
-use crate::{Groom, NO_GUIDE, OTHER_BONES, Region, RegionStyle};
+use crate::{Groom, OTHER_BONES, PlantedStrand, Region, RegionStyle};
 use glam::{Affine3A, Mat3, Mat3A, Vec2, Vec3};
 
 /// Segments of a strand.
@@ -32,10 +32,10 @@ pub const CURL_SHARE: f32 = 0.08;
 /// height.
 pub const LOCK_REACH: f32 = 0.06;
 
-/// The points of a guide in the world: a strand that follows no other, without curls. `strand` is an index to the roots.
+/// The points of a guide in the world: a strand that follows no other, without curls. `strand` is an index to [`Groom::strands`].
 pub fn grow_guide(groom: &Groom, strand: usize, triangle: &Triangle, bones: &[Affine3A]) -> Option<Strand> {
-    let length = *groom.lengths.get(strand)?;
-    let head = *bones.get(groom.head_bone as usize)?;
+    let length = groom.strands().get(strand)?.length;
+    let head = *bones.get(groom.head_bone() as usize)?;
     Some(
         grow_to(groom, strand, length, triangle, bones, None, None)?
             .map(|point| head.transform_point3(point)),
@@ -51,10 +51,9 @@ pub fn grow(
     bones: &[Affine3A],
     guide: Option<&Strand>,
 ) -> Option<Strand> {
-    let head = *bones.get(groom.head_bone as usize)?;
-    let length = *groom.lengths.get(strand)?;
-    let phase = *groom.phases.get(strand)?;
-    let points = grow_to(groom, strand, length, triangle, bones, guide, Some(phase))?;
+    let head = *bones.get(groom.head_bone() as usize)?;
+    let planted = groom.strands().get(strand)?;
+    let points = grow_to(groom, strand, planted.length, triangle, bones, guide, Some(planted.phase))?;
     Some(points.map(|point| head.transform_point3(point)))
 }
 
@@ -71,13 +70,13 @@ pub(crate) fn grow_to(
     guide: Option<&Strand>,
     phase: Option<f32>,
 ) -> Option<Strand> {
-    let head = *bones.get(groom.head_bone as usize)?;
+    let head = *bones.get(groom.head_bone() as usize)?;
     let others: [Affine3A; OTHER_BONES] = std::array::from_fn(|i| {
-        let other = bones.get(groom.field.bones[i] as usize).copied().unwrap_or(head);
+        let other = bones.get(groom.field().bones[i] as usize).copied().unwrap_or(head);
         offset_from_head(head, other)
     });
-    let (root, comb_local) = (groom.roots.get(strand)?, groom.combs.get(strand)?);
-    let style = groom.style.region(root.region);
+    let PlantedStrand { root, comb: comb_local, .. } = groom.strands().get(strand)?;
+    let style = groom.style().region(root.region);
     let [w0, w1, w2] = root.barycentric;
     let [a, b, c] = triangle.positions;
     let start_world = a * w0 + b * w1 + c * w2;
@@ -94,13 +93,13 @@ pub(crate) fn grow_to(
     // The first segment only says where the strand leaves; long hair would stand off by its whole length otherwise.
     let first = FIRST_SEGMENT * length / SEGMENTS as f32;
     let own = Vec3::from_array([root.random[0], root.random[1], root.random[2]]) * 2.0 - 1.0;
-    let margin = MARGIN * groom.height;
+    let margin = MARGIN * groom.height();
     // Strands lie over one another instead of in one shell.
-    let lift = style.volume * groom.height * root.random[2] + curl_radius(style, groom.height, length);
+    let lift = style.volume * groom.height() * root.random[2] + curl_radius(style, groom.height(), length);
 
     // Curls wind around the strand: beside it is what is across the plane that it bends in.
     let beside = normal.cross(down + comb).normalize_or(Vec3::X);
-    let radius = if phase.is_some() { curl_radius(style, groom.height, length) } else { 0.0 };
+    let radius = if phase.is_some() { curl_radius(style, groom.height(), length) } else { 0.0 };
     let mut phase = phase.map_or(Vec2::X, |phase| Vec2::new(libm::cosf(phase), libm::sinf(phase)));
     let turn = style.curl_turn();
 
@@ -122,7 +121,7 @@ pub(crate) fn grow_to(
         let mut next = before + direction * step;
         if let Some(guide) = guide {
             let toward = to_bind(guide[i]) - next;
-            let share = (2.0 - toward.length() / (LOCK_REACH * groom.height)).clamp(0.0, 1.0);
+            let share = (2.0 - toward.length() / (LOCK_REACH * groom.height())).clamp(0.0, 1.0);
             next += toward * (style.clump * t * share);
         }
         let (distance, outward) = match root.region {
@@ -130,7 +129,7 @@ pub(crate) fn grow_to(
                 // Where the skin moves with other bones, the place is sought where they have it at bind pose. The shares are
                 // those of the point before.
                 let moved = |i: usize| others[i].transform_point3(next) * shares[i];
-                let near = groom.field.at(next + moved(0) + moved(1));
+                let near = groom.field().at(next + moved(0) + moved(1));
                 let turned = |i: usize| back[i] * near.outward * near.shares[i];
                 shares = near.shares;
                 (near.distance, (near.outward + turned(0) + turned(1)).normalize_or(near.outward))
@@ -147,7 +146,7 @@ pub(crate) fn grow_to(
         let side = direction.cross(beside).normalize_or(normal);
         points[i] = before + (beside * phase.x + side * phase.y) * (radius * (3.0 * t).min(1.0));
         skin_normal = outward;
-        near = (1.0 - (distance - least) / (COMBED_REACH * groom.height)).clamp(0.0, 1.0);
+        near = (1.0 - (distance - least) / (COMBED_REACH * groom.height())).clamp(0.0, 1.0);
     }
     Some(points)
 }
@@ -160,14 +159,6 @@ pub(crate) fn step_share(point: usize) -> f32 {
 
 /// Sum of `point + 1` over the points from 2 to the last.
 pub const STEP_SUM: u32 = ((SEGMENTS * (SEGMENTS + 1)) / 2 - 1 + (SEGMENTS - 1)) as u32;
-
-impl Groom {
-    /// The strand that a strand follows, as an index to the roots.
-    pub fn guide(&self, strand: usize) -> Option<usize> {
-        let number = *self.guide_of.get(strand)?;
-        (number != NO_GUIDE).then(|| self.guides.get(number as usize).map(|root| *root as usize))?
-    }
-}
 
 /// How far bones take a point of the head's bind pose from where another bone has it at bind pose: a map to what is to be
 /// added to the point. Nothing, where both move alike.

@@ -2,9 +2,6 @@ use crate::{Region, Root};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
-/// The number of a strand's guide where it has none.
-pub const NO_GUIDE: u32 = u32::MAX;
-
 /// Most guides that a head has.
 const MOST: usize = 1024;
 /// A guide leads at least so many strands.
@@ -17,14 +14,14 @@ pub(crate) fn choose(roots: &[Root]) -> Vec<u32> {
     on_scalp.map(|(strand, _)| strand).take((strands / STRANDS_PER_GUIDE).min(MOST)).collect()
 }
 
-/// For each strand the number of the nearest guide; those of the scalp only. Strands on one side of the parting follow no
+/// For each strand of the scalp the number of the nearest guide. Strands on one side of the parting follow no
 /// guide on the other one. `side` says which side a place is on.
 pub(crate) fn assign(
     roots: &[Root],
     positions: &[Vec3],
     guides: &[u32],
     side: impl Fn(Vec3) -> bool,
-) -> Vec<u32> {
+) -> Vec<Option<u32>> {
     // Sides are told apart by a place that is far away.
     let extent = positions.iter().fold(0.0f32, |most, p| most.max(p.abs().max_element()));
     let apart = |p: Vec3| if side(p) { p + Vec3::X * 8.0 * extent } else { p };
@@ -33,7 +30,7 @@ pub(crate) fn assign(
     let cells = Cells::new(&places, extent);
     let nearest = |(root, position): (&Root, &Vec3)| match root.region {
         Region::Scalp => cells.nearest(&places, apart(*position)),
-        _ => NO_GUIDE,
+        _ => None,
     };
     roots.iter().zip(positions).map(nearest).collect()
 }
@@ -60,9 +57,9 @@ impl Cells {
         (place / self.size).floor().to_array().map(|v| v as i32)
     }
 
-    fn nearest(&self, places: &[Vec3], place: Vec3) -> u32 {
+    fn nearest(&self, places: &[Vec3], place: Vec3) -> Option<u32> {
         let [x, y, z] = self.cell(place);
-        let mut best = (f32::INFINITY, NO_GUIDE);
+        let mut best = (f32::INFINITY, None);
         for ring in 0..=self.rings {
             // What is in a further ring is further away than this.
             if best.0 <= (ring - 1).max(0) as f32 * self.size {
@@ -71,8 +68,13 @@ impl Cells {
             for [dx, dy, dz] in shell(ring) {
                 for &number in self.members.get(&[x + dx, y + dy, z + dz]).into_iter().flatten() {
                     let distance = places[number as usize].distance(place);
-                    if (distance, number) < best {
-                        best = (distance, number);
+                    // Of two at the same distance the one with the smaller number.
+                    let is_nearer = match best {
+                        (least, Some(other)) => (distance, number) < (least, other),
+                        (least, None) => distance <= least,
+                    };
+                    if is_nearer {
+                        best = (distance, Some(number));
                     }
                 }
             }

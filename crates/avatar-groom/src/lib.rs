@@ -29,12 +29,11 @@ mod swing;
 
 pub use density::DensityMap;
 pub use field::{Field, Near, OTHER_BONES};
-pub use groom::Groom;
+pub use groom::{Groom, PlantedStrand};
 pub use grow::{
     COMBED_REACH, CURL_SHARE, FIRST_SEGMENT, LOCK_REACH, MARGIN, SEGMENTS, STEP_SUM, Strand, Triangle, grow,
     grow_guide, offset_from_head,
 };
-pub use guides::NO_GUIDE;
 pub use hair::Hair;
 pub use placed_toml::TomlError;
 pub use roots::{MAX_ROOTS, Region, Root, scatter};

@@ -102,8 +102,8 @@ fn hairy(mesh: &Mesh, style: Style) -> Groom {
 }
 
 fn triangle(mesh: &Mesh, groom: &Groom, strand: usize, bones: &[Affine3A]) -> Triangle {
-    let corners = groom.roots[strand].corners.map(|i| i as usize);
-    let bone = bones[groom.head_bone as usize];
+    let corners = groom.strands()[strand].root.corners.map(|i| i as usize);
+    let bone = bones[groom.head_bone() as usize];
     Triangle {
         positions: corners.map(|i| bone.transform_point3(mesh.positions[i])),
         normals: corners.map(|i| bone.transform_vector3(mesh.normals[i])),
@@ -117,10 +117,10 @@ fn hair_stays_outside_of_a_turned_head_has_its_length_and_follows_its_guide() {
     let mut ratios = Vec::new();
     for clump in [0.0, 0.2] {
         let groom = hairy(&mesh, style(RegionStyle { clump, cut: -10.0, ..Style::LONG.scalp }));
-        assert!(groom.guides.len() > 20);
+        assert!(groom.guides().len() > 20);
         let middle = turned[0].transform_point3(Vec3::ZERO);
         let mut apart = [0.0f32; 2];
-        for strand in 0..groom.roots.len() {
+        for strand in 0..groom.strands().len() {
             let guide_strand = groom.guide(strand).expect("a guide");
             let guide =
                 grow_guide(&groom, guide_strand, &triangle(&mesh, &groom, guide_strand, &turned), &turned);
@@ -129,10 +129,10 @@ fn hair_stays_outside_of_a_turned_head_has_its_length_and_follows_its_guide() {
             let points = grow(&groom, strand, &of, &turned, Some(&guide)).expect("a strand");
             for point in &points[2..] {
                 let height = point.distance(middle) - 1.0;
-                assert!(height > 0.25 * MARGIN * groom.height, "{height}");
+                assert!(height > 0.25 * MARGIN * groom.height(), "{height}");
             }
             let length: f32 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-            let wanted = groom.lengths[strand];
+            let wanted = groom.strands()[strand].length;
             // Segments that the head pushes back get shorter.
             assert!(length <= wanted * 1.001 && length > 0.8 * wanted, "{length} {wanted}");
             apart[0] += points[0].distance(guide[0]);
@@ -152,7 +152,7 @@ fn the_cut_is_where_the_style_says() {
     let bones = [Affine3A::IDENTITY];
     // The lowest point of the ball is -1, its height 2.
     let height = -1.0 - 0.2 * 2.0;
-    let guides: Vec<f32> = (groom.guides.iter())
+    let guides: Vec<f32> = (groom.guides().iter())
         .map(|&strand| {
             let of = triangle(&mesh, &groom, strand as usize, &bones);
             grow_guide(&groom, strand as usize, &of, &bones).expect("a guide")[SEGMENTS].y
@@ -172,12 +172,12 @@ fn guides_are_the_nearest_ones_on_their_side_of_the_parting() {
     let mesh = ball(Vec3::ZERO);
     let groom = hairy(&mesh, style(RegionStyle { parting: 0.1, ..Style::LONG.scalp }));
     let at = |strand: usize| -> Vec3 {
-        let root = &groom.roots[strand];
+        let root = &groom.strands()[strand].root;
         (0..3).map(|i| mesh.positions[root.corners[i] as usize] * root.barycentric[i]).sum()
     };
     let side = |strand: usize| at(strand).x < 0.2;
-    for strand in 0..groom.roots.len() {
-        let same_side = groom.guides.iter().map(|g| *g as usize).filter(|g| side(*g) == side(strand));
+    for strand in 0..groom.strands().len() {
+        let same_side = groom.guides().iter().map(|g| *g as usize).filter(|g| side(*g) == side(strand));
         let nearest = same_side.map(|g| at(g).distance(at(strand))).fold(f32::INFINITY, f32::min);
         let found = groom.guide(strand).expect("a guide");
         assert_eq!(side(found), side(strand));

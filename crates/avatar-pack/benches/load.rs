@@ -52,7 +52,7 @@ fn groom(bencher: Bencher<'_, '_>) {
     let source = files(|name| !name.ends_with(".png") || name.starts_with(&map));
     let (pack, textures) = (Pack::load(&source).expect("a good pack"), Textures::load(&source));
     let hair = Hair { density: 1.9, ..Hair::default() };
-    let strands = pack.groom(&textures, &hair).expect("hair").1.roots.len();
+    let strands = pack.groom(&textures, &hair).expect("hair").1.strands().len();
     assert!((145_000..160_000).contains(&strands), "{strands}");
     bencher.bench(|| pack.groom(&textures, &hair));
 }

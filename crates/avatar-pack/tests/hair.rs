@@ -95,7 +95,7 @@ fn places(pack: &Pack, groom: &Groom) -> Vec<(Region, Vec2, Vec3)> {
         let uv: Vec2 = (0..3).map(|i| mesh.uvs[corners[i]] * root.barycentric[i]).sum();
         (root.region, uv * 1024.0, (0..3).map(|i| mesh.positions[corners[i]] * root.barycentric[i]).sum())
     };
-    groom.roots.iter().map(place).collect()
+    groom.strands().iter().map(|strand| place(&strand.root)).collect()
 }
 
 /// On the built-in head brows and lashes are painted apart, and their places on the map are known.
@@ -140,7 +140,7 @@ fn both_halves_of_the_head_have_as_much_hair_and_a_crest_is_a_crest() {
             "{name}: {left} of {}",
             scalp.len()
         );
-        let widest = scalp.iter().fold(0.0f32, |widest, x| widest.max(x.abs())) / groom.height;
+        let widest = scalp.iter().fold(0.0f32, |widest, x| widest.max(x.abs())) / groom.height();
         assert!(name != "mohawk" || widest <= Style::MOHAWK.scalp.strip + 1e-4, "{widest}");
     }
 }
@@ -150,7 +150,7 @@ fn the_largest_density_fits_a_binding_of_default_limits() {
     let (pack, textures) = built_in();
     let strands = |style| {
         let hair = Hair { style, density: Hair::MAX_DENSITY, seed: 1 };
-        pack.groom(&textures, &hair).expect("hair").1.roots.len()
+        pack.groom(&textures, &hair).expect("hair").1.strands().len()
     };
     let densest = strands(Style::BOB);
     // 128 MiB of points, and a normal, of 16 bytes each.

@@ -127,10 +127,10 @@ fn avatar(
     model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
     let mut state = AvatarState::new(&gpu.device, &model);
     state.set_hair_detail(HairDetail { is_automatic: false, ..HairDetail::default() });
-    let mut corners: Vec<u32> = groom.roots.iter().flat_map(|root| root.corners).collect();
+    let mut corners: Vec<u32> = groom.strands().iter().flat_map(|strand| strand.root.corners).collect();
     corners.sort_unstable();
     corners.dedup();
-    let bytes = groom.roots.len() * (ROOT_BYTES + STRAND_BYTES) + corners.len() * VERTEX_BYTES;
+    let bytes = groom.strands().len() * (ROOT_BYTES + STRAND_BYTES) + corners.len() * VERTEX_BYTES;
     let bounds = pack.bounds().expect("a face");
     let camera = Camera::frame(bounds, 0.0, 0.0, 0.42, WIDTH as f32 / HEIGHT as f32);
     (model, state, Scene { camera, background: [0.02, 0.02, 0.03, 1.0], light: Light::studio() }, bytes)

@@ -5,7 +5,7 @@
 mod common;
 
 use avatar_groom::{DensityMap, Groom, Root, SEGMENTS, Strand, Style, Triangle, grow, grow_guide};
-use avatar_mesh::{Deformed, deform};
+use avatar_mesh::{Deformed, Mesh, deform};
 use avatar_pack::{FaceState, Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Gpu, render_image};
 use avatar_render::{
@@ -101,11 +101,12 @@ impl<'a> Head<'a> {
 
     /// Panics where a strand does not start on the skin, along its normal.
     fn assert_stands(&self, groom: &Groom, strands: &[Strand], pose: &str) {
-        assert_eq!(strands.len(), groom.roots.len());
-        for (i, (root, points)) in groom.roots.iter().zip(strands).enumerate() {
+        assert_eq!(strands.len(), groom.strands().len());
+        for (i, (root, points)) in groom.strands().iter().map(|strand| &strand.root).zip(strands).enumerate()
+        {
             let Triangle { positions, normals } = triangle(&self.posed, root);
             let on_skin: Vec3 = (0..3).map(|k| positions[k] * root.barycentric[k]).sum();
-            let off = on_skin.distance(points[0]) / groom.height;
+            let off = on_skin.distance(points[0]) / groom.height();
             assert!(off <= 1e-4, "{pose}, strand {i}: {off} off the skin");
             let normal: Vec3 = (0..3).map(|k| normals[k] * root.barycentric[k]).sum();
             let leaves = (points[1] - points[0]).normalize_or_zero().dot(normal.normalize_or_zero());
@@ -145,12 +146,12 @@ fn strands_stand_on_the_deformed_skin_and_are_those_of_the_cpu_in_every_pose() {
             let bones = head.face.bones();
             // Of the very skin that the GPU grows on: what rounding does to hair that stands on end is not growth's.
             let posed = head.posed_by_gpu();
-            let of = |strand: usize| triangle(&posed, &groom.roots[strand]);
+            let of = |strand: usize| triangle(&posed, &groom.strands()[strand].root);
             for (i, points) in strands.iter().enumerate() {
                 let guide = groom.guide(i).map(|g| grow_guide(&groom, g, &of(g), bones).expect("a guide"));
                 let twin = grow(&groom, i, &of(i), bones, guide.as_ref()).expect("a strand");
                 for k in 0..=SEGMENTS {
-                    let off = twin[k].distance(points[k]) / groom.height;
+                    let off = twin[k].distance(points[k]) / groom.height();
                     assert!(off <= 1e-4, "{pose}, strand {i}, point {k}: {off}");
                 }
             }
@@ -186,13 +187,13 @@ fn no_strand_is_under_the_skin_in_any_pose_of_the_pack() {
     for (name, style) in Style::PRESETS {
         let groom = groom(&pack, &density, style, 3000.0);
         let mut head = Head::new(gpu, &pack, &groom);
-        assert!(groom.roots.len() > 20, "{name}: {}", groom.roots.len());
+        assert!(groom.strands().len() > 20, "{name}: {}", groom.strands().len());
         for (pose, values) in poses(&pack) {
             let strands = head.strands(&values);
             let nearest = Nearest::new(&head.posed.positions, &pack.parts()[0].mesh.triangles);
             for (i, points) in strands.iter().enumerate() {
                 for (k, point) in points.iter().enumerate() {
-                    let depth = nearest.depth(*point) / groom.height;
+                    let depth = nearest.depth(*point) / groom.height();
                     assert!(depth <= 0.005, "{name}, {pose}, strand {i}, point {k}: {depth} at {point}");
                 }
             }
@@ -205,7 +206,7 @@ fn there_may_be_far_more_strands_than_a_head_has() {
     let Some(gpu) = gpu() else { return };
     let (pack, density) = avatar();
     let groom = groom(&pack, &density, Style::SHORT, 400_000.0);
-    assert!(groom.roots.len() > 150_000, "{}", groom.roots.len());
+    assert!(groom.strands().len() > 150_000, "{}", groom.strands().len());
     let mut head = Head::new(gpu, &pack, &groom);
     let strands = head.strands(&pack.controls().defaults());
     head.assert_stands(&groom, &strands, "defaults");
@@ -230,7 +231,7 @@ fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
     let bare = draw(&model);
     let groom = groom(&pack, &density, Style::BOB, 8000.0);
     model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
-    assert_eq!(model.strand_count(), groom.roots.len());
+    assert_eq!(model.strand_count(), groom.strands().len());
     let covered = draw(&model);
     let changed = bare.rgba.iter().zip(&covered.rgba).filter(|(a, b)| a.abs_diff(**b) > 10).count();
     assert!(changed > 2000, "{changed}");
@@ -252,24 +253,24 @@ fn hair_is_seen_and_bald_heads_and_roots_of_other_meshes_are_told_apart() {
 
     let mut refuse =
         |wrong: Groom| model.set_hair(&gpu.device, &gpu.queue, 0, Some(&wrong)).expect_err("refused");
-    let strands = groom.roots.len();
-    let wrong = Groom { guides: vec![0, u32::MAX], ..groom.clone() };
-    assert_eq!(refuse(wrong), HairError::Guide { found: u32::MAX, strands });
-    let wrong = Groom { lengths: groom.lengths[1..].to_vec(), ..groom.clone() };
-    assert_eq!(refuse(wrong), HairError::Incomplete { strand: strands - 1 });
-    let wrong = Groom { head_bone: 77, ..groom.clone() };
-    assert_eq!(refuse(wrong), HairError::Bone { found: 77, bones: pack.palette().len() as u32 });
-    let mut wrong = groom.clone();
-    wrong.field.distances.pop();
-    assert!(matches!(refuse(wrong), HairError::Field { .. }));
-    let many = vec![0; 40_000_000];
-    assert!(matches!(refuse(Groom { guides: many, ..groom.clone() }), HairError::TooManyGuides { .. }));
-
-    let mut wrong = groom.clone();
-    wrong.roots[3].corners[1] = u32::MAX;
-    let refused = model.set_hair(&gpu.device, &gpu.queue, 0, Some(&wrong));
+    // All of the skin on a bone that the model does not have.
+    let mut mesh = skin.clone();
+    let skinning = mesh.skinning.as_mut().expect("a skin");
+    skinning.bones.iter_mut().for_each(|bones| *bones = [77; 4]);
+    let planted = |mesh: &Mesh| Groom::new(mesh, &density, &[], Style::BOB, 100.0, 7);
+    assert_eq!(refuse(planted(&mesh)), HairError::Bone { found: 77, bones: pack.palette().len() as u32 });
+    // A skin with twice the vertices, of which the triangles have the second half.
+    let mut mesh = skin.clone();
     let vertices = skin.positions.len() as u32;
-    assert_eq!(refused, Err(HairError::Corner { strand: 3, found: u32::MAX, vertices }));
+    mesh.positions.extend_from_within(..);
+    mesh.normals.extend_from_within(..);
+    mesh.uvs.extend_from_within(..);
+    mesh.triangles.iter_mut().flatten().for_each(|corner| *corner += vertices);
+    mesh.skinning = None;
+    let other = planted(&mesh);
+    let found = other.strands()[0].root.corners[0];
+    let refused = model.set_hair(&gpu.device, &gpu.queue, 0, Some(&other));
+    assert_eq!(refused, Err(HairError::Corner { strand: 0, found, vertices }));
     let refused = model.set_hair(&gpu.device, &gpu.queue, 9, Some(&groom));
     assert_eq!(refused, Err(HairError::NoSuchPart { parts: 1, found: 9 }));
 }

@@ -21,30 +21,6 @@ pub enum HairError {
         /// Number of vertices of the part.
         vertices: u32,
     },
-    /// A groom whose lists have different lengths.
-    #[error(
-        "strand {strand}: expected a comb, a length, a phase and a guide, found fewer of them than roots"
-    )]
-    Incomplete {
-        /// The strand.
-        strand: usize,
-    },
-    /// A guide that is no strand.
-    #[error("expected guides below {strands}, found {found}")]
-    Guide {
-        /// The guide.
-        found: u32,
-        /// Number of strands.
-        strands: usize,
-    },
-    /// More guides than a binding of the device holds.
-    #[error("expected at most {limit} guides, found {found}")]
-    TooManyGuides {
-        /// Number of guides.
-        found: usize,
-        /// What the device allows.
-        limit: usize,
-    },
     /// Hair that moves with a bone that the model does not have.
     #[error("expected a bone below {bones}, found {found}")]
     Bone {
@@ -52,14 +28,6 @@ pub enum HairError {
         found: u32,
         /// Number of bones of the model.
         bones: u32,
-    },
-    /// A field of distances that does not fill its grid.
-    #[error("expected distances for a grid of {} × {} × {}, found {found}", expected[0], expected[1], expected[2])]
-    Field {
-        /// Size of the grid.
-        expected: [u32; 3],
-        /// Number of distances.
-        found: usize,
     },
     /// A field that is larger than a texture of the device.
     #[error("expected at most {limit} places along each side of the field, found {} × {} × {}", found[0], found[1], found[2])]

@@ -4,9 +4,10 @@ use crate::deform::posed::GpuDeformedVertex;
 use crate::gpu::identity::Identity;
 use crate::gpu::vec4_texture::Vec4Texture;
 use crate::hair::error::HairError;
-use crate::hair::swing::GpuMote;
-use crate::hair::uniforms::{GROW_WORKGROUP_SIZE, GpuHair, GpuHairRegion, GpuRoot, IS_GUIDE, POINT_STRIDE};
-use avatar_groom::{COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, NO_GUIDE, OTHER_BONES, RegionStyle};
+use crate::hair::uniforms::{
+    GROW_WORKGROUP_SIZE, GpuHair, GpuHairRegion, GpuRoot, IS_GUIDE, NO_GUIDE, POINT_STRIDE,
+};
+use avatar_groom::{COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, OTHER_BONES, PlantedStrand, RegionStyle};
 use bytemuck::Zeroable;
 use wgpu::util::DeviceExt;
 
@@ -50,39 +51,27 @@ impl HairModel {
         let groups = limits.max_compute_workgroups_per_dimension as usize * GROW_WORKGROUP_SIZE as usize;
         let most_roots = Vec4Texture::most(&limits) / (size_of::<GpuRoot>() / size_of::<[f32; 4]>());
         let limit = ((binding / per_strand) as usize).min(groups).min(most_roots);
-        let found = groom.roots.len();
+        let found = groom.strands().len();
         if found > limit {
             return Err(HairError::TooMany { found, limit });
         }
         let mut roots = Vec::with_capacity(found);
-        for (strand, root) in groom.roots.iter().enumerate() {
-            if let Some(&found) = root.corners.iter().find(|corner| **corner >= vertices) {
+        for (strand, planted) in groom.strands().iter().enumerate() {
+            if let Some(&found) = planted.root.corners.iter().find(|corner| **corner >= vertices) {
                 return Err(HairError::Corner { strand, found, vertices });
             }
-            roots.push(gpu_root(groom, strand).ok_or(HairError::Incomplete { strand })?);
-        }
-        if let Some(&found) = groom.guides.iter().find(|guide| **guide as usize >= groom.roots.len()) {
-            return Err(HairError::Guide { found, strands: groom.roots.len() });
-        }
-        let most_guides = (binding / (POINT_STRIDE * size_of::<GpuMote>()) as u64) as usize;
-        if groom.guides.len() > most_guides {
-            return Err(HairError::TooManyGuides { found: groom.guides.len(), limit: most_guides });
+            roots.push(gpu_root(planted));
         }
         let guide_root =
             |strand: &u32| roots.get(*strand as usize).map(|root| GpuRoot { guide: IS_GUIDE, ..*root });
-        let mut guide_roots: Vec<GpuRoot> = groom.guides.iter().filter_map(guide_root).collect();
+        let mut guide_roots: Vec<GpuRoot> = groom.guides().iter().filter_map(guide_root).collect();
         let (strand_count, guide_count) = (roots.len() as u32, guide_roots.len() as u32);
         // WebGPU binds no empty buffers.
         for roots in [&mut roots, &mut guide_roots].into_iter().filter(|roots| roots.is_empty()) {
             roots.push(GpuRoot::zeroed());
         }
-        let field = &groom.field;
-        let places = field.size.iter().map(|n| u64::from(*n)).product::<u64>();
-        let known = field.distances.len().min(field.shares.len()).min(field.slopes.len());
-        if field.size.iter().any(|n| *n < 2) || known as u64 != places {
-            return Err(HairError::Field { expected: field.size, found: known });
-        }
-        if let Some(&found) = field.bones.iter().chain([&groom.head_bone]).find(|bone| **bone >= bones) {
+        let field = groom.field();
+        if let Some(&found) = field.bones.iter().chain([&groom.head_bone()]).find(|bone| **bone >= bones) {
             return Err(HairError::Bone { found, bones });
         }
         if field.size.iter().any(|n| *n > limits.max_texture_dimension_3d) {
@@ -95,17 +84,21 @@ impl HairModel {
         if vertices as usize > most {
             return Err(HairError::SkinSize { found: vertices, limit: most });
         }
-        let region = |style: &RegionStyle| GpuHairRegion::new(style, groom.height);
+        let region = |style: &RegionStyle| GpuHairRegion::new(style, groom.height());
         let hair = GpuHair {
-            regions: [region(&groom.style.scalp), region(&groom.style.brows), region(&groom.style.lashes)],
+            regions: [
+                region(&groom.style().scalp),
+                region(&groom.style().brows),
+                region(&groom.style().lashes),
+            ],
             field_origin: field.origin.to_array(),
             field_cell: field.cell,
             field_size: field.size,
-            margin: MARGIN * groom.height,
-            per_combed_reach: 1.0 / (COMBED_REACH * groom.height),
-            per_lock_reach: 1.0 / (LOCK_REACH * groom.height),
+            margin: MARGIN * groom.height(),
+            per_combed_reach: 1.0 / (COMBED_REACH * groom.height()),
+            per_lock_reach: 1.0 / (LOCK_REACH * groom.height()),
             strand_count,
-            width_factor: (REFERENCE_STRANDS / groom.strands.max(1.0)).clamp(0.5, WIDEST),
+            width_factor: (REFERENCE_STRANDS / groom.strands_per_square().max(1.0)).clamp(0.5, WIDEST),
             field_range: field.range(),
             field_cells: 1.0 / field.cell,
             pad: [0.0; 2],
@@ -117,7 +110,7 @@ impl HairModel {
             part,
             strand_count,
             guide_count,
-            swing: groom.style.scalp.swing,
+            swing: groom.style().scalp.swing,
             hair: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("hair"),
                 contents: bytemuck::bytes_of(&hair),
@@ -126,7 +119,7 @@ impl HairModel {
             roots: list("hair: roots", &roots),
             guide_roots: list("hair: roots of guides", &guide_roots),
             field: field_texture(device, queue, field),
-            head_bone: groom.head_bone,
+            head_bone: groom.head_bone(),
             other_bones: field.bones,
         })
     }
@@ -151,19 +144,17 @@ fn field_texture(device: &wgpu::Device, queue: &wgpu::Queue, field: &Field) -> w
     texture.create_view(&wgpu::TextureViewDescriptor { label, ..Default::default() })
 }
 
-fn gpu_root(groom: &Groom, strand: usize) -> Option<GpuRoot> {
-    let root = groom.roots.get(strand)?;
+fn gpu_root(planted: &PlantedStrand) -> GpuRoot {
+    let PlantedStrand { root, comb, length, phase, guide } = planted;
     let [x, y, z, _] = root.random;
-    let guide = *groom.guide_of.get(strand)?;
-    Some(GpuRoot {
+    GpuRoot {
         corners: root.corners,
         region: root.region as u32,
         barycentric: root.barycentric,
-        // A guide that does not exist leads nobody.
-        guide: if (guide as usize) < groom.guides.len() { guide } else { NO_GUIDE },
-        comb: groom.combs.get(strand)?.to_array(),
-        length: *groom.lengths.get(strand)?,
+        guide: guide.unwrap_or(NO_GUIDE),
+        comb: comb.to_array(),
+        length: *length,
         random: [x, y, z],
-        phase: *groom.phases.get(strand)?,
-    })
+        phase: *phase,
+    }
 }

@@ -3,9 +3,9 @@
 use crate::deform::pose::AVATAR;
 use crate::gpu::program::{Constant, Module, Program, Value};
 use crate::gpu::vec4_texture::VEC4S_PER_ROW;
-use crate::hair::uniforms::{GROW_WORKGROUP_SIZE, IS_GUIDE, REGION_COUNT};
+use crate::hair::uniforms::{GROW_WORKGROUP_SIZE, IS_GUIDE, NO_GUIDE, REGION_COUNT};
 use crate::view::shaders::{AMBIENT, BRDF, FRAME, HAIR_SHADOW, OUTPUT, SHADOW, SHADOW_MAPS};
-use avatar_groom::{CURL_SHARE, FIRST_SEGMENT, NO_GUIDE, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
+use avatar_groom::{CURL_SHARE, FIRST_SEGMENT, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
 
 const HAIR: Module = Module {
     text: include_str!("shaders/hair.wgsl"),

@@ -1,12 +1,14 @@
 //! What Rust writes and WGSL reads of hair.
 
 use crate::model::bone::GpuBone;
-use avatar_groom::{NO_GUIDE, OTHER_BONES, RegionStyle, SEGMENTS, offset_from_head};
+use avatar_groom::{OTHER_BONES, RegionStyle, SEGMENTS, offset_from_head};
 use bytemuck::{Pod, Zeroable};
 use glam::Affine3A;
 
 /// Strands per workgroup.
 pub(crate) const GROW_WORKGROUP_SIZE: u32 = 64;
+/// The number of a strand's guide where it follows none.
+pub(crate) const NO_GUIDE: u32 = u32::MAX;
 /// The number of a guide's own guide: it has none, and no curls.
 pub(crate) const IS_GUIDE: u32 = NO_GUIDE - 1;
 /// Scalp, brows, lashes.

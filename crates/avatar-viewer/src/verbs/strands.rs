@@ -3,6 +3,7 @@ use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
 use crate::output::OutputFile;
 use anyhow::Result;
+use avatar_groom::PlantedStrand;
 use clap::ArgMatches;
 use serde_json::json;
 
@@ -17,15 +18,15 @@ pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
     let strands = offscreen.strands(&pack, &face)?;
     let hair = args.hair.choose(pack.hair());
     let groom = hair.and_then(|hair| pack.groom(&textures, &hair));
-    let roots = groom.map_or_else(Vec::new, |(_, groom)| groom.roots);
+    let planted = groom.as_ref().map_or(&[][..], |(_, groom)| groom.strands());
     if strands.is_empty() {
         eprintln!(
             "warning: expected hair to grow, found none: --hair is off, density is 0, or the pack has no HairMap"
         );
     }
-    let strands: Vec<_> = (roots.iter().zip(&strands))
+    let strands: Vec<_> = (planted.iter().zip(&strands))
         .take(args.limit.unwrap_or(usize::MAX))
-        .map(|(root, points)| {
+        .map(|(PlantedStrand { root, .. }, points)| {
             let points: Vec<_> = points.iter().map(|point| point.to_array()).collect();
             json!({ "triangle": root.triangle, "barycentric": root.barycentric, "points": points })
         })
