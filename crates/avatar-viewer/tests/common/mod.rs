@@ -1,6 +1,6 @@
 //! The program as a process, and packs to try it on.
-#![allow(dead_code, reason = "every test file uses its own share of these helpers")]
-#![allow(unreachable_pub, reason = "a module of several test programs")]
+#![allow(dead_code, reason = "each of the two test programs uses its own share of these helpers")]
+#![allow(unreachable_pub, reason = "a module of two test programs")]
 
 use serde_json::Value;
 use std::fs;

@@ -1,0 +1,182 @@
+//! Hair lags behind a head that turns, settles, does so alike at every frame rate, and never enters the head.
+#![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
+
+use crate::common::gpu;
+use crate::common::head::Head;
+use crate::common::nearest::Nearest;
+use avatar_groom::{SEGMENTS, Strand, Style};
+use avatar_mesh::deform;
+use avatar_pack::FaceState;
+use avatar_render::headless::Gpu;
+use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
+
+const STRANDS: f32 = 4000.0;
+/// The head turns by 30° in so many seconds, and stops.
+const TURN_SECONDS: f64 = 0.5;
+
+struct Stage<'a> {
+    gpu: &'a Gpu,
+    head: &'a Head,
+    model: AvatarModel,
+    state: AvatarState,
+    deformer: Deformer,
+    grower: Grower,
+    face: FaceState,
+}
+
+impl<'a> Stage<'a> {
+    fn new(gpu: &'a Gpu, head: &'a Head, style: Style) -> Self {
+        let (model, state) = head.with_hair(gpu, style, STRANDS);
+        Self {
+            gpu,
+            head,
+            model,
+            state,
+            deformer: Deformer::new(&gpu.device),
+            grower: Grower::new(&gpu.device),
+            face: FaceState::new(&head.pack),
+        }
+    }
+
+    fn turn(&mut self, degrees: f32) {
+        let controls = self.head.pack.controls();
+        let mut values = controls.defaults();
+        values[controls.index("head.turn").expect("a head that turns")] = degrees;
+        self.face.pose(&self.head.pack, &values).expect("a pose");
+        self.state.set(&self.gpu.queue, self.face.bones(), self.face.weights()).expect("lengths fit");
+    }
+
+    fn strands(&mut self) -> Vec<Strand> {
+        let Self { gpu, deformer, grower, model, state, .. } = self;
+        grower.run(&gpu.device, &gpu.queue, deformer, model, state).expect("strands")
+    }
+
+    /// Strands at every sixth of a second, drawn `rate` times a second.
+    fn play(&mut self, rate: u16, sixths: u16) -> Vec<Vec<Strand>> {
+        let mut seen = Vec::new();
+        for frame in 0..=sixths * rate / 6 {
+            let seconds = f64::from(frame) / f64::from(rate);
+            let share = (seconds / TURN_SECONDS).min(1.0);
+            self.turn((30.0 * share * share * (3.0 - 2.0 * share)) as f32);
+            self.state.advance_hair(&self.gpu.queue, 1.0 / f32::from(rate));
+            let strands = self.strands();
+            if frame % (rate / 6) == 0 {
+                seen.push(strands);
+            }
+        }
+        seen
+    }
+}
+
+fn length(strand: &Strand) -> f32 {
+    strand.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+}
+
+/// Distances of tips, by the strands' lengths; those of the scalp that hang.
+fn apart(a: &[Strand], b: &[Strand]) -> Vec<f32> {
+    let long = a.iter().zip(b).filter(|(a, _)| length(a) > 2.0);
+    long.map(|(a, b)| a[SEGMENTS].distance(b[SEGMENTS]) / length(a)).collect()
+}
+
+fn mean(values: &[f32]) -> f32 {
+    values.iter().sum::<f32>() / values.len() as f32
+}
+
+fn most(values: &[f32]) -> f32 {
+    values.iter().copied().fold(0.0, f32::max)
+}
+
+#[test]
+fn tips_lag_settle_and_move_alike_at_every_frame_rate() {
+    let Some(gpu) = gpu() else { return };
+    let head = Head::new();
+    for (name, style) in [("bob", Style::BOB), ("long", Style::LONG), ("curly", Style::CURLY)] {
+        let mut stage = Stage::new(gpu, &head, style);
+        let plays: Vec<_> = [30, 60, 144]
+            .into_iter()
+            .map(|rate| {
+                stage.state.still_hair();
+                stage.play(rate, 9)
+            })
+            .collect();
+        stage.state.still_hair();
+        let still = stage.strands();
+        for seen in &plays {
+            // The third sixth is where the head stops, the ninth a second later.
+            let (stop, later) = (apart(&still, &seen[3]), apart(&still, &seen[9]));
+            assert!(stop.len() > 500, "{name}: {}", stop.len());
+            let (lag, left, farthest) = (mean(&stop), mean(&later), most(&later));
+            println!("{name}: lag {lag:.4}, a second later {left:.4}, at most {farthest:.4}");
+            assert!(lag > 0.03, "{name}: lag {lag}");
+            assert!(left < 0.005 && farthest < 0.03, "{name}: {left} {farthest}");
+        }
+        for other in &plays[1..] {
+            for (k, (a, b)) in plays[0].iter().zip(other).enumerate() {
+                let off = apart(a, b);
+                println!("{name}, {k}: mean {:.4}, most {:.4}", mean(&off), most(&off));
+                assert!(most(&off) < 0.02, "{name}, sixth {k}: {}", most(&off));
+            }
+        }
+    }
+}
+
+#[test]
+fn hair_that_swings_stays_outside_of_the_head() {
+    let Some(gpu) = gpu() else { return };
+    let head = Head::new();
+    let skin = &head.pack.parts()[0].mesh;
+    let height = skin.bounds().expect("a skin").size().y;
+    let mut posed = skin.deformed();
+    for style in [Style::BOB, Style::LONG, Style::CURLY] {
+        let mut stage = Stage::new(gpu, &head, style);
+        // To and fro, as fast as heads are shaken.
+        for frame in 0u8..30 {
+            let phase = f32::from(frame) / 30.0 * std::f32::consts::TAU * 2.0;
+            stage.turn(35.0 * phase.sin());
+            stage.state.advance_hair(&gpu.queue, 1.0 / 30.0);
+            let strands = stage.strands();
+            if frame % 5 != 4 {
+                continue;
+            }
+            deform(skin, stage.face.bones(), stage.face.weights(), &mut posed).expect("lengths fit");
+            let nearest = Nearest::new(&posed.positions, &skin.triangles);
+            for (i, points) in strands.iter().enumerate() {
+                for (k, point) in points.iter().enumerate() {
+                    let depth = nearest.depth(*point) / height;
+                    assert!(depth <= 0.005, "frame {frame}, strand {i}, point {k}: {depth}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn hair_is_still_until_time_passes_and_after_it_is_told() {
+    let Some(gpu) = gpu() else { return };
+    let head = Head::new();
+    let mut stage = Stage::new(gpu, &head, Style::LONG);
+    stage.turn(0.0);
+    let still = stage.strands();
+    // A first call begins with hair that hangs still; a frame without time changes nothing, and neither does a second view.
+    stage.state.advance_hair(&gpu.queue, 0.1);
+    assert!(most(&apart(&still, &stage.strands())) < 1e-4);
+    assert!(most(&apart(&still, &stage.strands())) < 1e-4);
+    stage.turn(30.0);
+    stage.state.advance_hair(&gpu.queue, 1.0 / 30.0);
+    let moving = stage.strands();
+    assert_eq!(moving, stage.strands(), "the same frame, seen again");
+    stage.state.still_hair();
+    let turned = stage.strands();
+    assert!(mean(&apart(&turned, &moving)) > 0.05);
+    // Elsewhere at once, or after a pause: still.
+    for seconds in [f32::NAN, -1.0, 7.0] {
+        stage.state.advance_hair(&gpu.queue, 1.0 / 30.0);
+        stage.strands();
+        stage.turn(-20.0);
+        stage.state.advance_hair(&gpu.queue, seconds);
+        let there = stage.strands();
+        stage.state.still_hair();
+        assert!(most(&apart(&stage.strands(), &there)) < 1e-4);
+        stage.turn(30.0);
+    }
+}

@@ -1,0 +1,25 @@
+//! All tests of the crate from outside, in one program: it opens the adapter once, and tests share the shaders they compile.
+//!
+//! `cargo test -p avatar-render --test all eyes` runs those of one module.
+
+mod common;
+
+// From the mesh to the picture, as the crate's own modules stand.
+mod bad_input;
+mod deform;
+mod hair;
+mod hair_motion;
+mod hair_shadows;
+mod strands;
+mod targets;
+mod frames;
+mod pixels;
+mod views;
+mod mirror;
+mod tone;
+mod energy;
+mod terms;
+mod shadows;
+mod scattering;
+mod eyes;
+mod labels;

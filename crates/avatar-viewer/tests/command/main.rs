@@ -1,0 +1,14 @@
+//! The command line: what every verb prints and writes, and what it says to bad input.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bad_input;
+mod contract;
+mod convert;
+mod expected_data;
+mod hair;
+mod import;
+mod look;
+mod record;
+mod snapshots;
