@@ -1,4 +1,4 @@
-use crate::{ContentsError, SourceError};
+use crate::SourceError;
 use avatar_look::LookError;
 use avatar_mesh::{MeshError, MeshWarning};
 use pose_anim::{BindError, TomlError};
@@ -59,6 +59,39 @@ pub enum PackProblem {
     /// What the files say does not agree.
     #[error("{0}")]
     Contents(ContentsError),
+}
+
+/// Why the contents of a pack do not agree.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ContentsError {
+    /// A control of a joint, slider or shape that the pack does not have.
+    #[error(transparent)]
+    Bind(#[from] BindError),
+    /// An index that is out of range.
+    #[error("{place}: expected the index of one of {count} {what}, found {found}")]
+    Index {
+        /// Where it stands, such as `part "skin"`.
+        place: String,
+        /// What it counts: `joints`, `bones`, `shapes`, `sliders` or `controls`.
+        what: &'static str,
+        /// How many of these there are.
+        count: usize,
+        /// The index.
+        found: usize,
+    },
+    /// A list that does not have one entry for each of something.
+    #[error("{place}: expected {expected} {what}, found {found}")]
+    Count {
+        /// Where it stands.
+        place: String,
+        /// What is counted.
+        what: &'static str,
+        /// How many there must be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
 }
 
 /// Something that was mended or replaced while a pack was loaded; the face can be shown all the same.

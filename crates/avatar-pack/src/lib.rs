@@ -28,34 +28,37 @@
 //! assert!(error.to_string().starts_with("Transformations.xml: expected the file"));
 //! ```
 
-mod error;
-mod export;
+mod source;
+pub mod files;
+mod sliders;
+mod motion;
+mod pack;
+mod load;
+mod textures;
 mod face;
 pub mod gaze;
+mod reach;
+mod pick;
 mod hair;
 mod import;
-mod load;
-mod pack;
-mod pick;
+mod export;
 mod raw;
-mod reach;
-mod source;
-mod textures;
+mod unique;
+mod error;
 
-pub use error::{PackError, PackProblem, Warning};
+pub use error::{ContentsError, PackError, PackProblem, Warning};
 pub use export::{export, portable_pictures};
 pub use face::{FaceError, FaceState};
 pub use gaze::Gaze;
 #[cfg(feature = "vrm")]
 pub use import::gaze_values;
-pub use import::{
-    Import, ImportFailure, ImportReport, MotionAt, MotionError, MotionSampler, Role, SceneMotion, ShapeSet,
-    Sliders,
-};
+pub use import::{Import, ImportFailure, ImportReport, Role, ShapeSet};
 pub use load::{load_clips, load_hair, load_materials, load_poses};
-pub use pack::{ContentsError, Pack, PackContents, PaletteBone, Part};
+pub use motion::{MotionAt, MotionError, MotionSampler, SceneMotion};
+pub use pack::{Pack, PackContents, PaletteBone, Part};
 pub use pick::Hit;
 pub use raw::{RawError, RawFiles, raw_files};
 pub use reach::Reach;
+pub use sliders::Sliders;
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

@@ -1,5 +1,6 @@
 //! Loads packs in the raw format, and single files of them.
 
+use crate::files;
 use crate::{ContentsError, Pack, PackContents, PackError, PackProblem, PaletteBone, Part, Source, Warning};
 use avatar_groom::Hair;
 use avatar_look::Materials;
@@ -7,9 +8,6 @@ use avatar_mesh::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, MeshError, PartS
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use rig_core::Rig;
 use std::borrow::Cow;
-
-/// The rig's file, under the two names that it has in the wild.
-const RIG_FILES: [&str; 2] = ["Transformations.xml", "Transformationen.xml"];
 
 impl Pack {
     /// Loads a pack in the raw format.
@@ -44,7 +42,7 @@ impl Pack {
             warnings,
         };
         Self::new(contents).map_err(|error| match error {
-            ContentsError::Bind(error) => at(source, "controls.toml", PackProblem::Bind(error)),
+            ContentsError::Bind(error) => at(source, files::CONTROLS, PackProblem::Bind(error)),
             error => at(source, rig_file, PackProblem::Contents(error)),
         })
     }
@@ -55,10 +53,10 @@ impl Pack {
 /// # Errors
 /// A file of that name that is unreadable or not as its format demands, and where in it.
 pub fn load_poses(source: &impl Source, controls: &ControlTable) -> Result<PoseSet, PackError> {
-    match read_text(source, "poses.toml")? {
+    match read_text(source, files::POSES)? {
         None => Ok(PoseSet::default_face(controls)),
         Some(text) => PoseSet::from_toml(&text, controls)
-            .map_err(|error| at(source, "poses.toml", PackProblem::Toml(error))),
+            .map_err(|error| at(source, files::POSES, PackProblem::Toml(error))),
     }
 }
 
@@ -67,10 +65,10 @@ pub fn load_poses(source: &impl Source, controls: &ControlTable) -> Result<PoseS
 /// # Errors
 /// A file of that name that is unreadable or not as its format demands, and where in it.
 pub fn load_clips(source: &impl Source, controls: &ControlTable) -> Result<ClipSet, PackError> {
-    match read_text(source, "clips.toml")? {
+    match read_text(source, files::CLIPS)? {
         None => Ok(ClipSet::default()),
         Some(text) => ClipSet::from_toml(&text, controls)
-            .map_err(|error| at(source, "clips.toml", PackProblem::Toml(error))),
+            .map_err(|error| at(source, files::CLIPS, PackProblem::Toml(error))),
     }
 }
 
@@ -95,13 +93,13 @@ fn read_text(source: &impl Source, name: &str) -> Result<Option<String>, PackErr
 }
 
 fn load_rig(source: &impl Source) -> Result<(&'static str, Rig), PackError> {
-    for name in RIG_FILES {
+    for name in files::RIG_NAMES {
         if let Some(bytes) = read(source, name)? {
             let rig = Rig::from_xml(&bytes).map_err(|error| at(source, name, PackProblem::Rig(error)))?;
             return Ok((name, rig));
         }
     }
-    Err(at(source, RIG_FILES[0], PackProblem::Missing(RIG_FILES.join(" or "))))
+    Err(at(source, files::RIG, PackProblem::Missing(files::RIG_NAMES.join(" or "))))
 }
 
 fn load_palette(source: &impl Source, rig_file: &str, rig: &Rig) -> Result<Vec<PaletteBone>, PackError> {
@@ -117,7 +115,7 @@ fn load_palette(source: &impl Source, rig_file: &str, rig: &Rig) -> Result<Vec<P
 }
 
 fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) -> Result<Part, PackError> {
-    let (vertex_file, index_file) = (format!("{}_VB.raw", spec.stem), format!("{}_IB.raw", spec.stem));
+    let (vertex_file, index_file) = (files::vertices(&spec), files::triangles(&spec));
     let vertices = read_needed(source, &vertex_file)?;
     let indices = read_needed(source, &index_file)?;
     let blame = |error: MeshError| {
@@ -165,7 +163,7 @@ fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) 
 /// # Errors
 /// A file that cannot be read, or that is not as its format demands, and where in it.
 pub fn load_materials(source: &impl Source) -> Result<Materials, PackError> {
-    let file = "materials.toml";
+    let file = files::MATERIALS;
     match read_text(source, file)? {
         None => Ok(Materials::default()),
         Some(text) => Materials::from_toml(&text).map_err(|error| at(source, file, PackProblem::Look(error))),
@@ -178,13 +176,13 @@ pub fn load_materials(source: &impl Source) -> Result<Materials, PackError> {
 /// # Errors
 /// A file that cannot be read, or that is not as its format demands, and where in it.
 pub fn load_hair(source: &impl Source) -> Result<Option<Hair>, PackError> {
-    let file = "hair.toml";
+    let file = files::HAIR;
     let hair = read_text(source, file)?.map(|text| Hair::from_toml(&text)).transpose();
     hair.map_err(|error| at(source, file, PackProblem::Hair(error)))
 }
 
 fn load_controls(source: &impl Source) -> Result<ControlTable, PackError> {
-    let file = "controls.toml";
+    let file = files::CONTROLS;
     match read_text(source, file)? {
         None => Ok(ControlTable::default_face()),
         Some(text) => {

@@ -1,9 +1,9 @@
-use crate::{SceneMotion, Sliders, Warning};
+use crate::{ContentsError, SceneMotion, Sliders, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
 use avatar_mesh::{Bounds, Mesh, PartKind};
 use glam::Affine3A;
-use pose_anim::{BindError, Binding, ClipSet, ControlTable, PoseSet};
+use pose_anim::{Binding, ClipSet, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
 use std::ops::Range;
 
@@ -85,39 +85,6 @@ impl Part {
     pub fn shapes(&self) -> Range<usize> {
         self.first_shape..self.first_shape.saturating_add(self.mesh.shapes.len())
     }
-}
-
-/// Why the contents of a pack do not agree.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ContentsError {
-    /// A control of a joint, slider or shape that the pack does not have.
-    #[error(transparent)]
-    Bind(#[from] BindError),
-    /// An index that is out of range.
-    #[error("{place}: expected the index of one of {count} {what}, found {found}")]
-    Index {
-        /// Where it stands, such as `part "skin"`.
-        place: String,
-        /// What it counts: `joints`, `bones`, `shapes`, `sliders` or `controls`.
-        what: &'static str,
-        /// How many of these there are.
-        count: usize,
-        /// The index.
-        found: usize,
-    },
-    /// A list that does not have one entry for each of something.
-    #[error("{place}: expected {expected} {what}, found {found}")]
-    Count {
-        /// Where it stands.
-        place: String,
-        /// What is counted.
-        what: &'static str,
-        /// How many there must be.
-        expected: usize,
-        /// How many there are.
-        found: usize,
-    },
 }
 
 impl Pack {

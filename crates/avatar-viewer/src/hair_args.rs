@@ -1,6 +1,7 @@
 //! Which hair the face has: what the command line says over what the pack says.
 
 use avatar_groom::{Hair, Style};
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 #[derive(Clone, Copy, Debug, PartialEq, Args)]
@@ -16,16 +17,36 @@ pub(crate) struct HairArgs {
     hair_seed: Option<u64>,
 }
 
-/// Off, or a preset; in the order in which the window goes through them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+/// A place in [`Style::PRESETS`], or off; in the order in which the window goes through them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum HairName {
-    Short,
-    Bob,
-    Long,
-    Curly,
-    Mohawk,
-    Bald,
+    Preset(usize),
     Off,
+}
+
+impl HairName {
+    const ALL: [Self; Style::PRESETS.len() + 1] = {
+        let mut all = [Self::Off; Style::PRESETS.len() + 1];
+        let mut place = 0;
+        while place < Style::PRESETS.len() {
+            all[place] = Self::Preset(place);
+            place += 1;
+        }
+        all
+    };
+}
+
+impl ValueEnum for HairName {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Self::Preset(place) => Style::PRESETS.get(*place).map(|(name, _)| PossibleValue::new(*name)),
+            Self::Off => Some(PossibleValue::new("off")),
+        }
+    }
 }
 
 fn factor(text: &str) -> Result<f32, String> {
@@ -37,12 +58,7 @@ impl HairName {
     fn style(self) -> Option<Style> {
         match self {
             Self::Off => None,
-            Self::Short => Some(Style::SHORT),
-            Self::Bob => Some(Style::BOB),
-            Self::Long => Some(Style::LONG),
-            Self::Curly => Some(Style::CURLY),
-            Self::Mohawk => Some(Style::MOHAWK),
-            Self::Bald => Some(Style::BALD),
+            Self::Preset(place) => Style::PRESETS.get(place).map(|(_, style)| *style),
         }
     }
 }
@@ -98,7 +114,7 @@ mod tests {
         assert_eq!(NONE.choose(None), None);
         assert_eq!(NONE.choose(Some(&pack)), Some(pack));
         assert_eq!(HairArgs::OFF.choose(Some(&pack)), None);
-        let short = HairArgs { hair: Some(HairName::Short), ..NONE };
+        let short = HairArgs { hair: Some(HairName::Preset(0)), ..NONE };
         assert_eq!(short.choose(Some(&pack)), Some(Hair { style: Style::SHORT, ..pack }));
         assert_eq!(short.choose(None), Some(Hair::default()));
         let seeded = HairArgs { hair_seed: Some(9), hair_density: Some(0.0), ..NONE };

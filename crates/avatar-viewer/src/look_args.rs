@@ -2,6 +2,7 @@
 
 use crate::hair_args::HairArgs;
 use avatar_render::{HairDetail, Light, Quality, Shading, Style, ToneMap};
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 #[derive(Clone, Copy, Debug, Args)]
@@ -13,7 +14,7 @@ pub(crate) struct LookArgs {
     #[arg(long, value_enum, default_value = "natural")]
     style: StyleName,
     /// What lights the face
-    #[arg(long, value_enum, default_value = "studio")]
+    #[arg(long, value_enum, default_value_t)]
     light: LightName,
     /// How light becomes colours of a screen
     #[arg(long, value_enum, default_value = "neutral")]
@@ -40,12 +41,30 @@ enum StyleName {
     Toon,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum LightName {
-    Studio,
-    Daylight,
-    Dramatic,
-    Flat,
+/// A place in [`Light::PRESETS`]; the first is the default.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct LightName(usize);
+
+impl LightName {
+    const ALL: [Self; Light::PRESETS.len()] = {
+        let mut all = [Self(0); Light::PRESETS.len()];
+        let mut place = 0;
+        while place < all.len() {
+            all[place] = Self(place);
+            place += 1;
+        }
+        all
+    };
+}
+
+impl ValueEnum for LightName {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Light::PRESETS.get(self.0).map(|(name, _)| PossibleValue::new(*name))
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -70,7 +89,7 @@ impl Default for LookArgs {
         Self {
             quality: QualityName::Auto,
             style: StyleName::Natural,
-            light: LightName::Studio,
+            light: LightName::default(),
             tone_map: ToneMapName::Neutral,
             exposure: 0.0,
             hair: HairArgs::OFF,
@@ -114,12 +133,7 @@ impl LookArgs {
 
     /// The light.
     pub(crate) fn light(&self) -> Light {
-        let light = match self.light {
-            LightName::Studio => Light::studio(),
-            LightName::Daylight => Light::daylight(),
-            LightName::Dramatic => Light::dramatic(),
-            LightName::Flat => Light::flat(),
-        };
+        let light = Light::PRESETS.get(self.light.0).map_or_else(Light::default, |(_, light)| light());
         let tone_map = match self.tone_map {
             ToneMapName::Neutral => ToneMap::Neutral,
             ToneMapName::Agx => ToneMap::AgX,

@@ -4,13 +4,14 @@ use crate::config;
 use crate::files::Files;
 use crate::output::OutputFile;
 use anyhow::{Context, Result, anyhow};
+use avatar_pack::files;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Names of the files, and their places in [`Store`].
 pub(crate) const POSES: usize = 0;
 pub(crate) const CLIPS: usize = 1;
-pub(crate) const NAMES: [&str; 2] = ["poses.toml", "clips.toml"];
+pub(crate) const NAMES: [&str; 2] = [files::POSES, files::CLIPS];
 
 /// The files that hold an avatar's poses and clips.
 #[derive(Debug)]

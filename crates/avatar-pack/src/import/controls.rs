@@ -1,5 +1,6 @@
-use super::names::{Role, ShapeSet, face_control};
+use super::names::Role;
 use super::rig::Joints;
+use super::shape_sets::{ShapeSet, face_control};
 use super::sliders::Wanted;
 use super::{ImportFailure, ImportReport};
 use avatar_exchange::Scene;

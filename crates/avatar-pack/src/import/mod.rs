@@ -2,23 +2,23 @@
 
 mod controls;
 mod face;
-mod motion;
 mod names;
 mod parts;
 mod poses;
 mod rig;
+mod sections;
+mod shape_sets;
 mod sliders;
 #[cfg(feature = "vrm")]
 mod vrm;
 
-pub use motion::{MotionAt, MotionError, MotionSampler, SceneMotion};
-pub(crate) use names::face_control;
-pub use names::{Role, ShapeSet};
-pub use sliders::Sliders;
+pub use names::Role;
+pub use shape_sets::ShapeSet;
+pub(crate) use shape_sets::face_control;
 #[cfg(feature = "vrm")]
 pub use vrm::gaze_values;
 
-use crate::{ContentsError, FaceError, FaceState, Pack, PackContents, Textures, Warning};
+use crate::{ContentsError, FaceError, FaceState, Pack, PackContents, SceneMotion, Textures, Warning};
 use avatar_exchange::Scene;
 use avatar_look::Materials;
 use avatar_mesh::drivers::DriversError;
@@ -137,7 +137,7 @@ impl Import {
 fn leave_helpers_out(scene: &mut Scene, report: &mut ImportReport) {
     let parts = scene.parts.len();
     if scene.parts.iter().any(|part| part.name == "body") {
-        scene.retain_parts(|part| !names::is_fitting_helper(&part.name));
+        scene.retain_parts(|part| !shape_sets::is_fitting_helper(&part.name));
     }
     let left_out = parts - scene.parts.len();
     if left_out > 0 {

@@ -1,6 +1,6 @@
 use super::ImportReport;
-use super::rig::unique_names;
 use crate::textures::{OwnImages, decode};
+use crate::unique::unique_names;
 use crate::{Part, Textures, Warning};
 use avatar_exchange::{AlphaMode, Scene, ScenePart};
 use avatar_look::Material;

@@ -1,41 +1,42 @@
 //! The poses that an imported face begins with.
 
-use super::names::ShapeSet;
-use pose_anim::{Control, ControlTable, Drive, Pose, PoseSet};
+use super::shape_sets::ShapeSet;
+use pose_anim::{Control, ControlTable, Drive, Pose, PoseSet, face};
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::sync::OnceLock;
 
 /// How much of its range a control moves at least in a pose that is nothing without it.
 const LEADS: f32 = 1.0 / 3.0;
 
-/// Shapes that show what a control of the nine-joint face does: the control, its value at which they are there in full, and
-/// ways to show it, of which a face uses the first that it has all shapes of.
-type StandIn = (&'static str, f32, &'static [&'static [&'static str]]);
+/// Shapes that show what a control of the nine-joint face does: a line of `assets/stand_ins.txt`.
+struct StandIn {
+    control: &'static str,
+    /// The control's value at which the shapes are there in full.
+    full: f32,
+    /// Ways to show it, of which a face uses the first that it has all shapes of.
+    ways: Vec<Vec<&'static str>>,
+}
 
-/// By names of ARKit and MakeHuman.
-const STAND_INS: [StandIn; 21] = [
-    ("smile", 1.0, &[&["mouthSmileLeft", "mouthSmileRight"]]),
-    ("frown", 1.0, &[&["mouthFrownLeft", "mouthFrownRight"]]),
-    ("jaw.open", 20.0, &[&["jawOpen"], &["mouth-open"]]),
-    ("jaw.jut", 8.0, &[&["jawLeft"]]),
-    ("jaw.jut", -8.0, &[&["jawRight"]]),
-    ("eye.left.ud", 25.0, &[&["eyeLookUpLeft"]]),
-    ("eye.left.ud", -25.0, &[&["eyeLookDownLeft"]]),
-    ("eye.right.ud", 25.0, &[&["eyeLookUpRight"]]),
-    ("eye.right.ud", -25.0, &[&["eyeLookDownRight"]]),
-    ("eye.left.lr", 30.0, &[&["eyeLookOutLeft"]]),
-    ("eye.left.lr", -30.0, &[&["eyeLookInLeft"]]),
-    ("eye.right.lr", 30.0, &[&["eyeLookInRight"]]),
-    ("eye.right.lr", -30.0, &[&["eyeLookOutRight"]]),
-    ("lid.left.upper", 45.0, &[&["eyeBlinkLeft"], &["eye-left-closure"]]),
-    ("lid.right.upper", 45.0, &[&["eyeBlinkRight"], &["eye-right-closure"]]),
-    ("lid.left.lower", 25.0, &[&["eyeSquintLeft"], &["eye-left-slit"]]),
-    ("lid.right.lower", 25.0, &[&["eyeSquintRight"], &["eye-right-slit"]]),
-    // These move both lids.
-    ("lid.left.upper", -10.0, &[&["eyeWideLeft"], &["eye-left-opened-up"]]),
-    ("lid.right.upper", -10.0, &[&["eyeWideRight"], &["eye-right-opened-up"]]),
-    ("lid.left.lower", -5.0, &[&["eyeWideLeft"], &["eye-left-opened-up"]]),
-    ("lid.right.lower", -5.0, &[&["eyeWideRight"], &["eye-right-opened-up"]]),
-];
+const STAND_INS: &str = include_str!("../../assets/stand_ins.txt");
+
+impl StandIn {
+    /// All of them.
+    fn all() -> &'static [Self] {
+        static ALL: OnceLock<Vec<StandIn>> = OnceLock::new();
+        ALL.get_or_init(|| lines().filter_map(Self::of_line).collect())
+    }
+
+    fn of_line(line: &'static str) -> Option<Self> {
+        let (what, ways) = line.split_once('=')?;
+        let (control, full) = what.trim().split_once(' ')?;
+        let way = |way: &'static str| way.split('+').map(str::trim).collect();
+        Some(Self { control, full: full.trim().parse().ok()?, ways: ways.split('|').map(way).collect() })
+    }
+}
+
+fn lines() -> impl Iterator<Item = &'static str> {
+    STAND_INS.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'))
+}
 
 /// Those default poses of which the face can show what matters, by joints or by shapes that mean the same, and one for each
 /// shape. `neutral` puts everything to rest.
@@ -85,7 +86,7 @@ impl<'a> Translation<'a> {
     fn apply(&self, pose: &mut Pose) -> bool {
         let value_of = |name: &str| self.face.index(name).and_then(|index| pose.value(index)).unwrap_or(0.0);
         // Shapes that close an eye close it by both lids.
-        let open = |side: &str| (1.0 - value_of(&format!("lid.{side}.upper")) / 45.0).clamp(0.0, 1.0);
+        let open = |lid: &str| (1.0 - value_of(lid) / 45.0).clamp(0.0, 1.0);
         let moved = |(control, value): &(&Control, f32)| *value != control.default;
         let of_face = pose.values.iter().map(|(index, value)| (&self.face.controls()[*index], *value));
         let has_leader = of_face.clone().filter(moved).any(|(control, value)| leads(control, value));
@@ -98,8 +99,8 @@ impl<'a> Translation<'a> {
                 continue;
             }
             let share = match name {
-                "lid.left.lower" => open("left"),
-                "lid.right.lower" => open("right"),
+                face::LID_LEFT_LOWER => open(face::LID_LEFT_UPPER),
+                face::LID_RIGHT_LOWER => open(face::LID_RIGHT_UPPER),
                 _ => 1.0,
             };
             let mut is_shown = !moved(&(control, value)) || has_leader && !leads(control, value);
@@ -128,8 +129,9 @@ impl<'a> Translation<'a> {
 
     /// The shapes that stand for a control in each of its directions, by their controls, and its value where they are there in full.
     fn shapes_for(&self, control: &str) -> impl Iterator<Item = (f32, Vec<usize>)> {
-        STAND_INS.iter().filter(move |(name, ..)| *name == control).filter_map(|(_, full, ways)| {
-            let all = |way: &&[&str]| way.iter().map(|shape| self.by_shape.get(shape).copied()).collect();
+        let stand_ins = StandIn::all().iter().filter(move |stand_in| stand_in.control == control);
+        stand_ins.filter_map(|StandIn { full, ways, .. }| {
+            let all = |way: &Vec<&str>| way.iter().map(|shape| self.by_shape.get(shape).copied()).collect();
             Some((*full, ways.iter().find_map(all)?))
         })
     }
@@ -138,5 +140,25 @@ impl<'a> Translation<'a> {
 /// Whether a pose is nothing without this. Heads turn in most of them, and none is about that alone.
 fn leads(control: &Control, value: f32) -> bool {
     let limit = if value < 0.0 { control.min } else { control.max };
-    !control.name.starts_with("head.") && (value / limit).abs() >= LEADS
+    ![face::HEAD_TURN, face::HEAD_BOW, face::HEAD_BEND].contains(&control.name.as_str())
+        && (value / limit).abs() >= LEADS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_of_the_stand_ins_is_read_and_names_what_there_is() {
+        let face = ControlTable::default_face();
+        assert_eq!(StandIn::all().len(), 21);
+        assert_eq!(lines().count(), 21, "no line is lost");
+        for StandIn { control, full, ways } in StandIn::all() {
+            let control = &face.controls()[face.index(control).expect(control)];
+            assert!((control.min..=control.max).contains(full) && *full != 0.0, "{} {full}", control.name);
+            for shape in ways.iter().flatten() {
+                assert!(ShapeSet::find(shape).is_some_and(|(_, name)| name == *shape), "{shape}");
+            }
+        }
+    }
 }

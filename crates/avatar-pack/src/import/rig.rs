@@ -1,10 +1,11 @@
 use super::ImportReport;
 use super::names::{Role, role_of};
 use crate::PaletteBone;
+use crate::unique::unique_names;
 use avatar_exchange::{Scene, Transform};
 use glam::{DAffine3, DMat4, Mat4, Quat, Vec3};
 use rig_core::{JointId, RawJoint, RawRig, Rig, RigError};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Smaller factors than this leave a node no inverse that single precision holds.
 const LEAST_SCALE: f64 = 1e-6;
@@ -64,26 +65,6 @@ impl Joints {
         let world_from_node = self.rig.world_from_bind().get(joint).copied().unwrap_or_default();
         world_from_node.to_scale_rotation_translation().1.inverse()
     }
-}
-
-/// Names that are not empty and each there once: `Hand`, `Hand.2`, `Hand.3`.
-pub(super) fn unique_names<'a>(names: impl Iterator<Item = &'a str>, otherwise: &str) -> Vec<String> {
-    let mut used = HashSet::new();
-    let mut counts: HashMap<String, usize> = HashMap::new();
-    names
-        .enumerate()
-        .map(|(index, name)| {
-            let trimmed = name.trim();
-            let wanted = if trimmed.is_empty() { format!("{otherwise}.{index}") } else { trimmed.to_owned() };
-            let mut unique = wanted.clone();
-            while !used.insert(unique.clone()) {
-                let count = counts.entry(wanted.clone()).or_insert(1);
-                *count += 1;
-                unique = format!("{wanted}.{count}");
-            }
-            unique
-        })
-        .collect()
 }
 
 /// The transform at rest; one that flattens space nearly does instead, so that motion can be told from it.

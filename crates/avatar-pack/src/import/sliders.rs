@@ -1,18 +1,7 @@
 use super::parts::ShapeNames;
+use crate::Sliders;
 use avatar_exchange::{NodeDrivers, Scene};
 use avatar_mesh::drivers::{DriversError, Input, Rule, ShapeDrivers, ShapeRule};
-
-/// What moves shapes where that is not simply one number for each: shapes that show how a slider is on its way, and those that count
-/// as products of others.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sliders {
-    /// Names of the sliders, in the order of their values; those of different nodes may be the same. Controls drive these.
-    pub names: Vec<String>,
-    /// Per shape of [`crate::Pack::shapes`] the sliders that it follows, as positions in `names`.
-    pub of_shapes: Vec<Vec<usize>>,
-    /// From values of sliders to weights of [`crate::Pack::shapes`].
-    pub drivers: ShapeDrivers,
-}
 
 /// What controls are made for: a slider of each name.
 #[derive(Debug, Default)]

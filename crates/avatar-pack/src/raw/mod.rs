@@ -6,6 +6,7 @@ mod merge;
 mod parts;
 mod shapes;
 
+use crate::files;
 use crate::{MemorySource, Pack, PackError, Textures};
 use avatar_mesh::raw::{write_triangles, write_vertices};
 use avatar_mesh::{FACE_BONES, FACE_PARTS, FACE_SHAPES};
@@ -54,10 +55,10 @@ pub enum RawError {
         joint: String,
     },
     /// Joints that no `Transformations.xml` can hold.
-    #[error("Transformations.xml: {0}")]
+    #[error("{}: {_0}", files::RIG)]
     Rig(#[from] RigError),
     /// Controls that would contradict each other.
-    #[error("controls.toml: {0}")]
+    #[error("{}: {_0}", files::CONTROLS)]
     Control(#[from] ControlError),
     /// A picture that PNG cannot hold.
     #[error("{file}: expected a picture that PNG can hold, found: {problem}")]
@@ -102,21 +103,21 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     let poses = poses(pack, &controls, &kept);
 
     let mut files = vec![
-        ("Transformations.xml".to_owned(), bones.rig.to_xml()?.into_bytes()),
-        ("controls.toml".to_owned(), controls.to_toml().into_bytes()),
-        ("poses.toml".to_owned(), poses.to_toml(&controls).into_bytes()),
-        ("materials.toml".to_owned(), looks::materials(pack, &meshes).to_toml().into_bytes()),
+        (files::RIG.to_owned(), bones.rig.to_xml()?.into_bytes()),
+        (files::CONTROLS.to_owned(), controls.to_toml().into_bytes()),
+        (files::POSES.to_owned(), poses.to_toml(&controls).into_bytes()),
+        (files::MATERIALS.to_owned(), looks::materials(pack, &meshes).to_toml().into_bytes()),
     ];
     let clips = clips(pack, &kept);
     if !clips.clips.is_empty() {
-        files.push(("clips.toml".to_owned(), clips.to_toml(&controls).into_bytes()));
+        files.push((files::CLIPS.to_owned(), clips.to_toml(&controls).into_bytes()));
     }
     if let Some(hair) = pack.hair() {
-        files.push(("hair.toml".to_owned(), hair.to_toml().into_bytes()));
+        files.push((files::HAIR.to_owned(), hair.to_toml().into_bytes()));
     }
     for (spec, mesh) in FACE_PARTS.iter().zip(&meshes.meshes) {
-        files.push((format!("{}_VB.raw", spec.stem), write_vertices(mesh)));
-        files.push((format!("{}_IB.raw", spec.stem), write_triangles(mesh)));
+        files.push((files::vertices(spec), write_vertices(mesh)));
+        files.push((files::triangles(spec), write_triangles(mesh)));
     }
     looks::pictures(pack, textures, &meshes, &mut files, &mut notes)?;
     if let Some(motion) = pack.motion().filter(|motion| !motion.clips().is_empty()) {

@@ -1,5 +1,6 @@
 use crate::files::Files;
 use crate::store::Store;
+use avatar_pack::files;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 use std::path::{Path, PathBuf};
 use winit::event_loop::EventLoopProxy;
@@ -43,8 +44,8 @@ impl Watched {
             _ => None,
         };
         match self {
-            Self::Materials => in_folder("materials.toml"),
-            Self::Hair => in_folder("hair.toml"),
+            Self::Materials => in_folder(files::MATERIALS),
+            Self::Hair => in_folder(files::HAIR),
             Self::Poses => store.path(crate::store::POSES).map(Path::to_owned),
             Self::Clips => store.path(crate::store::CLIPS).map(Path::to_owned),
         }

@@ -1,3 +1,4 @@
+use crate::unique::unique_names;
 use avatar_exchange::{ChannelTarget, Clip, Scene, ScenePose, Transform};
 use glam::{Affine3A, DAffine3};
 use rig_core::JointId;
@@ -70,7 +71,7 @@ pub struct MotionSampler {
 }
 
 impl SceneMotion {
-    pub(super) fn new(
+    pub(crate) fn new(
         scene: Scene,
         joints: Vec<JointId>,
         node_from_parent: Vec<DAffine3>,
@@ -93,7 +94,7 @@ impl SceneMotion {
 
     /// Names of the clips; those without get a number.
     pub fn clips(&self) -> Vec<String> {
-        super::rig::unique_names(self.scene.clips.iter().map(|clip| clip.name.as_str()), "clip")
+        unique_names(self.scene.clips.iter().map(|clip| clip.name.as_str()), "clip")
     }
 
     /// How long a clip is, in seconds.

@@ -1,0 +1,23 @@
+//! Names that are different from each other.
+
+use std::collections::{HashMap, HashSet};
+
+/// Names that are not empty and each there once: `Hand`, `Hand.2`, `Hand.3`.
+pub(crate) fn unique_names<'a>(names: impl Iterator<Item = &'a str>, otherwise: &str) -> Vec<String> {
+    let mut used = HashSet::new();
+    let mut counts: HashMap<String, usize> = HashMap::new();
+    names
+        .enumerate()
+        .map(|(index, name)| {
+            let trimmed = name.trim();
+            let wanted = if trimmed.is_empty() { format!("{otherwise}.{index}") } else { trimmed.to_owned() };
+            let mut unique = wanted.clone();
+            while !used.insert(unique.clone()) {
+                let count = counts.entry(wanted.clone()).or_insert(1);
+                *count += 1;
+                unique = format!("{wanted}.{count}");
+            }
+            unique
+        })
+        .collect()
+}
