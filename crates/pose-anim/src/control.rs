@@ -175,6 +175,8 @@ pub struct ControlError {
 pub struct ControlTable {
     controls: Vec<Control>,
     couplings: Vec<Coupling>,
+    /// Indices of the controls in the order of their names.
+    by_name: Vec<usize>,
 }
 
 impl ControlTable {
@@ -229,8 +231,10 @@ impl ControlTable {
     }
 
     /// Only through here: the reader has checked names, ranges and indices.
-    pub(crate) const fn checked(controls: Vec<Control>, couplings: Vec<Coupling>) -> Self {
-        Self { controls, couplings }
+    pub(crate) fn checked(controls: Vec<Control>, couplings: Vec<Coupling>) -> Self {
+        let mut by_name: Vec<usize> = (0..controls.len()).collect();
+        by_name.sort_unstable_by(|a, b| controls[*a].name.cmp(&controls[*b].name));
+        Self { controls, couplings, by_name }
     }
 
     /// The controls in order.
@@ -253,9 +257,10 @@ impl ControlTable {
         self.controls.is_empty()
     }
 
-    /// Index of the control of this name.
+    /// Index of the control of this name. Takes time that grows with the logarithm of their number.
     pub fn index(&self, name: &str) -> Option<usize> {
-        self.controls.iter().position(|control| control.name == name)
+        let found = self.by_name.binary_search_by(|index| self.controls[*index].name.as_str().cmp(name));
+        found.ok().map(|at| self.by_name[at])
     }
 
     /// The control's name that is probably meant by a misspelt one.

@@ -114,6 +114,15 @@ impl Easing {
     /// beyond the numbers, and no meaning.
     pub const FURTHEST: f64 = 1000.0;
 
+    /// Whether the function goes beyond 0 or 1 on purpose.
+    pub(crate) fn overshoots(self) -> bool {
+        match self {
+            Self::Family(Family::Back | Family::Elastic, _) => true,
+            Self::Bezier([_, y1, _, y2]) => !(0.0..=1.0).contains(&y1) || !(0.0..=1.0).contains(&y2),
+            Self::Linear | Self::StepStart | Self::StepEnd | Self::MinimumJerk | Self::Family(..) => false,
+        }
+    }
+
     /// The name by which [`Self::from_name`] knows the function; `None` for a Bézier curve that has none.
     pub fn name(self) -> Option<String> {
         if let Some((name, _)) = PLAIN.iter().find(|(_, plain)| *plain == self) {

@@ -158,10 +158,14 @@ impl Player {
         if let Some(control) = values.iter().position(|value| !value.is_finite()) {
             return Err(JumpError::NotFinite { control, value: values[control] });
         }
-        for (index, (channel, value)) in self.channels.iter_mut().zip(values).enumerate() {
+        let channels = self.channels.iter_mut().zip(&mut self.cold).zip(&mut self.values);
+        for (((channel, cold), shown), value) in channels.zip(values) {
             let range = channel.range();
-            *channel = Channel::rest(range, range.clamp(f64::from(*value)));
-            self.values[index] = range.clamp(f64::from(*value)) as f32;
+            let value = range.clamp(f64::from(*value));
+            *channel = Channel::rest(range, value);
+            // It may be the last owner of a clip.
+            cold.forget();
+            *shown = value as f32;
         }
         self.velocities.fill(0.0);
         self.accelerations.fill(0.0);

@@ -173,6 +173,14 @@ proptest! {
         // As a recording would have it: sampled, with a gap.
         let samples = (0..240).filter(|frame| !(80..95).contains(frame)).map(|frame| f64::from(frame) / 60.0);
         let recorded = Track::from_samples(4, samples.map(|time| (time, track.at(time).value))).unwrap();
+        // What stays in a range still does: no cubic bulges beyond the highest or lowest sample.
+        let (reduced, _) = Clip::new("c", vec![recorded.clone()]).unwrap().reduced(|_| bound).unwrap();
+        let values = recorded.keys().iter().map(|key| key.value);
+        let (least, greatest) = (values.clone().fold(f64::MAX, f64::min), values.fold(f64::MIN, f64::max));
+        for step in 0..2000 {
+            let value = reduced.at(4, 0.002 * f64::from(step)).unwrap().value;
+            prop_assert!((least - 1e-9..=greatest + 1e-9).contains(&value), "{value} in {least} to {greatest}");
+        }
         for track in [recorded, track] {
             let clip = Clip::new("c", vec![track.clone()]).unwrap();
             let (reduced, report) = clip.reduced(|_| bound).unwrap();

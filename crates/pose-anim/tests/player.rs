@@ -311,6 +311,30 @@ fn default_poses_take_their_time() {
     }
 }
 
+/// A jump ends everything that moves, and so it lets go of the clips that moved it.
+#[test]
+fn a_jump_lets_go_of_clips() {
+    let table = table();
+    let keys = vec![Key::new(0.0, 0.2, Easing::MinimumJerk), Key::new(1.0, 0.7, Easing::MinimumJerk)];
+    let clip = Arc::new(Clip::new("c", vec![Track::new(2, keys).unwrap()]).unwrap());
+    let mut player = Player::new(&table);
+    // Once as what runs, once as what fades out.
+    player.play(&clip, Some(0.1));
+    player.advance(0.2).unwrap();
+    player.play(&clip, Some(0.1));
+    assert_eq!(Arc::strong_count(&clip), 3);
+    player.jump_to(&[0.0, 0.0, 0.5]).unwrap();
+    assert_eq!(Arc::strong_count(&clip), 1);
+    // And so does a press to where a clip without duration rests already.
+    let still = Arc::new(
+        Clip::new("c", vec![Track::new(2, vec![Key::new(0.0, 0.5, Easing::Linear)]).unwrap()]).unwrap(),
+    );
+    player.play(&still, Some(0.001));
+    player.advance(0.001).unwrap();
+    player.press(&Pose::new("p", vec![(2, 0.5)]));
+    assert_eq!(Arc::strong_count(&still), 1);
+}
+
 proptest! {
     /// From rest, a move is the textbook minimum-jerk move, monotone.
     #[test]

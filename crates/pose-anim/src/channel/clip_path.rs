@@ -5,11 +5,17 @@ use crate::{Clip, Jet, Pace, Wrap};
 use std::sync::Arc;
 
 /// One track of a clip as the motion of a control.
+///
+/// Keys and cubics may lie beyond the control's range. There the motion rests at the range's end, so that all that is
+/// made of it stays in range: fades, layers, the way to rest. Only what a transition function overshoots on purpose goes
+/// through, as in a pose.
 #[derive(Clone, Debug)]
 pub(crate) struct ClipPath {
     clip: Arc<Clip>,
     /// Index among the clip's tracks.
-    track: usize,
+    track: u32,
+    /// Whether the track is kept in the control's range.
+    confined: bool,
     clip_secs: f64,
     /// From the last state to rest: a clip may end at speed.
     tail: Quintic,
@@ -19,15 +25,16 @@ impl ClipPath {
     /// `None` if there is no such track.
     pub(crate) fn new(clip: &Arc<Clip>, track: usize, pace: Pace, range: Range) -> Option<Self> {
         let keys = clip.tracks().get(track)?;
-        let last = keys.just_before(keys.end_secs());
-        let end = keys.at(keys.end_secs()).value;
+        let confined = !keys.overshoots();
+        let (last, end) = (keys.just_before(keys.end_secs()), keys.at(keys.end_secs()).value);
+        let (last, end) = if confined { (range.confine(last), range.clamp(end)) } else { (last, end) };
         let tail = if jumps_or_rests(last, end, pace.longest_secs, range.width()) {
             Quintic::rest(end)
         } else {
             brake(Jet { value: end, ..last }, end, pace.longest_secs, range)
         };
         let clip_secs = if clip.wrap == Wrap::Once { keys.end_secs() } else { clip.duration_secs() };
-        Some(Self { clip: Arc::clone(clip), track, clip_secs, tail })
+        Some(Self { clip: Arc::clone(clip), track: u32::try_from(track).ok()?, confined, clip_secs, tail })
     }
 
     /// The clip that the track is one of.
@@ -45,12 +52,13 @@ impl ClipPath {
         (period_secs > 0.0).then_some(period_secs)
     }
 
-    pub(crate) fn at(&self, age_secs: f64) -> Jet {
-        match self.clip.tracks().get(self.track) {
+    pub(crate) fn at(&self, age_secs: f64, range: Range) -> Jet {
+        let state = match self.clip.tracks().get(self.track as usize) {
             Some(track) if self.clip.wrap != Wrap::Once => self.clip.wrap.at(track, self.clip_secs, age_secs),
             Some(track) if age_secs < self.clip_secs => track.at(age_secs),
-            _ => self.tail.at(age_secs - self.clip_secs),
-        }
+            _ => return self.tail.at(age_secs - self.clip_secs),
+        };
+        if self.confined { range.confine(state) } else { state }
     }
 
     pub(crate) fn duration_secs(&self) -> f64 {

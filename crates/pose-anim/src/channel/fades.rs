@@ -33,15 +33,20 @@ impl Channel {
         // What is inside a fade that is over has no weight, whatever it may be.
         let over = fades.iter().rposition(|fade| fade.is_over(now_secs));
         let (state, outer) = match over {
-            Some(over) => (fades[over].towards.at(fades[over].age_secs + now_secs), &fades[over + 1..]),
+            Some(over) => {
+                (fades[over].towards.at(fades[over].age_secs + now_secs, self.range), &fades[over + 1..])
+            }
             None => {
                 let age_secs = self.base_age_secs + now_secs;
-                (if self.other_base { cold.base.at(age_secs) } else { self.base.at(age_secs) }, fades)
+                (
+                    if self.other_base { cold.base.at(age_secs, self.range) } else { self.base.at(age_secs) },
+                    fades,
+                )
             }
         };
         outer.iter().fold(state, |state, fade| {
             let age_secs = fade.age_secs + now_secs;
-            state.mix(fade.towards.at(age_secs), Jet::step(age_secs, fade.duration_secs))
+            state.mix(fade.towards.at(age_secs, self.range), Jet::step(age_secs, fade.duration_secs))
         })
     }
 

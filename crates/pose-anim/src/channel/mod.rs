@@ -207,7 +207,7 @@ impl Channel {
         self.waits = false;
         self.sleeps = false;
         self.take_back(cold);
-        let distance = path.at(0.0).value - self.state(cold).value;
+        let distance = path.at(0.0, self.range).value - self.state(cold).value;
         let secs = fade_secs.unwrap_or_else(|| pace.duration_secs(distance, self.range.width()));
         self.fade_into(Path::Clip(path), clamp_duration(secs, pace.longest_secs), cold);
     }
@@ -231,6 +231,7 @@ impl Channel {
         let state = self.state(cold);
         if state == Jet::rest(spec.target) && self.is_at_rest(cold) {
             *self = Self::rest(self.range, spec.target);
+            cold.forget();
             return;
         }
         let duration_secs = spec.duration_from(state, self.range);

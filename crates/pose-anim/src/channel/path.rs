@@ -2,6 +2,7 @@
 
 use super::clip_path::ClipPath;
 use crate::quintic::Quintic;
+use crate::range::Range;
 use crate::{Easing, Jet};
 
 /// A motion that is a closed function of its own age.
@@ -20,11 +21,12 @@ impl Path {
         Self::Quintic(Quintic::rest(value))
     }
 
-    pub(crate) fn at(&self, age_secs: f64) -> Jet {
+    /// The state at an age, of a control with this range.
+    pub(crate) fn at(&self, age_secs: f64, range: Range) -> Jet {
         match self {
             Self::Quintic(quintic) => quintic.at(age_secs),
             Self::Eased(eased) => eased.at(age_secs),
-            Self::Clip(clip) => clip.at(age_secs),
+            Self::Clip(clip) => clip.at(age_secs, range),
         }
     }
 

@@ -130,6 +130,41 @@ fn a_clip_is_let_go_of_when_it_has_no_part_any_more() {
     }
 }
 
+/// Keys beyond the range and cubics that bulge out of it stay in range inside the channel, and so does all that becomes of
+/// them; a transition function that overshoots on purpose goes through to where the player decides.
+#[test]
+fn clips_stay_in_range_unless_they_overshoot_on_purpose() {
+    let steep = crate::Transition::Hermite { leaving: 60.0, arriving: -60.0 };
+    let key = |time_secs, value, transition| Key { time_secs, value, transition };
+    let line = crate::Transition::LINEAR;
+    let tracks = [
+        vec![key(0.0, 1.0, steep), key(0.5, 1.0, steep), key(1.0, -1.0, line)],
+        vec![key(0.0, -9.0, line), key(0.4, 50.0, line), key(1.0, 7.0, line)],
+    ];
+    let slack = 1e-12 * RANGE.width();
+    for keys in tracks {
+        for wrap in [Wrap::Once, Wrap::Loop, Wrap::PingPong] {
+            let clip = Clip::new("c", vec![Track::new(0, keys.clone()).unwrap()]).unwrap().wrapped(wrap);
+            let (mut channel, mut cold) = (Channel::rest(RANGE, 0.0), Cold::new());
+            channel.play(&Arc::new(clip), 0, Pace::OTHER, Some(0.05), &mut cold);
+            for step in 0..300 {
+                if step == 200 {
+                    channel.press(spec(2.0, 0.5), 0.0, &mut cold);
+                }
+                let state = channel.advance(0.01, &mut cold);
+                assert!((RANGE.min - slack..=RANGE.max + slack).contains(&state.value), "{step}: {state:?}");
+            }
+        }
+    }
+    let back = Easing::from_name("back-out").unwrap();
+    let keys = vec![Key::new(0.0, 0.0, back), Key::new(1.0, RANGE.max, Easing::Linear)];
+    let clip = Arc::new(Clip::new("c", vec![Track::new(0, keys).unwrap()]).unwrap());
+    let (mut channel, mut cold) = (Channel::rest(RANGE, 0.0), Cold::new());
+    channel.play(&clip, 0, Pace::OTHER, Some(0.05), &mut cold);
+    let highest = (0..100).map(|_| channel.advance(0.01, &mut cold).value).fold(0.0, f64::max);
+    assert!(highest > RANGE.max + 0.1, "{highest}");
+}
+
 /// Four fades that are over cost nothing and hide nothing.
 #[test]
 fn fades_that_are_over_leave_the_outermost_target() {

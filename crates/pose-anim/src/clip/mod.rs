@@ -3,6 +3,7 @@ mod reduce;
 mod set;
 
 use crate::{ClipError, Easing, Jet};
+use std::collections::HashSet;
 
 pub use reduce::Reduction;
 pub use set::ClipSet;
@@ -170,6 +171,14 @@ impl Track {
         }
     }
 
+    /// Whether a transition function takes the track beyond the values of its keys on purpose.
+    pub(crate) fn overshoots(&self) -> bool {
+        self.keys.iter().any(|key| match key.transition {
+            Transition::Ease(easing) | Transition::Part { easing, .. } => easing.overshoots(),
+            Transition::Hermite { .. } => false,
+        })
+    }
+
     pub(crate) fn end_secs(&self) -> f64 {
         self.keys.last().map_or(0.0, |key| key.time_secs)
     }
@@ -234,10 +243,9 @@ impl Clip {
     /// # Errors
     /// Two tracks of one control.
     pub fn new(name: impl Into<String>, tracks: Vec<Track>) -> Result<Self, ClipError> {
-        for (index, track) in tracks.iter().enumerate() {
-            if tracks[..index].iter().any(|other| other.control == track.control) {
-                return Err(ClipError::TwoTracks { control: track.control });
-            }
+        let mut controls = HashSet::with_capacity(tracks.len());
+        if let Some(track) = tracks.iter().find(|track| !controls.insert(track.control)) {
+            return Err(ClipError::TwoTracks { control: track.control });
         }
         Ok(Self { name: name.into(), tracks, ..Self::default() })
     }

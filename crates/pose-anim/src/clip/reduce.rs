@@ -1,5 +1,6 @@
 use super::{Clip, Key, Track, Transition};
 use crate::quadratic::roots;
+use crate::range::Range;
 use crate::{ClipError, Easing, Jet};
 
 /// What [`Clip::reduced`] saved.
@@ -36,7 +37,8 @@ impl Clip {
     /// cubic through both whose slopes fit best in the least-squares sense (as in Schneider 1990, *An Algorithm for Automatically
     /// Fitting Digitized Curves*, but over time, where the fit is linear). Spans with transition
     /// functions stay what they are (they say much with little), and so do jumps. The bound holds between the keys as well: it is checked
-    /// at the extrema of the difference.
+    /// at the extrema of the difference. No new span leaves the values between the track's lowest and its highest one, so
+    /// a clip that stays in the ranges of its controls still does.
     ///
     /// # Errors
     /// A bound that is negative or NaN.
@@ -67,11 +69,12 @@ impl Clip {
 /// The keys that are left, and by how much they stray.
 fn reduce(track: &Track, bound: f64) -> (Vec<Key>, f64) {
     let keys = track.keys();
+    let limits = limits(keys);
     let (mut kept, mut worst, mut from) = (Vec::new(), 0.0f64, 0);
     while from + 1 < keys.len() {
         // A single span fits itself.
         let mut best = (from + 1, keys[from].transition, 0.0);
-        let mut fits = |to: usize| match fit(track, from, to, bound) {
+        let mut fits = |to: usize| match fit(&keys[from..=to], bound, limits) {
             Some((transition, strays)) => {
                 best = (to, transition, strays);
                 true
@@ -108,9 +111,20 @@ fn reduce(track: &Track, bound: f64) -> (Vec<Key>, f64) {
     (kept, worst)
 }
 
-/// One span from key `from` to key `to` that stays within the bound, with how far it strays.
-fn fit(track: &Track, from: usize, to: usize, bound: f64) -> Option<(Transition, f64)> {
-    let keys = &track.keys()[from..=to];
+/// The lowest and the highest value of straight and cubic spans, and of all keys.
+fn limits(keys: &[Key]) -> Range {
+    let cubics = keys.windows(2).filter(|pair| {
+        matches!(pair[0].transition, Transition::Hermite { .. }) && pair[0].time_secs < pair[1].time_secs
+    });
+    let values = cubics.flat_map(extrema_of).chain(keys.iter().map(|key| key.value));
+    values.fold(Range { min: f64::MAX, max: f64::MIN }, |range, value| Range {
+        min: range.min.min(value),
+        max: range.max.max(value),
+    })
+}
+
+/// One span from the first to the last of these keys that stays within the bound and the limits, with how far it strays.
+fn fit(keys: &[Key], bound: f64, limits: Range) -> Option<(Transition, f64)> {
     let cubic = |pair: &[Key]| match pair[0].transition {
         Transition::Ease(Easing::Linear) | Transition::Hermite { .. } => {
             pair[0].time_secs < pair[1].time_secs
@@ -126,7 +140,27 @@ fn fit(track: &Track, from: usize, to: usize, bound: f64) -> Option<(Transition,
         return Some((line, strays));
     }
     let cubic = best_slopes(keys)?;
+    let ends = [Key { transition: cubic, ..*keys.first()? }, *keys.last()?];
+    if !extrema_of(&ends).all(|value| limits.holds(value)) {
+        return None;
+    }
     strays(keys, cubic, bound).map(|strays| (cubic, strays))
+}
+
+/// The values at those places inside the span between two keys where it turns; it is straight or cubic.
+fn extrema_of(pair: &[Key]) -> impl Iterator<Item = f64> {
+    let (start, length) = (pair[0].time_secs, pair[1].time_secs - pair[0].time_secs);
+    extrema(move |share| state(pair, pair, start + share * length))
+}
+
+/// The values of a cubic at those places between 0 and 1 where it turns, from its states.
+fn extrema(of: impl Fn(f64) -> Jet) -> impl Iterator<Item = f64> {
+    let [first, middle, last] = [0.0, 0.5, 1.0].map(|share| of(share).velocity);
+    // The slope is the quadratic through three of its values.
+    let a = 2.0 * (first + last - 2.0 * middle);
+    let b = last - first - a;
+    let turns = roots(a, b, first).into_iter().filter(|share| (0.0..1.0).contains(share));
+    turns.map(move |share| of(share).value)
 }
 
 /// The cubic through the end keys with the slopes that fit best at the keys and between them.
@@ -175,12 +209,8 @@ fn strays(keys: &[Key], transition: Transition, bound: f64) -> Option<f64> {
             let time_secs = start + share * length;
             state(&whole, keys, time_secs) - state(pair, pair, time_secs)
         };
-        let [first, middle, last] = [0.0, 0.5, 1.0].map(off);
-        // Two cubics differ by a cubic; its slope is the quadratic through three of its values.
-        let a = 2.0 * (first.velocity + last.velocity - 2.0 * middle.velocity);
-        let b = last.velocity - first.velocity - a;
-        let extrema = roots(a, b, first.velocity).into_iter().filter(|share| (0.0..1.0).contains(share));
-        let values = extrema.map(|share| off(share).value).chain([first.value, last.value]);
+        // Two cubics differ by a cubic.
+        let values = extrema(off).chain([0.0, 1.0].map(|share| off(share).value));
         worst = values.fold(worst, |worst, value| worst.max(value.abs()));
         if worst > bound {
             return None;
