@@ -13,6 +13,7 @@ use glam::{Vec3, Vec4};
 
 /// Why a part could not be deformed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DeformerError {
     /// The model has no such part.
     #[error("expected a part below {parts}, found {found}")]
@@ -32,6 +33,7 @@ pub enum DeformerError {
 
 /// Why strands could not be read back.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GrowerError {
     /// The state of another model, or one made before the model got its hair.
     #[error("expected the state of this model with its hair, found another one")]
@@ -55,7 +57,7 @@ impl Deformer {
         state: &AvatarState,
         part: usize,
     ) -> Result<Deformed, DeformerError> {
-        crate::gpu::readback::block_on(self.run_async(device, queue, model, state, part))
+        pollster::block_on(self.run_async(device, queue, model, state, part))
     }
 
     /// The same, for callers that cannot block.
@@ -125,7 +127,7 @@ impl Grower {
         model: &AvatarModel,
         state: &AvatarState,
     ) -> Result<Vec<[Vec3; SEGMENTS + 1]>, GrowerError> {
-        crate::gpu::readback::block_on(self.run_async(device, queue, deformer, model, state))
+        pollster::block_on(self.run_async(device, queue, deformer, model, state))
     }
 
     /// The same, for callers that cannot block.

@@ -18,6 +18,7 @@ pub(crate) const AVATAR: Module = Module::of(include_str!("shaders/avatar.wgsl")
 
 /// Why a state could not be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StateError {
     /// Another number of bone matrices than the model's palette has.
     #[error("expected {expected} bone matrices, found {found}")]
@@ -40,6 +41,8 @@ pub enum StateError {
 /// What one avatar has for itself: bone matrices, blend weights, and the vertices that they make.
 #[derive(Debug)]
 pub(crate) struct Pose {
+    matrices: Vec<Affine3A>,
+    /// The same as they are uploaded.
     bones: Vec<GpuBone>,
     active_shapes: Vec<GpuActiveShape>,
     shape_count: usize,
@@ -92,6 +95,7 @@ impl Pose {
             ],
         });
         Self {
+            matrices: vec![Affine3A::IDENTITY; palette_len],
             bones,
             active_shapes: Vec::with_capacity(shape_count),
             shape_count,
@@ -120,6 +124,7 @@ impl Pose {
         if weights.len() != self.shape_count {
             return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
         }
+        self.matrices.copy_from_slice(bones);
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
         self.active_shapes.clear();
         let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
@@ -136,22 +141,21 @@ impl Pose {
         Ok(())
     }
 
-    /// A box around the avatar as it is now. What is nowhere, or endless, has none: it must not take the shadows of other
-    /// avatars with it.
+    /// A box around all parts as they are now. A part that is nowhere, or endless, has none: it must not take the
+    /// shadows of other avatars with it.
     pub(crate) fn bounds(&self, parts: &[ModelPart]) -> Option<Bounds> {
-        let boxes = parts.iter().flat_map(|ModelPart { geometry, .. }| {
-            geometry.bounds.bones().iter().map(|around| (geometry.first_weight, around))
-        });
         // Ascending by index.
         let weight = |shape: usize| {
             let found = self.active_shapes.binary_search_by_key(&shape, |active| active.index as usize);
             found.map_or(0.0, |at| self.active_shapes[at].weight)
         };
-        boxes
-            .filter_map(|(first, around)| {
-                let bone = self.bones.get(around.bone())?;
-                Some(bone.moved(around.shaped(|shape| [weight(first + shape); 2])))
-            })
+        let around = |ModelPart { geometry, .. }: &ModelPart| {
+            let range = |shape: usize| [weight(geometry.first_weight + shape); 2];
+            geometry.bounds.around_within(&self.matrices, range)
+        };
+        parts
+            .iter()
+            .filter_map(around)
             .filter(|bounds| bounds.size().is_finite() && bounds.center().is_finite())
             .reduce(Bounds::union)
     }

@@ -9,19 +9,29 @@ use crate::frame::strands::strands_in_view;
 use crate::frame::targets::Targets;
 use crate::frame::timer::PassTimer;
 use crate::gpu::color::srgb_from_linear;
+use crate::hair::pipelines::MOST_HEADS;
 use crate::view::scene::Scene;
 use crate::view::seen::Seen;
 use crate::view::shadows::{GpuShadowView, ShadowViews};
-use crate::view::uniforms::GpuFrame;
+use crate::view::uniforms::{GpuFrame, pixels_per_unit};
 
 /// Why a frame was not drawn. Nothing was recorded then.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DrawError {
     /// The state of another model.
     #[error("avatar {avatar}: expected the state of its model, found that of another one")]
     StateOfAnotherModel {
         /// Position in the slice of avatars.
         avatar: usize,
+    },
+    /// More heads of hair than can be told apart.
+    #[error("expected at most {limit} avatars with hair in view, found {found}")]
+    TooManyHeads {
+        /// Avatars with hair of which strands would be drawn.
+        found: usize,
+        /// How many there may be.
+        limit: usize,
     },
     /// Targets that were made for another renderer.
     #[error("expected targets made for this renderer, found those of another one")]
@@ -44,6 +54,14 @@ pub enum DrawError {
         /// Format of the view's texture.
         found_format: wgpu::TextureFormat,
     },
+    /// A view in another format than the renderer's, as [`Renderer::check_view`] found.
+    #[error("expected a view in {format:?}, found one in another format, of a texture in {texture_format:?}")]
+    ViewFormat {
+        /// Format of the renderer.
+        format: wgpu::TextureFormat,
+        /// Format of the view's texture.
+        texture_format: wgpu::TextureFormat,
+    },
 }
 
 impl Renderer {
@@ -54,10 +72,12 @@ impl Renderer {
     /// shadows are and how far hollows darken follows from the height of the avatar that looks largest.
     ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be recorded before a
-    /// submission, with 4096 heads of hair in all; they share one environment, the last one's. A change of the environment takes some milliseconds.
+    /// submission, with 6144 heads of hair in all; they share one environment, the last one's. A change of the environment takes some milliseconds.
+    ///
+    /// The view must have the renderer's format, which wgpu lets nobody ask a view for: see [`Renderer::check_view`].
     ///
     /// # Errors
-    /// A view, targets or states that do not belong together; nothing is recorded then.
+    /// A view, targets or states that do not belong together, or too many heads of hair; nothing is recorded then.
     pub fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -86,6 +106,15 @@ impl Renderer {
         timer: Option<&PassTimer>,
     ) -> Result<(), DrawError> {
         self.check(view, targets, avatars)?;
+        let pixels_per_unit = pixels_per_unit(&scene.camera, targets.size());
+        let has_strands = |avatar: &&(&AvatarModel, &AvatarState)| {
+            strands_in_view(**avatar, &scene.camera, pixels_per_unit, f32::INFINITY).is_some()
+        };
+        let heads = avatars.iter().filter(has_strands).count();
+        if heads > MOST_HEADS as usize {
+            return Err(DrawError::TooManyHeads { found: heads, limit: MOST_HEADS as usize });
+        }
+        let has_hair = heads > 0;
         let terms = self.config().shading.terms();
         let boxes = avatars.iter().map(|(model, state)| (state.bounds(model), model.height));
         let seen = Seen::new(&scene.camera, boxes.clone());
@@ -93,10 +122,6 @@ impl Renderer {
         let shadows = ShadowViews::new(&scene.light, seen.bounds, casters, terms.shadows);
         let irradiance = self.resources.environment.irradiance(queue, &scene.light.environment, terms);
         let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), seen.height);
-        let pixels_per_unit = gpu_frame.pixels_per_unit;
-        let has_hair = avatars.iter().any(|(model, state)| {
-            strands_in_view(model, state, scene, pixels_per_unit, f32::INFINITY).is_some()
-        });
         if has_hair {
             gpu_frame.set_hair(&scene.camera, seen.bounds, Pass::HairShadow.runs(terms, has_hair));
         }
@@ -135,7 +160,7 @@ impl Renderer {
         wgpu::Color { r: channel(r), g: channel(g), b: channel(b), a: f64::from(a) }
     }
 
-    fn check(
+    pub(crate) fn check(
         &self,
         view: &wgpu::TextureView,
         targets: &Targets,

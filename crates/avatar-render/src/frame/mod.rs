@@ -1,7 +1,9 @@
 //! One frame: its passes in their order, what they draw into, and the renderer that records them.
 
+pub(crate) mod check_view;
 pub(crate) mod draw;
 pub(crate) mod drawables;
+pub(crate) mod far_to_near;
 pub(crate) mod part_pipelines;
 pub(crate) mod passes;
 pub(crate) mod programs;

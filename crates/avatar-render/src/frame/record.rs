@@ -8,12 +8,13 @@ use crate::frame::part_pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, POSED_S
 use crate::frame::passes::Pass;
 use crate::frame::renderer::Renderer;
 use crate::frame::targets::Targets;
-use crate::frame::timer::PassTimer;
+use crate::frame::timer::{PassTimer, Span};
 use crate::model::bone::GpuBone;
 use crate::model::part::ModelPart;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::scene::Scene;
 use avatar_mesh::PartKind;
+use std::sync::PoisonError;
 
 /// Everything that the passes of one frame share.
 pub(crate) struct Recording<'a> {
@@ -31,6 +32,19 @@ pub(crate) struct Recording<'a> {
     /// Pixels that a unit of the world covers at distance 1.
     pub(crate) pixels_per_unit: f32,
     pub(crate) queue: &'a wgpu::Queue,
+}
+
+/// Where among the passes that draw into the picture one stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PictureStep {
+    /// There is no other.
+    Only,
+    /// It clears the picture.
+    First,
+    /// It draws over what is there.
+    Between,
+    /// It leaves the picture in the caller's view.
+    Last,
 }
 
 /// A part of an avatar.
@@ -112,10 +126,8 @@ impl<'a> Recording<'a> {
         let Some(pipeline) = &renderer.passes.shadow else { return };
         let layers = &renderer.resources.shadow_layers;
         for (i, (layer, offset)) in layers.iter().zip(self.shadow_offsets).enumerate() {
-            let timestamps = self.timer.and_then(|timer| match (i == 0, i + 1 == layers.len()) {
-                (first, last) if first || last => timer.render_pass_part(Pass::Shadows, first, last),
-                _ => None,
-            });
+            let span = Span::of(i, layers.len());
+            let timestamps = self.timer.and_then(|timer| timer.render_pass(Pass::Shadows, span));
             let depth = wgpu::RenderPassDepthStencilAttachment {
                 view: layer,
                 depth_ops: Some(wgpu::Operations {
@@ -144,19 +156,20 @@ impl<'a> Recording<'a> {
     }
 
     fn picture(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass =
-            self.begin_picture(encoder, Pass::Picture, true, !self.has_hair, self.times(Pass::Picture));
         // One pass where it is enough: the picture is not stored and loaded in between.
+        let step = if self.has_hair { PictureStep::First } else { PictureStep::Only };
+        let mut pass = self.begin_picture(encoder, Pass::Picture, step, self.times(Pass::Picture));
         self.draw_picture(&mut pass, |drawable| !(self.has_hair && drawable.is_transparent));
     }
 
     fn clear_parts(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = self.begin_picture(encoder, Pass::Clear, false, true, self.times(Pass::Clear));
+        let times = self.times(Pass::Clear);
+        let mut pass = self.begin_picture(encoder, Pass::Clear, PictureStep::Last, times);
         self.draw_picture(&mut pass, |drawable| drawable.is_transparent);
     }
 
     fn times(&self, pass: Pass) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
-        self.timer.and_then(|timer| timer.render_pass(pass))
+        self.timer.and_then(|timer| timer.render_pass(pass, Span::Whole))
     }
 
     fn draw_picture(&self, pass: &mut wgpu::RenderPass<'_>, is_drawn: impl Fn(&Drawable) -> bool) {
@@ -176,12 +189,13 @@ impl<'a> Recording<'a> {
         &self,
         encoder: &'e mut wgpu::CommandEncoder,
         pass: Pass,
-        is_first: bool,
-        is_last: bool,
+        step: PictureStep,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) -> wgpu::RenderPass<'e> {
         use wgpu::{LoadOp, StoreOp};
         let targets = self.targets;
+        let is_first = matches!(step, PictureStep::Only | PictureStep::First);
+        let is_last = matches!(step, PictureStep::Only | PictureStep::Last);
         let kept = |keep| if keep { StoreOp::Store } else { StoreOp::Discard };
         let (view, resolve_target, store) = match &targets.multisampled {
             Some(several) => (several, is_last.then_some(self.view), kept(!is_last)),
@@ -229,7 +243,7 @@ impl<'a> Recording<'a> {
                 },
             })],
             depth_stencil_attachment: depth,
-            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(pass)),
+            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(pass, Span::Whole)),
             ..Default::default()
         })
     }
@@ -263,14 +277,13 @@ impl<'a> Recording<'a> {
 
     fn draw_far_to_near(&self, pass: &mut wgpu::RenderPass<'_>, drawable: &Drawable) {
         let eye = self.scene.camera.eye();
-        let mut items: Vec<(f32, Item<'_>)> = self
-            .items(drawable.kind)
-            .map(|item| (item.2.pose.center_of(&item.0.geometry).distance_squared(eye), item))
-            .collect();
-        items.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        for (_, (part, posed, state)) in items {
-            bind_part(pass, part);
-            draw_part(pass, part, posed, state);
+        let mut far = self.renderer.far_to_near.lock().unwrap_or_else(PoisonError::into_inner);
+        for (avatar, part) in far.sort(self.avatars, drawable.kind, eye) {
+            let Some((model, state)) = self.avatars.get(avatar) else { continue };
+            if let (Some(part), Some(posed)) = (model.parts.get(part), state.pose.parts.get(part)) {
+                bind_part(pass, part);
+                draw_part(pass, part, posed, state);
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::deform::deformer::Deformer;
 use crate::frame::drawables::{Drawable, draw_order};
+use crate::frame::far_to_near::FarToNear;
 use crate::frame::part_pipelines::{Layouts, PassPipelines, picture_pipeline};
 use crate::gpu::identity::Identity;
 use crate::gpu::ring::Ring;
@@ -11,9 +12,11 @@ use crate::view::config::RendererConfig;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::resources::Resources;
 use crate::view::shadows::GpuShadowView;
+use std::sync::Mutex;
 
 /// Why there is no renderer for a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RendererError {
     /// Another number of samples than WebGPU promises.
     #[error("expected 1 or 4 samples, found {found}")]
@@ -49,6 +52,8 @@ pub struct Renderer {
     pub(crate) hair_views: HairViews,
     pub(crate) shadow_views: Ring<GpuShadowView>,
     pub(crate) shadow_group: wgpu::BindGroup,
+    /// Room for the order of what is clear.
+    pub(crate) far_to_near: Mutex<FarToNear>,
 }
 
 impl Renderer {
@@ -85,6 +90,7 @@ impl Renderer {
             layouts,
             shadow_views,
             shadow_group,
+            far_to_near: Mutex::default(),
         })
     }
 

@@ -4,11 +4,13 @@ use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::deform::pose::Pose;
 use crate::frame::passes::Pass;
-use crate::frame::record::Recording;
+use crate::frame::record::{PictureStep, Recording};
+use crate::frame::timer::Span;
+use crate::gpu::ring::Reserved;
 use crate::hair::detail::GpuHairView;
 use crate::hair::pipelines::Strands;
 use crate::hair::state::HairState;
-use crate::view::scene::Scene;
+use crate::view::camera::Camera;
 use avatar_groom::SEGMENTS;
 
 /// Corners of a ribbon.
@@ -16,41 +18,59 @@ const CORNERS: u32 = 2 * (SEGMENTS as u32 + 1);
 
 /// What of an avatar's hair a pass draws that affords `most` strands; `None` without any.
 pub(crate) fn strands_in_view<'a>(
-    model: &AvatarModel,
-    state: &'a AvatarState,
-    scene: &Scene,
+    (model, state): (&AvatarModel, &'a AvatarState),
+    camera: &Camera,
     pixels_per_unit: f32,
     most: f32,
 ) -> Option<(GpuHairView, &'a HairState)> {
     let (hair, grown) = model.hair.as_ref().zip(state.hair.as_ref())?;
     let skin = model.parts.get(hair.part)?;
-    let distance = state.pose.center_of(&skin.geometry).distance(scene.camera.eye());
+    let distance = state.pose.center_of(&skin.geometry).distance(camera.eye());
     let head_pixels = model.height * pixels_per_unit / distance.max(1e-6);
     let view = state.hair_detail.view(hair.strand_count, head_pixels, most);
     (view.count() > 0).then_some((view, grown))
 }
 
+/// Which strands of all avatars passes draw: as many as `most` of each.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrawnStrands {
+    most: f32,
+    /// A [`GpuHairView`] for each head.
+    views: Reserved,
+}
+
 impl<'a> Recording<'a> {
+    /// Avatars with hair of which a pass draws as many as `most` strands each.
     fn with_hair(&self, most: f32) -> impl Iterator<Item = (GpuHairView, &'a HairState)> {
-        self.avatars.iter().filter_map(move |(model, state)| {
-            strands_in_view(model, state, self.scene, self.pixels_per_unit, most)
+        self.avatars.iter().filter_map(move |avatar| {
+            strands_in_view(*avatar, &self.scene.camera, self.pixels_per_unit, most)
         })
     }
 
     /// How many strands of each avatar are to grow.
     pub(crate) fn growing(&self) -> impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone {
-        self.avatars.iter().filter_map(|(model, state)| {
-            let (view, hair) =
-                strands_in_view(model, state, self.scene, self.pixels_per_unit, f32::INFINITY)?;
-            Some((&state.pose, hair, view.count() as u32))
+        self.avatars.iter().filter_map(|avatar| {
+            let camera = &self.scene.camera;
+            let (view, hair) = strands_in_view(*avatar, camera, self.pixels_per_unit, f32::INFINITY)?;
+            Some((&avatar.1.pose, hair, view.count() as u32))
         })
     }
 
-    fn draw_strands(&self, pass: &mut wgpu::RenderPass<'_>, most: f32) {
-        for (view, hair) in self.with_hair(most) {
-            let offset = self.renderer.hair_views.ring.push(self.queue, &view);
+    /// Tells the passes that draw as many as `most` strands of each head which ones.
+    fn choose_strands(&self, most: f32) -> DrawnStrands {
+        let ring = &self.renderer.hair_views.ring;
+        let views = ring.reserve(self.with_hair(most).count() as u32);
+        for (head, (view, _)) in (0..).zip(self.with_hair(most)) {
+            ring.write(self.queue, views, head, &view);
+        }
+        DrawnStrands { most, views }
+    }
+
+    fn draw_strands(&self, pass: &mut wgpu::RenderPass<'_>, drawn: DrawnStrands) {
+        let views = &self.renderer.hair_views;
+        for (head, (view, hair)) in (0..).zip(self.with_hair(drawn.most)) {
             pass.set_bind_group(2, &hair.draw, &[]);
-            pass.set_bind_group(3, &self.renderer.hair_views.group, &[offset]);
+            pass.set_bind_group(3, &views.group, &[views.ring.offset(drawn.views, head)]);
             pass.draw(0..CORNERS, 0..view.count() as u32);
         }
     }
@@ -63,25 +83,26 @@ impl<'a> Recording<'a> {
         let mut pass = self.begin(encoder, Pass::HairShadow, Some(map), None);
         self.set_groups(&mut pass, &self.targets.hair.for_shadow);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, shadows.strands());
+        self.draw_strands(&mut pass, self.choose_strands(shadows.strands()));
     }
 
     /// Hair writes depth, so that corneas lie rightly before or behind it.
     pub(crate) fn strands(&self, encoder: &mut wgpu::CommandEncoder) {
+        let drawn = self.choose_strands(f32::INFINITY);
         match &self.renderer.hair.strands {
             Strands::Masked(pipeline) => {
-                let times = self.timer.and_then(|timer| timer.render_pass(Pass::Hair));
-                let mut pass = self.begin_picture(encoder, Pass::Hair, false, false, times);
+                let times = self.timer.and_then(|timer| timer.render_pass(Pass::Hair, Span::Whole));
+                let mut pass = self.begin_picture(encoder, Pass::Hair, PictureStep::Between, times);
                 pass.set_bind_group(1, &self.targets.hair.for_strands, &[]);
                 pass.set_pipeline(pipeline);
-                self.draw_strands(&mut pass, f32::INFINITY);
+                self.draw_strands(&mut pass, drawn);
             }
             Strands::Layered { layers, slices, blended, compose } => {
-                self.strand_layers(encoder, layers);
-                self.strand_slices(encoder, slices);
-                self.blended_strands(encoder, blended);
-                let times = self.timer.and_then(|timer| timer.render_pass_part(Pass::Hair, false, true));
-                let mut pass = self.begin_picture(encoder, Pass::Hair, false, false, times);
+                self.strand_layers(encoder, layers, drawn);
+                self.strand_slices(encoder, slices, drawn);
+                self.blended_strands(encoder, blended, drawn);
+                let times = self.timer.and_then(|timer| timer.render_pass(Pass::Hair, Span::End));
+                let mut pass = self.begin_picture(encoder, Pass::Hair, PictureStep::Between, times);
                 pass.set_bind_group(1, &self.targets.hair.for_composing, &[]);
                 for pipeline in compose {
                     pass.set_pipeline(pipeline);
@@ -92,21 +113,31 @@ impl<'a> Recording<'a> {
     }
 
     /// Where strands lie in each pixel.
-    fn strand_layers(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+    fn strand_layers(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        drawn: DrawnStrands,
+    ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("hair: layers"),
             color_attachments: &[cleared(&self.targets.hair.layers, wgpu::Color::TRANSPARENT)],
             depth_stencil_attachment: Some(self.depth_to_compare()),
-            timestamp_writes: self.timer.and_then(|timer| timer.render_pass_part(Pass::Hair, true, false)),
+            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(Pass::Hair, Span::Start)),
             ..Default::default()
         });
         self.set_groups(&mut pass, &self.targets.hair.for_shadow);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, f32::INFINITY);
+        self.draw_strands(&mut pass, drawn);
     }
 
     /// How much strands cover at each depth.
-    fn strand_slices(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+    fn strand_slices(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        drawn: DrawnStrands,
+    ) {
         let targets = self.targets;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("hair: slices"),
@@ -120,7 +151,7 @@ impl<'a> Recording<'a> {
         });
         self.set_groups(&mut pass, &targets.hair.for_slices);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, f32::INFINITY);
+        self.draw_strands(&mut pass, drawn);
     }
 
     /// The depth of what is opaque, not to be written.
@@ -132,7 +163,12 @@ impl<'a> Recording<'a> {
         }
     }
 
-    fn blended_strands(&self, encoder: &mut wgpu::CommandEncoder, pipeline: &wgpu::RenderPipeline) {
+    fn blended_strands(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        drawn: DrawnStrands,
+    ) {
         let targets = self.targets;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("hair: blended"),
@@ -145,7 +181,7 @@ impl<'a> Recording<'a> {
         });
         self.set_groups(&mut pass, &targets.hair.for_strands);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, f32::INFINITY);
+        self.draw_strands(&mut pass, drawn);
     }
 }
 

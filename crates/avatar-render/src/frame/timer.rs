@@ -12,6 +12,31 @@ pub struct PassTimer {
     nanoseconds_per_tick: f32,
 }
 
+/// Which share of a pass of the frame a render pass is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Span {
+    /// All of it.
+    Whole,
+    /// The first of several: it notes the start.
+    Start,
+    /// Neither the first nor the last: it notes nothing.
+    Between,
+    /// The last of several: it notes the end.
+    End,
+}
+
+impl Span {
+    /// That of one of `count` render passes.
+    pub(crate) fn of(index: usize, count: usize) -> Self {
+        match (index == 0, index + 1 == count) {
+            (true, true) => Self::Whole,
+            (true, false) => Self::Start,
+            (false, false) => Self::Between,
+            (false, true) => Self::End,
+        }
+    }
+}
+
 const QUERIES: u32 = 2 * FRAME_PASSES.len() as u32;
 /// The times of a pass lie where a resolution may start.
 const PASS_BYTES: u64 = wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
@@ -64,22 +89,18 @@ impl PassTimer {
         })
     }
 
-    pub(crate) fn render_pass(&self, pass: Pass) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
-        self.render_pass_part(pass, true, true)
-    }
-
-    /// For a pass of several render passes: the first notes the start, the last the end.
-    pub(crate) fn render_pass_part(
-        &self,
-        pass: Pass,
-        first: bool,
-        last: bool,
-    ) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+    pub(crate) fn render_pass(&self, pass: Pass, span: Span) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let (start, end) = Self::slots(pass);
-        (first || last).then(|| wgpu::RenderPassTimestampWrites {
+        let (start, end) = match span {
+            Span::Whole => (Some(start), Some(end)),
+            Span::Start => (Some(start), None),
+            Span::Between => return None,
+            Span::End => (None, Some(end)),
+        };
+        Some(wgpu::RenderPassTimestampWrites {
             query_set: &self.queries,
-            beginning_of_pass_write_index: first.then_some(start),
-            end_of_pass_write_index: last.then_some(end),
+            beginning_of_pass_write_index: start,
+            end_of_pass_write_index: end,
         })
     }
 
@@ -100,7 +121,7 @@ impl PassTimer {
     /// A lost device.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn read(&self, device: &wgpu::Device) -> Result<Vec<(&'static str, f64)>, ReadbackError> {
-        crate::gpu::readback::block_on(self.read_async(device))
+        pollster::block_on(self.read_async(device))
     }
 
     /// The same, for callers that cannot block.

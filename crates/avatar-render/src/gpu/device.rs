@@ -8,7 +8,8 @@ pub struct Gpu {
     pub instance: wgpu::Instance,
     /// The chosen adapter.
     pub adapter: wgpu::Adapter,
-    /// Its device, with WebGPU's default limits and no optional features.
+    /// Its device: WebGPU's default limits, but buffers and storage bindings as large as the adapter allows, and no
+    /// optional features but timestamps.
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
@@ -71,6 +72,7 @@ impl Default for GpuOptions {
 
 /// Why there is no GPU.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoAdapter {
     /// Nothing was found.
     #[error("expected a GPU adapter ({looked_for}), found none: {reason}")]
@@ -137,7 +139,7 @@ pub async fn open_for_surface(
 /// As [`open()`].
 #[cfg(not(target_arch = "wasm32"))]
 pub fn open_blocking(options: GpuOptions) -> Result<Gpu, NoAdapter> {
-    crate::gpu::readback::block_on(open(options))
+    pollster::block_on(open(options))
 }
 
 /// [`open_for_surface()`] for callers without an executor.
@@ -150,7 +152,7 @@ pub fn open_for_surface_blocking(
     surface: &wgpu::Surface<'_>,
     options: GpuOptions,
 ) -> Result<Gpu, NoAdapter> {
-    crate::gpu::readback::block_on(open_for_surface(instance, surface, options))
+    pollster::block_on(open_for_surface(instance, surface, options))
 }
 
 fn looked_for(options: GpuOptions, for_surface: bool) -> String {
@@ -185,8 +187,19 @@ async fn open_with(
     }
     // Nothing needs timestamps, but where there are some, passes can be measured.
     let required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
-    let descriptor =
-        wgpu::DeviceDescriptor { label: Some("avatars"), required_features, ..Default::default() };
+    let offered = adapter.limits();
+    // What an avatar needs may be larger than what every device promises; nothing else depends on these two.
+    let required_limits = wgpu::Limits {
+        max_buffer_size: offered.max_buffer_size,
+        max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+        ..wgpu::Limits::default()
+    };
+    let descriptor = wgpu::DeviceDescriptor {
+        label: Some("avatars"),
+        required_features,
+        required_limits,
+        ..Default::default()
+    };
     let (device, queue) = adapter
         .request_device(&descriptor)
         .await

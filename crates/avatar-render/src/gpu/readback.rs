@@ -68,16 +68,3 @@ pub(crate) async fn mapped(
     done.await.map_err(ReadbackError::new)?;
     buffer.get_mapped_range(..).map_err(ReadbackError::new)
 }
-
-/// Drives a future of this crate to its end. Natively all of them wait inside, so that the first poll is the last one.
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) fn block_on<F: Future>(future: F) -> F::Output {
-    let mut future = std::pin::pin!(future);
-    let mut context = Context::from_waker(Waker::noop());
-    loop {
-        if let Poll::Ready(output) = future.as_mut().poll(&mut context) {
-            return output;
-        }
-        std::thread::yield_now();
-    }
-}

@@ -13,8 +13,12 @@ pub(crate) struct Ring<T> {
     of: std::marker::PhantomData<fn(T)>,
 }
 
-/// Draws per submission that are told apart.
+/// Frames per submission that are told apart.
 pub(crate) const FRAME_SLOTS: u32 = 256;
+
+/// Slots of a ring that belong together: the number of the first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reserved(u32);
 
 impl<T: bytemuck::Pod> Ring<T> {
     /// WebGPU's default alignment of dynamic offsets.
@@ -38,10 +42,27 @@ impl<T: bytemuck::Pod> Ring<T> {
 
     /// Writes a value into the next slot and returns its offset for the bind group.
     pub(crate) fn push(&self, queue: &wgpu::Queue, value: &T) -> u32 {
-        let slots = (self.buffer.size() / u64::from(Self::SLOT_BYTES)) as u32;
-        let offset = self.next.fetch_add(1, Ordering::Relaxed) % slots * Self::SLOT_BYTES;
+        let first = self.reserve(1);
+        self.write(queue, first, 0, value)
+    }
+
+    /// Takes as many slots as a frame needs; no more than there are.
+    pub(crate) fn reserve(&self, count: u32) -> Reserved {
+        Reserved(self.next.fetch_add(count, Ordering::Relaxed))
+    }
+
+    /// Writes a value into one of the slots that are reserved and returns its offset for the bind group.
+    pub(crate) fn write(&self, queue: &wgpu::Queue, reserved: Reserved, index: u32, value: &T) -> u32 {
+        let offset = self.offset(reserved, index);
         queue.write_buffer(&self.buffer, u64::from(offset), bytemuck::bytes_of(value));
         offset
+    }
+
+    /// Where the value that was written there is.
+    pub(crate) fn offset(&self, reserved: Reserved, index: u32) -> u32 {
+        let slots = (self.buffer.size() / u64::from(Self::SLOT_BYTES)) as u32;
+        // In 64 bits: the sum of two 32-bit numbers must not overflow.
+        ((u64::from(reserved.0) + u64::from(index)) % u64::from(slots)) as u32 * Self::SLOT_BYTES
     }
 }
 
@@ -49,7 +70,8 @@ impl<T: bytemuck::Pod> Ring<T> {
 mod tests {
     use super::*;
     use crate::gpu::device::{Gpu, GpuOptions, open_blocking};
-    use crate::gpu::readback::{block_on, mapped};
+    use crate::gpu::readback::mapped;
+    use pollster::block_on;
     use std::io::Write as _;
 
     /// The first number in each slot, after `also` was submitted together with what reads them.

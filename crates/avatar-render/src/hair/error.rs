@@ -2,6 +2,7 @@
 
 /// Why a head can have no such hair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum HairError {
     /// The model has no such part.
     #[error("expected a part below {parts}, found {found}")]

@@ -1,7 +1,7 @@
 //! Builds the pipelines that draw strands.
 
 use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
-use crate::gpu::ring::Ring;
+use crate::gpu::ring::{FRAME_SLOTS, Ring};
 use crate::hair::detail::GpuHairView;
 use crate::hair::layouts::{compose_layout, draw_layout, hair_view_layout, inputs_layout};
 use crate::hair::programs::{
@@ -125,12 +125,15 @@ pub(crate) struct HairViews {
     pub(crate) group: wgpu::BindGroup,
 }
 
-/// Two for each avatar with hair: its shadow and itself.
-const HAIR_VIEWS_PER_FRAME: u32 = 48;
+/// One for the shadow of a head of hair and one for the hair itself.
+const VIEWS_PER_HEAD: u32 = 2;
+const HEADS_PER_FRAME: u32 = 24;
+/// Heads of hair that are told apart in all frames of a submission.
+pub(crate) const MOST_HEADS: u32 = HEADS_PER_FRAME * FRAME_SLOTS;
 
 impl HairViews {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let ring = Ring::new(device, "views of hair", HAIR_VIEWS_PER_FRAME);
+        let ring = Ring::new(device, "views of hair", VIEWS_PER_HEAD * HEADS_PER_FRAME);
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("view of hair"),
             layout: &hair_view_layout(device),

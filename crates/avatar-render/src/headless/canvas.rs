@@ -17,6 +17,7 @@ use crate::view::shading::{Quality, Style};
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RenderImageError {
     /// A size that cannot be drawn.
     #[error(transparent)]
@@ -101,7 +102,7 @@ impl Canvas {
         scene: &Scene,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Result<Image, RenderImageError> {
-        crate::gpu::readback::block_on(self.render_async(gpu, scene, avatars))
+        pollster::block_on(self.render_async(gpu, scene, avatars))
     }
 
     /// The same, for callers that cannot block.

@@ -4,6 +4,7 @@ use crate::gpu::image::ImageSizeError;
 
 /// Why a model could not be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ModelError {
     /// Something is wrong with a part.
     #[error("part {label:?}: {problem}")]
@@ -25,6 +26,7 @@ pub enum ModelError {
 
 /// What is wrong with a part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PartProblem {
     /// An array that is not as long as the mesh has vertices.
     #[error("expected {expected} {what}, found {found}")]

@@ -58,6 +58,11 @@ fn pre_exposure(exposure: f32) -> f32 {
     }
 }
 
+/// Pixels that a unit of the world covers at distance 1 in a picture of this width and height.
+pub(crate) fn pixels_per_unit(camera: &Camera, size: (u32, u32)) -> f32 {
+    camera.zoom() * size.1 as f32 * 0.5
+}
+
 impl GpuFrame {
     /// `size` is that of the picture in pixels, `height` that of the skin of the avatar that looks largest.
     pub(crate) fn new(
@@ -89,7 +94,7 @@ impl GpuFrame {
             shadow_depth: shadows.0.map(|view| view.depth),
             shadow_texel: shadows.0.map(|view| view.texel),
             pixels,
-            pixels_per_unit: camera.zoom() * pixels[1] * 0.5,
+            pixels_per_unit: pixels_per_unit(camera, size),
             occlusion_radius: OCCLUSION_RADIUS * height,
             shadow_softness: SHADOW_SOFTNESS * height,
             reflection_levels: (REFLECTION_LEVELS - 1) as f32,
