@@ -98,6 +98,13 @@ impl DeformBounds {
         &self.bones
     }
 
+    /// How far bone weights carry vertices out of the union of the boxes that bones move, at most: `[overshoot, sum_off]`, the
+    /// largest sum of negative weights of a vertex, and how far the sum of its weights is from 1. That is
+    /// `overshoot · size + sum_off · largest` on each side, with the union's size and its largest coordinate.
+    pub fn excess(&self) -> [f32; 2] {
+        [self.overshoot as f32, self.sum_off as f32]
+    }
+
     /// The box around the mesh with these bone matrices, and these weights of its shapes. `None` without vertices; bones beyond
     /// the palette, which [`crate::deform()`] refuses, and missing weights count as nothing.
     pub fn around(&self, bones: &[Affine3A], weights: &[f32]) -> Option<Bounds> {

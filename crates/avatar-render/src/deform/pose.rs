@@ -41,8 +41,6 @@ pub enum StateError {
 /// What one avatar has for itself: bone matrices, blend weights, and the vertices that they make.
 #[derive(Debug)]
 pub(crate) struct Pose {
-    matrices: Vec<Affine3A>,
-    /// The same as they are uploaded.
     bones: Vec<GpuBone>,
     active_shapes: Vec<GpuActiveShape>,
     shape_count: usize,
@@ -95,7 +93,6 @@ impl Pose {
             ],
         });
         Self {
-            matrices: vec![Affine3A::IDENTITY; palette_len],
             bones,
             active_shapes: Vec::with_capacity(shape_count),
             shape_count,
@@ -124,7 +121,6 @@ impl Pose {
         if weights.len() != self.shape_count {
             return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
         }
-        self.matrices.copy_from_slice(bones);
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
         self.active_shapes.clear();
         let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
@@ -141,8 +137,8 @@ impl Pose {
         Ok(())
     }
 
-    /// A box around all parts as they are now. A part that is nowhere, or endless, has none: it must not take the
-    /// shadows of other avatars with it.
+    /// A box around all parts as they are now. A cell that is nowhere, or endless, has none: it must not take the
+    /// shadows of other avatars with it. What f32 rounds is left out: shadow maps have more room around avatars.
     pub(crate) fn bounds(&self, parts: &[ModelPart]) -> Option<Bounds> {
         // Ascending by index.
         let weight = |shape: usize| {
@@ -151,13 +147,12 @@ impl Pose {
         };
         let around = |ModelPart { geometry, .. }: &ModelPart| {
             let range = |shape: usize| [weight(geometry.first_weight + shape); 2];
-            geometry.bounds.around_within(&self.matrices, range)
+            let cells = geometry.bounds.bones().iter();
+            let moved = cells.filter_map(|cell| Some(self.bones.get(cell.bone())?.moved(cell.shaped(range))));
+            let union = moved.filter(is_somewhere).reduce(Bounds::union)?;
+            Some(widened(union, geometry.bounds.excess()))
         };
-        parts
-            .iter()
-            .filter_map(around)
-            .filter(|bounds| bounds.size().is_finite() && bounds.center().is_finite())
-            .reduce(Bounds::union)
+        parts.iter().filter_map(around).filter(is_somewhere).reduce(Bounds::union)
     }
 
     /// Where the middle of a part is now, roughly.
@@ -165,5 +160,71 @@ impl Pose {
         let Some(bone) = self.bones.get(geometry.center_bone) else { return geometry.center };
         let point = geometry.center.extend(1.0);
         Vec3::from_array(bone.rows.map(|row| point.dot(row.into())))
+    }
+}
+
+fn is_somewhere(bounds: &Bounds) -> bool {
+    bounds.size().is_finite() && bounds.center().is_finite()
+}
+
+/// Bone weights that are off by less than this carry no vertex out of the room that shadow maps have around avatars.
+const NEGLIGIBLE_EXCESS: f32 = 1e-3;
+
+/// The union of what bones move, as much wider as bone weights below 0 and sums other than 1 carry vertices out of it; see
+/// [`DeformBounds::excess`](avatar_mesh::DeformBounds::excess).
+fn widened(union: Bounds, excess: [f32; 2]) -> Bounds {
+    let [overshoot, sum_off] = excess.map(|excess| if excess > NEGLIGIBLE_EXCESS { excess } else { 0.0 });
+    let furthest = union.min.abs().max(union.max.abs());
+    let wider = overshoot * union.size() + sum_off * furthest;
+    Bounds { min: union.min - wider, max: union.max + wider }
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "tests stop at the first surprise")]
+mod tests {
+    use super::*;
+    use crate::gpu::device::gpu_for_tests;
+    use crate::model::desc::{PartBones, PartDesc, PartTextures};
+    use crate::model::part::PartLayouts;
+    use avatar_mesh::{Mesh, PartKind, Skinning};
+
+    #[test]
+    fn bounds_hold_what_weights_carry_out_of_the_boxes_of_bones() {
+        let Some(gpu) = gpu_for_tests() else { return };
+        let bones = [Affine3A::from_translation(Vec3::X * 3.0), Affine3A::from_rotation_z(0.7)];
+        for weights in [[0.5, 0.5], [1.5, -0.5], [2.0, 0.0], [0.25, 0.25], [0.0, 0.0]] {
+            let mesh = Mesh {
+                positions: (0..8u8).map(|k| Vec3::new(1.0, 2.0, 0.1 * f32::from(k))).collect(),
+                normals: vec![Vec3::Y; 8],
+                uvs: vec![glam::Vec2::ZERO; 8],
+                triangles: vec![[0, 1, 2]],
+                skinning: Some(Skinning {
+                    bones: vec![[0, 1, 0, 0]; 8],
+                    weights: vec![[weights[0], weights[1], 0.0, 0.0]; 8],
+                    ..Skinning::default()
+                }),
+                ..Mesh::default()
+            };
+            let desc = PartDesc {
+                label: "part",
+                mesh: &mesh,
+                first_weight: 0,
+                kind: PartKind::Skin,
+                bones: PartBones::PerVertex,
+                textures: PartTextures::default(),
+            };
+            let layouts = PartLayouts::new(&gpu.device);
+            let part = ModelPart::new(&gpu.device, &gpu.queue, &layouts, &desc, &[desc], 2, 1.0);
+            let parts = [part.expect("a part")];
+            let mut pose = Pose::new(&gpu.device, &parts, 2, 0);
+            pose.set(&gpu.queue, &bones, &[]).expect("lengths fit");
+            let bounds = pose.bounds(&parts).expect("a box");
+            let mut deformed = mesh.deformed();
+            avatar_mesh::deform(&mesh, &bones, &[], &mut deformed).expect("a mesh that fits");
+            for position in deformed.positions {
+                let off = (bounds.min - position).max(position - bounds.max).max_element();
+                assert!(off < 1e-5, "{weights:?}: {position} is outside of {bounds:?} by {off}");
+            }
+        }
     }
 }

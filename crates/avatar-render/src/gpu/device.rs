@@ -207,3 +207,19 @@ async fn open_with(
     let errors = GpuErrors::listen(&device);
     Ok(Gpu { instance, adapter, device, queue, info, errors })
 }
+
+/// The GPU of tests of this crate, or `None` after a note that there is none; with `MIMIK_REQUIRE_GPU=1` none is a failure.
+#[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "a test may ask the environment how strict it is to be")]
+pub(crate) fn gpu_for_tests() -> Option<Gpu> {
+    use std::io::Write as _;
+    match open_blocking(GpuOptions::default()) {
+        Ok(gpu) => Some(gpu),
+        Err(reason) => {
+            let required = std::env::var("MIMIK_REQUIRE_GPU").is_ok_and(|value| value == "1");
+            assert!(!required, "MIMIK_REQUIRE_GPU=1, but {reason}");
+            let _ = writeln!(std::io::stderr(), "SKIPPED: {reason}");
+            None
+        }
+    }
+}

@@ -2,14 +2,14 @@
 
 use super::buffers::written_buffer;
 use std::num::NonZeroU64;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Room for several values in one uniform buffer, bound with a dynamic offset. A write to a buffer takes effect before
 /// the whole submission, so two draws that are submitted together must not share a slot.
 #[derive(Debug)]
 pub(crate) struct Ring<T> {
     pub(crate) buffer: wgpu::Buffer,
-    next: AtomicU32,
+    next: AtomicU64,
     of: std::marker::PhantomData<fn(T)>,
 }
 
@@ -18,7 +18,7 @@ pub(crate) const FRAME_SLOTS: u32 = 256;
 
 /// Slots of a ring that belong together: the number of the first.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reserved(u32);
+pub(crate) struct Reserved(u64);
 
 impl<T: bytemuck::Pod> Ring<T> {
     /// WebGPU's default alignment of dynamic offsets.
@@ -31,7 +31,7 @@ impl<T: bytemuck::Pod> Ring<T> {
     pub(crate) fn new(device: &wgpu::Device, label: &str, slots_per_frame: u32) -> Self {
         let size = u64::from(Self::SLOT_BYTES * FRAME_SLOTS * slots_per_frame);
         let buffer = written_buffer(device, label, size, wgpu::BufferUsages::UNIFORM | Self::FOR_TESTS);
-        Self { buffer, next: AtomicU32::new(0), of: std::marker::PhantomData }
+        Self { buffer, next: AtomicU64::new(0), of: std::marker::PhantomData }
     }
 
     /// The binding of one slot; which one, its dynamic offset says.
@@ -48,7 +48,7 @@ impl<T: bytemuck::Pod> Ring<T> {
 
     /// Takes as many slots as a frame needs; no more than there are.
     pub(crate) fn reserve(&self, count: u32) -> Reserved {
-        Reserved(self.next.fetch_add(count, Ordering::Relaxed))
+        Reserved(self.next.fetch_add(count.into(), Ordering::Relaxed))
     }
 
     /// Writes a value into one of the slots that are reserved and returns its offset for the bind group.
@@ -60,19 +60,17 @@ impl<T: bytemuck::Pod> Ring<T> {
 
     /// Where the value that was written there is.
     pub(crate) fn offset(&self, reserved: Reserved, index: u32) -> u32 {
-        let slots = (self.buffer.size() / u64::from(Self::SLOT_BYTES)) as u32;
-        // In 64 bits: the sum of two 32-bit numbers must not overflow.
-        ((u64::from(reserved.0) + u64::from(index)) % u64::from(slots)) as u32 * Self::SLOT_BYTES
+        let slots = self.buffer.size() / u64::from(Self::SLOT_BYTES);
+        ((reserved.0 + u64::from(index)) % slots) as u32 * Self::SLOT_BYTES
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::device::{Gpu, GpuOptions, open_blocking};
+    use crate::gpu::device::{Gpu, gpu_for_tests};
     use crate::gpu::readback::mapped;
     use pollster::block_on;
-    use std::io::Write as _;
 
     /// The first number in each slot, after `also` was submitted together with what reads them.
     fn slots(gpu: &Gpu, ring: &Ring<[u32; 4]>, also: usize) -> Vec<u8> {
@@ -103,13 +101,7 @@ mod tests {
     #[allow(clippy::disallowed_methods, reason = "the test is about threads")]
     #[test]
     fn a_slot_keeps_its_value_while_another_thread_submits() {
-        let gpu = match open_blocking(GpuOptions::default()) {
-            Ok(gpu) => gpu,
-            Err(reason) => {
-                let _ = writeln!(std::io::stderr(), "SKIPPED: {reason}");
-                return;
-            }
-        };
+        let Some(gpu) = gpu_for_tests() else { return };
         for round in 0..100 {
             let ring = Ring::new(&gpu.device, "ring", 1);
             let start = std::sync::Barrier::new(2);
@@ -127,5 +119,18 @@ mod tests {
             let lost = slots(&gpu, &ring, 0).iter().filter(|value| **value != 7).count();
             assert_eq!(lost, 0, "round {round}");
         }
+    }
+
+    #[test]
+    fn slots_that_are_reserved_are_different_ones_until_all_are_used() {
+        let Some(gpu) = gpu_for_tests() else { return };
+        let ring: Ring<[u32; 4]> = Ring::new(&gpu.device, "ring", 3);
+        // Also after billions of frames.
+        ring.next.store(u64::from(u32::MAX) - 5, Ordering::Relaxed);
+        let reserved = [700, 60, 8].map(|count| (ring.reserve(count), count));
+        let offsets: std::collections::BTreeSet<u32> =
+            reserved.iter().flat_map(|(first, count)| (0..*count).map(|i| ring.offset(*first, i))).collect();
+        assert_eq!(offsets.len(), 768);
+        assert!(offsets.iter().all(|offset| u64::from(*offset) < ring.buffer.size()));
     }
 }

@@ -5,17 +5,29 @@ use crate::common::{
     Random, ball, gpu, largest_difference, model, part, random_mesh, scene, shadings, square,
 };
 use avatar_mesh::{Mesh, PartKind, Shape};
-use avatar_render::headless::{Canvas, GpuOptions, NoAdapter, open_blocking};
+use avatar_render::headless::{Canvas, Gpu, GpuOptions, NoAdapter, open_blocking};
 use avatar_render::{
     AvatarModel, AvatarState, DrawError, Image, ModelError, PartBones, PartDesc, PartProblem, PartTextures,
     Renderer, RendererConfig, RendererError, Shading, Targets,
 };
 use glam::{Affine3A, Vec3};
+use std::sync::OnceLock;
 use wgpu::TextureFormat;
+
+/// The GPU with the limits that every device has, whatever the adapter at hand allows.
+fn promised() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Gpu> = OnceLock::new();
+    let gpu = gpu()?;
+    Some(GPU.get_or_init(|| {
+        let opened = pollster::block_on(gpu.adapter.request_device(&Default::default()));
+        let (device, queue) = opened.expect("a device with WebGPU's limits");
+        Gpu { device, queue, ..gpu.clone() }
+    }))
+}
 
 /// What is wrong with a single part.
 fn problem(mesh: &Mesh, bones: PartBones, textures: PartTextures<'_>) -> Option<PartProblem> {
-    let gpu = gpu()?;
+    let gpu = promised()?;
     let desc = PartDesc { label: "ear", mesh, first_weight: 0, kind: PartKind::Skin, bones, textures };
     match AvatarModel::new(&gpu.device, &gpu.queue, &[desc], 2) {
         Err(ModelError::Part { label, problem }) => {
@@ -122,7 +134,7 @@ fn a_texture_beyond_the_limit_is_shrunk() {
 
 #[test]
 fn a_palette_beyond_the_limit_is_an_error() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = promised() else { return };
     let found = 3_000_000;
     let refused = AvatarModel::new(&gpu.device, &gpu.queue, &[], found).map(|model| model.palette_len());
     assert_eq!(refused, Err(ModelError::PaletteTooLarge { found, limit: (128 << 20) / 48 }));

@@ -13,6 +13,7 @@ mod hair_shadows;
 mod strands;
 mod targets;
 mod frames;
+mod limits;
 mod pixels;
 mod views;
 mod mirror;
