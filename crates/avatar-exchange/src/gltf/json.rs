@@ -1,15 +1,15 @@
 use crate::ImportError;
 use crate::error::quoted;
-use gltf::json::{Root, deserialize};
+use gltf::json::Root;
 use serde_json::{Value, json};
 
 /// The structures of a JSON text, and how many channels of animations had no node to move.
 pub(super) fn parse(text: &[u8]) -> Result<(Root, usize), ImportError> {
-    let first = match deserialize::from_slice(text) {
+    let first = match Root::from_slice(text) {
         Ok(root) => return Ok((root, 0)),
         Err(error) => error,
     };
-    if let Ok(mut value) = deserialize::from_slice::<Value>(text) {
+    if let Ok(mut value) = serde_json::from_slice::<Value>(text) {
         if let Some(error) = other_version(&value) {
             return Err(error);
         }
@@ -18,7 +18,7 @@ pub(super) fn parse(text: &[u8]) -> Result<(Root, usize), ImportError> {
         let dropped = drop_channels_without_node(&mut value);
         if add_nodes_to_scenes(&mut value) + dropped > 0 {
             let text = serde_json::to_vec(&value).unwrap_or_default();
-            return deserialize::from_slice(&text).map(|root| (root, dropped)).map_err(|error| wrong(&error));
+            return Root::from_slice(&text).map(|root| (root, dropped)).map_err(|error| wrong(&error));
         }
     }
     Err(wrong(&first))
