@@ -1,6 +1,7 @@
 //! What runs every frame allocates nothing.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "all/common/mod.rs"]
 mod common;
 
 use avatar_mesh::drivers::{Input, Rule, ShapeDrivers, ShapeRule};

@@ -6,22 +6,9 @@
     reason = "a test: it may panic and read files"
 )]
 
-use avatar_pack::{FaceState, Gaze, MemorySource, Pack};
+use crate::common::marsienne;
+use avatar_pack::{FaceState, Gaze, Pack};
 use glam::{DVec3, Vec3};
-use std::path::Path;
-
-fn marsienne() -> Pack {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne");
-    let mut source = MemorySource::default();
-    for entry in std::fs::read_dir(folder).expect("the built-in avatar") {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().into_string().expect("a name");
-        if !name.ends_with(".png") {
-            source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
-        }
-    }
-    Pack::load(&source).expect("a good pack")
-}
 
 /// Numbers from −1 to 1, the same ones each time.
 struct Random(u64);

@@ -1,11 +1,9 @@
 //! Keys in time: the weights between them, and edits.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::Random;
 use avatar_mesh::sequence::{Between, Sequence, SequenceError, SequenceKey};
 use avatar_mesh::{Mesh, ShapeNormals, blend};
-use common::Random;
 use glam::Vec3;
 use pose_anim::Easing;
 use proptest::prelude::*;

@@ -6,10 +6,8 @@
     reason = "a test: it may panic and look at the clock"
 )]
 
-mod common;
-
+use crate::common::{Random, edit_offset};
 use avatar_mesh::{Mesh, Offsets, Shape, Skinning, deform, raw, weld, weld_positions};
-use common::{Random, edit_offset};
 use glam::{Affine3A, Vec3, Vec4};
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
@@ -164,7 +162,7 @@ fn every_attribute_that_shows_keeps_vertices_apart() {
 #[test]
 fn rigid_parts_and_empty_meshes_weld_as_well() {
     assert_eq!(weld(&Mesh::default()).mesh, Mesh::default());
-    let one = common::bytes(&[1., 2., 3., 0., 0., 0., 0., 1.]);
+    let one = crate::common::bytes(&[1., 2., 3., 0., 0., 0., 0., 1.]);
     let indices: Vec<u8> = [2u32, 1, 0].iter().flat_map(|i| i.to_le_bytes()).collect();
     let welded = weld(&raw::read_rigid(&one.repeat(3), &indices).unwrap());
     assert_eq!(welded.mesh.positions, [Vec3::new(1., 2., 3.)]);

@@ -6,12 +6,10 @@
     reason = "a test: it may panic and read files"
 )]
 
-mod common;
-
+use crate::common::{Random, shared_data};
 use avatar_mesh::{
     Bounds, DeformBounds, FACE_BONES, Mesh, Offsets, Shape, ShapeNormals, Skinning, blend, deform, raw,
 };
-use common::{Random, shared_data};
 use glam::{Affine3A, Mat3, Quat, Vec3};
 use proptest::prelude::*;
 

@@ -11,6 +11,8 @@ pub(crate) fn shared_data() -> Option<std::path::PathBuf> {
     if folder.is_dir() {
         return Some(folder);
     }
+    let required = std::env::var_os("MIMIK_REQUIRE_DATA").is_some();
+    assert!(!required, "expected data in {} (MIMIK_REQUIRE_DATA is set), found no folder", folder.display());
     // Past the harness, which keeps the output of tests that pass to itself.
     let skipped = format_args!("SKIPPED: {} is not there\n", folder.display());
     let _ = std::io::Write::write_fmt(&mut std::io::stderr(), skipped);

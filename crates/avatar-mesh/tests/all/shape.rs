@@ -6,10 +6,8 @@
     reason = "a test: it may panic and read files"
 )]
 
-mod common;
-
+use crate::common::{Random, shared_data};
 use avatar_mesh::{Bounds, Deformed, Mesh, Winding, obj, raw};
-use common::{Random, shared_data};
 use glam::{Vec2, Vec3};
 
 /// An octahedron with outward normals and counter-clockwise triangles.

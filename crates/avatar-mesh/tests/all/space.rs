@@ -1,12 +1,10 @@
 //! Points of shape spaces, their mixtures, and meshes that lack some axes.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::Random;
 use avatar_mesh::drivers::LengthError;
 use avatar_mesh::space::{Coordinates, ShapeSpace};
 use avatar_mesh::{Mesh, Shape, ShapeNormals, blend};
-use common::Random;
 use glam::Vec3;
 use proptest::prelude::*;
 

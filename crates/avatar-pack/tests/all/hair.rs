@@ -6,33 +6,16 @@
     reason = "a test: it may panic and read files"
 )]
 
+use crate::common::{folder_of, golden};
 use avatar_groom::{Groom, Hair, Region, Style};
 use avatar_pack::{MemorySource, Pack, PackError, PackProblem, Texture, Textures, load_hair};
 use glam::{Vec2, Vec3};
-use std::path::Path;
 
 const FILE: &str = "hair.toml";
 
-fn folder(name: &str, wanted: impl Fn(&str) -> bool) -> MemorySource {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name);
-    let mut source = MemorySource::default();
-    for entry in std::fs::read_dir(folder).expect("a pack") {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().into_string().expect("a name");
-        if wanted(&name) {
-            source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
-        }
-    }
-    source
-}
-
-fn golden() -> MemorySource {
-    folder("tests/golden/pack", |_| true)
-}
-
 /// The built-in avatar, with no other texture than that of hair.
 fn built_in() -> (Pack, Textures) {
-    let source = folder("assets/marsienne", |name| !name.ends_with(".png") || name == "HairMap.png");
+    let source = folder_of("assets/marsienne", |name| !name.ends_with(".png") || name == "HairMap.png");
     (Pack::load(&source).expect("the built-in avatar"), Textures::load(&source))
 }
 

@@ -1,10 +1,8 @@
 //! Deformation against the formulas of the crate documentation written out in f64, and the facts that follow from them.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::Random;
 use avatar_mesh::{DeformError, Deformed, Mesh, Shape, Skinning, deform};
-use common::Random;
 use glam::{Affine3A, Quat, Vec3};
 use proptest::prelude::*;
 

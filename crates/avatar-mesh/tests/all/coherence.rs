@@ -1,10 +1,8 @@
 //! Which geometries can be shapes of one mesh.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::Random;
 use avatar_mesh::coherence::{CoherenceError, FaceMatch, Faces, Geometry, Mismatch, check};
-use common::Random;
 use glam::Vec3;
 use proptest::prelude::*;
 

@@ -6,6 +6,7 @@
     reason = "a test: it may panic and read files"
 )]
 
+use crate::common::folder;
 use avatar_exchange::{Node, RawScene, Scene, ScenePart, Skin, Transform, Trs, glb, gltf};
 use avatar_mesh::{FACE_PARTS, Mesh, Shape, Skinning};
 use avatar_pack::{
@@ -13,21 +14,9 @@ use avatar_pack::{
 };
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use pose_anim::ClipSet;
-use std::path::Path;
 
 /// Differences are parts of the avatar's size.
 const TOLERANCE: f32 = 1e-6;
-
-fn source(folder: &str) -> MemorySource {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
-    let mut source = MemorySource::default();
-    for entry in std::fs::read_dir(path).expect("the folder") {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().into_string().expect("a name");
-        source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
-    }
-    source
-}
 
 fn loaded(files: &RawFiles) -> (MemorySource, Pack) {
     let source = MemorySource { files: files.files.iter().cloned().collect() };
@@ -68,7 +57,7 @@ fn poses(pack: &Pack) -> Vec<Vec<(&str, f32)>> {
 #[test]
 fn a_pack_of_the_format_comes_back_to_the_bit() {
     for folder in ["assets/marsienne", "tests/golden/pack"] {
-        let own = source(folder);
+        let own = self::folder(folder);
         let (mut pack, textures) = (Pack::load(&own).expect("a pack"), Textures::load(&own));
         let clips = "[[clip]]\nname = 'nod'\nkey = 'n'\nwrap = 'loop'\n[clip.tracks]\n'head.bow' = \
             [{ t = 0, v = 0.3, slopes = [0, -1.5] }, { t = 0.1, v = 2, transition = 'sine-in' }, { t = 1.7, v = 0 }]";
@@ -97,7 +86,7 @@ fn a_pack_of_the_format_comes_back_to_the_bit() {
 
 #[test]
 fn an_avatar_that_went_through_glb_is_the_same_in_all_poses() {
-    let own = source("assets/marsienne");
+    let own = folder("assets/marsienne");
     let (pack, textures) = (Pack::load(&own).expect("a pack"), Textures::load(&own));
     let bytes = glb::write_raw(&export(&pack, &textures)).expect("a GLB");
     let scene = gltf::read("a.glb", &bytes, &mut |_| Err(String::new())).expect("a scene");

@@ -7,10 +7,8 @@
     reason = "a test: it may panic and read files"
 )]
 
-mod common;
-
+use crate::common::shared_data;
 use avatar_mesh::{Bounds, FACE_BONES, deform, raw};
-use common::shared_data;
 use glam::{Affine3A, Mat4, Vec3};
 use serde_json::Value;
 

@@ -1,10 +1,8 @@
 //! In-between shapes, combinations, and rules that cannot be followed.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::Random;
 use avatar_mesh::drivers::{DriversError, Input, LengthError, Rule, ShapeDrivers, ShapeRule};
-use common::Random;
 use proptest::prelude::*;
 
 fn driver(name: &str) -> Input {

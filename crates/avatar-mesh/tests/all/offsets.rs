@@ -1,13 +1,11 @@
 //! Shapes that store moved vertices only are those that store all; normals recomputed or left alone; tangents.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::{Random, edit_offset};
 use avatar_mesh::{
     DeformError, Deformed, Mesh, Offsets, OffsetsError, Shape, ShapeNormals, SmoothNormals, blend, deform,
     deform_with,
 };
-use common::{Random, edit_offset};
 use glam::{Affine3A, Quat, Vec2, Vec3, Vec3Swizzles, Vec4};
 use proptest::prelude::*;
 

@@ -1,11 +1,9 @@
 //! The mathematics of blend shapes: relative and absolute forms, normalised weights, extrapolation.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::Random;
 use avatar_mesh::weights::{VertexCountError, base_weight, clamp, normalise};
 use avatar_mesh::{Mesh, Offsets, Shape, ShapeNormals, blend};
-use common::Random;
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 

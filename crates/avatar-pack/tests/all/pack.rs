@@ -6,22 +6,11 @@
     reason = "a test: it may panic and read files"
 )]
 
+use crate::common::golden;
 use avatar_pack::{
     FaceState, MemorySource, Pack, PackProblem, Source, SourceError, Texture, Textures, Warning,
 };
 use std::borrow::Cow;
-use std::path::Path;
-
-fn golden() -> MemorySource {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/pack");
-    let mut source = MemorySource::default();
-    for entry in std::fs::read_dir(folder).expect("the golden pack") {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().into_string().expect("a name");
-        source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
-    }
-    source
-}
 
 fn png(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());

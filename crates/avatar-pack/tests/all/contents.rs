@@ -1,22 +1,9 @@
 //! Contents that contradict each other make no pack.
 #![allow(clippy::expect_used, clippy::disallowed_methods, reason = "a test: it may panic and read files")]
 
-use avatar_pack::{ContentsError, MemorySource, Pack, PackContents};
+use crate::common::marsienne;
+use avatar_pack::{ContentsError, Pack, PackContents};
 use pose_anim::{BindError, Clip, ClipSet, ControlTable, Easing, Key, Pose, PoseSet, Track};
-use std::path::Path;
-
-fn marsienne() -> Pack {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne");
-    let mut source = MemorySource::default();
-    for entry in std::fs::read_dir(folder).expect("the built-in avatar") {
-        let path = entry.expect("an entry").path();
-        let name = path.file_name().and_then(|name| name.to_str()).expect("a name").to_owned();
-        if !name.ends_with(".png") {
-            source.files.insert(name, std::fs::read(path).expect("a file"));
-        }
-    }
-    Pack::load(&source).expect("a good pack")
-}
 
 fn refused(change: impl FnOnce(&mut PackContents)) -> ContentsError {
     let mut contents = marsienne().into_contents();

@@ -6,24 +6,11 @@
     reason = "a test: it may panic and read files"
 )]
 
+use crate::common::marsienne;
 use avatar_mesh::{Deformed, PartKind};
-use avatar_pack::{FaceState, MemorySource, Pack, Reach};
+use avatar_pack::{FaceState, Pack, Reach};
 use glam::Vec3;
 use std::collections::HashSet;
-use std::path::Path;
-
-fn marsienne() -> Pack {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne");
-    let mut source = MemorySource::default();
-    for entry in std::fs::read_dir(folder).expect("the built-in avatar") {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().into_string().expect("a name");
-        if !name.ends_with(".png") {
-            source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
-        }
-    }
-    Pack::load(&source).expect("a good pack")
-}
 
 fn part(pack: &Pack, name: &str) -> usize {
     pack.parts().iter().position(|part| part.name == name).expect(name)

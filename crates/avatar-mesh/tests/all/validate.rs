@@ -1,10 +1,8 @@
 //! What a valid mesh is: each error at its vertex or triangle, each warning, and the thresholds from both sides.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
+use crate::common::{Random, edit_offset};
 use avatar_mesh::{Mesh, MeshError, MeshWarning, Offsets, Shape};
-use common::{Random, edit_offset};
 use glam::Vec3;
 
 const VERTICES: usize = 10;

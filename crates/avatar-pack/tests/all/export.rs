@@ -6,33 +6,17 @@
     reason = "a test: it may panic and read files"
 )]
 
+use crate::common::{folder, golden, shared};
 use avatar_exchange::{AlphaMode, RawScene, Transform, glb, gltf};
 use avatar_mesh::{Winding, raw};
 use avatar_pack::{FaceState, Import, MemorySource, Pack, Textures, export};
-use std::io::Write;
-use std::path::Path;
 
 /// Differences are parts of the avatar's size: single precision tells 1e-7 of it.
 const TOLERANCE: f32 = 1e-6;
 
 /// The files of a folder beside the workspace's crates; where it is missing, that is said past the harness.
-fn source(folder: &str) -> Option<MemorySource> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
-    let Ok(entries) = std::fs::read_dir(&path) else {
-        let _ = writeln!(std::io::stderr(), "SKIPPED: {} is not there", path.display());
-        return None;
-    };
-    let mut source = MemorySource::default();
-    for entry in entries {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().into_string().expect("a name");
-        source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
-    }
-    Some(source)
-}
-
 fn marsienne() -> MemorySource {
-    source("assets/marsienne").expect("the default avatar")
+    folder("assets/marsienne")
 }
 
 fn again(scene: &RawScene) -> Import {
@@ -127,13 +111,13 @@ fn the_default_avatar_comes_back() {
 
 #[test]
 fn the_golden_pack_comes_back() {
-    comes_back(&source("tests/golden/pack").expect("the golden pack"));
+    comes_back(&golden());
 }
 
 /// Its right eye is a mirror copy with the left one's triangles, as the original's.
 #[test]
 fn a_face_with_mirrored_parts_comes_back() {
-    let Some(source) = source("../shared/data/avatar-course-format-makehuman") else { return };
+    let Some(source) = shared("avatar-course-format-makehuman") else { return };
     comes_back(&source);
 }
 

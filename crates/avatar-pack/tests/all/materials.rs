@@ -6,26 +6,15 @@
     reason = "a test: it may panic and read files"
 )]
 
+use crate::common::golden;
 use avatar_look::Materials;
 use avatar_mesh::{FACE_PARTS, PartKind};
 use avatar_pack::{
     MemorySource, Pack, PackError, PackProblem, Source, SourceError, Texture, Textures, load_materials,
 };
 use std::borrow::Cow;
-use std::path::Path;
 
 const FILE: &str = "materials.toml";
-
-fn golden() -> MemorySource {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/pack");
-    let mut source = MemorySource::default();
-    for entry in std::fs::read_dir(folder).expect("the golden pack") {
-        let entry = entry.expect("an entry");
-        let name = entry.file_name().into_string().expect("a name");
-        source.files.insert(name, std::fs::read(entry.path()).expect("a file"));
-    }
-    source
-}
 
 /// A source that has nothing but materials.
 fn only(bytes: impl Into<Vec<u8>>) -> MemorySource {

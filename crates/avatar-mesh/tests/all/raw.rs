@@ -6,10 +6,8 @@
     reason = "a test: it may panic and read files"
 )]
 
-mod common;
-
+use crate::common::{Random, bytes, shared_data};
 use avatar_mesh::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, MeshError, raw};
-use common::{Random, bytes, shared_data};
 use glam::{Vec2, Vec3};
 use raw::{RIGID_FLOATS, SKIN_FLOATS};
 

@@ -1,0 +1,16 @@
+//! Tests of avatar-mesh as its users see it, in one binary; those that count allocations have one of their own.
+
+mod common;
+mod blend;
+mod coherence;
+mod deform;
+mod deform_bounds;
+mod drivers;
+mod golden_makehuman;
+mod offsets;
+mod raw;
+mod sequence;
+mod shape;
+mod space;
+mod validate;
+mod weld;

@@ -1,0 +1,15 @@
+//! Tests of avatar-pack as its users see it, in one binary.
+
+mod common;
+mod contents;
+mod export;
+mod faces;
+mod gaze;
+mod hair;
+mod materials;
+mod pack;
+mod pictures;
+mod raw;
+mod reach;
+mod sliders;
+mod vrm;
