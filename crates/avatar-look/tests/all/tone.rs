@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 /// Light, and what Neutral and AgX make of it.
 fn chart() -> impl Iterator<Item = [[f32; 3]; 3]> {
-    include_str!("tone_chart.csv").lines().skip(1).map(|line| {
+    include_str!("../tone_chart.csv").lines().skip(1).map(|line| {
         let numbers: Vec<f32> = line.split(',').map_while(|number| number.parse().ok()).collect();
         assert_eq!(numbers.len(), 9, "{line}");
         [0, 3, 6].map(|i| [numbers[i], numbers[i + 1], numbers[i + 2]])
