@@ -5,7 +5,7 @@
     reason = "a program: it has arguments and writes files"
 )]
 
-#[path = "../tests/common/random.rs"]
+#[path = "../tests/all/support/random.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with tests")]
 mod random;
 

@@ -12,9 +12,10 @@
 //! # Ok::<(), avatar_exchange::ImportError>(())
 //! ```
 
-use crate::text::{at_line, decode, float, number, shown, stem};
-use crate::{
-    Channel, ChannelTarget, Clip, ImportError, Interpolation, Node, Note, RawScene, Scene, Transform, Trs,
+use crate::build::text::{at_line, decode, float, number, shown, stem};
+use crate::scene::{
+    Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Node, Note, RawScene, Scene,
+    Transform, Trs,
 };
 use glam::{DQuat, DVec3, Quat, Vec3};
 
@@ -192,7 +193,7 @@ fn motion(lines: &mut Lines<'_>, name: &str, joints: Vec<Joint>) -> Result<RawSc
     for frame in 0..if numbers == 0 { 0 } else { frames } {
         let text = lines.expect(&format!("frame {frame} of {frames}"))?;
         let line = lines.line;
-        let time = (frame as f64 * frame_secs) as f32;
+        let time = frame as f64 * frame_secs;
         let mut words = text.split_whitespace();
         let mut channels = clip.channels.iter_mut().peekable();
         for (node, joint) in joints.iter().enumerate() {
@@ -212,7 +213,7 @@ fn motion(lines: &mut Lines<'_>, name: &str, joints: Vec<Joint>) -> Result<RawSc
     // Recorders are known to write a frame more than they tell.
     if lines.next().is_some() && numbers > 0 {
         let text = format!("what follows the {frames} frames is left out");
-        raw.notes.push(Note { place: format!("line {}", lines.line), text });
+        raw.notes.push(Note::new(format!("line {}", lines.line), Finding::LeftOut(text)));
     }
     raw.nodes = joints
         .into_iter()

@@ -4,6 +4,9 @@
 //!  bytes ──reader──▶ RawScene ──Scene::from_raw──▶ Scene ──at(clip, time)──▶ ScenePose ──bones──▶ matrices
 //!                    (editable)                   (checked)                                         │
 //!                                                   parts ────────── avatar_mesh::deform ◀──────────┘
+//!
+//!  rooms:  scene ◀── build ◀── gltf ◀── vrm    obj ◀── target    fbx    collada    md5    bvh ◀── read
+//!            └────────────── write (glb)
 //! ```
 //!
 //! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up; a reader of a format
@@ -33,56 +36,37 @@
 //!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
-#[cfg(any(feature = "obj", feature = "md5"))]
-mod angle_normals;
-#[allow(dead_code, reason = "which readers are built in decides what of it is used")]
-mod assemble;
-#[cfg(feature = "bvh")]
-pub mod bvh;
-#[cfg(feature = "collada")]
-pub mod collada;
-#[cfg(any(feature = "collada", feature = "fbx"))]
-mod corners;
-mod error;
-mod evaluate;
-#[cfg(feature = "fbx")]
-pub mod fbx;
-mod freeze;
+mod scene;
+mod build;
 #[cfg(feature = "gltf")]
 pub mod gltf;
-#[cfg(feature = "gltf")]
-mod gltf_write;
-mod interpolate;
-mod material;
-#[cfg(feature = "md5")]
-pub mod md5;
-mod normals;
-#[cfg(feature = "obj")]
-pub mod obj;
-mod read;
-#[cfg(any(feature = "collada", feature = "fbx"))]
-mod resolve;
-mod scene;
-#[cfg(feature = "target")]
-pub mod target;
-#[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
-mod text;
 #[cfg(feature = "vrm")]
 pub mod vrm;
+#[cfg(feature = "obj")]
+pub mod obj;
+#[cfg(feature = "target")]
+pub mod target;
+#[cfg(feature = "fbx")]
+pub mod fbx;
+#[cfg(feature = "collada")]
+pub mod collada;
+#[cfg(feature = "md5")]
+pub mod md5;
+#[cfg(feature = "bvh")]
+pub mod bvh;
+mod read;
+#[cfg(feature = "gltf")]
+mod write;
 
 /// Writing GLB, the binary form of glTF 2.0; [`gltf`] reads it.
 #[cfg(feature = "gltf")]
 pub mod glb {
-    pub use crate::gltf_write::{ExportError, write, write_raw};
+    pub use crate::write::{ExportError, write, write_raw};
 }
 
-pub use error::ImportError;
-pub use evaluate::ScenePose;
-pub use freeze::{Palette, PaletteEntry, Scene};
-pub use material::{AlphaMode, Material, SceneImage};
-pub use normals::deform_unevenly;
-pub use read::{FRAMES_PER_SECOND, Format, Resolve, TextFile, read};
+pub use read::{FRAMES_PER_SECOND, Format, read};
 pub use scene::{
-    Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, Note, RawScene, ScenePart, Skin,
-    Transform, Trs,
+    AlphaMode, Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Material, Node,
+    NodeDrivers, Note, Palette, PaletteEntry, RawScene, Resolve, Scene, SceneGraph, SceneImage, ScenePart,
+    ScenePose, Skin, TextFile, Transform, Trs, deform_unevenly,
 };

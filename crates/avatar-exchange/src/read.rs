@@ -1,17 +1,4 @@
-use crate::{ImportError, Scene};
-
-/// Brings a file that another one refers to: takes a relative path with `/` between folders, never absolute and never
-/// leading upwards, and returns the file's bytes, or what went wrong.
-pub type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
-
-/// A file with its name.
-#[derive(Clone, Copy, Debug)]
-pub struct TextFile<'a> {
-    /// Name, for messages; what a file brings is called like it where it has no name itself.
-    pub file: &'a str,
-    /// Contents.
-    pub bytes: &'a [u8],
-}
+use crate::scene::{ImportError, Resolve, Scene, TextFile};
 
 /// A format that scenes are read from. Those whose features are off are known, but not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -68,7 +55,7 @@ impl Format {
 }
 
 /// Frames of a sequence of OBJ files in a second, where nothing says their times.
-pub const FRAMES_PER_SECOND: f32 = 24.0;
+pub const FRAMES_PER_SECOND: f64 = 24.0;
 
 fn extension(file: &str) -> Option<String> {
     let name = file.rsplit(['/', '\\']).next()?;
@@ -148,7 +135,7 @@ fn read_obj(
         let all = std::iter::once(TextFile { file, bytes }).chain(further.iter().copied());
         let frames: Vec<obj::ObjFrame<'_>> = (all.enumerate())
             .map(|(index, TextFile { file, bytes })| {
-                let time_secs = index as f32 / FRAMES_PER_SECOND;
+                let time_secs = index as f64 / FRAMES_PER_SECOND;
                 obj::ObjFrame { file, bytes, time_secs }
             })
             .collect();

@@ -14,9 +14,9 @@
 //! # Ok::<(), avatar_exchange::ImportError>(())
 //! ```
 
-use crate::ImportError;
+use crate::build::text::{at_line, decode, float, shown, stem};
 use crate::obj::ObjFile;
-use crate::text::{at_line, decode, float, shown, stem};
+use crate::scene::ImportError;
 use glam::Vec3;
 
 /// Reads offsets of some of `vertices` vertices, in the order of the file.

@@ -3,7 +3,7 @@
 use crate::textures::decode;
 use crate::{Pack, Part, Textures};
 use avatar_exchange::{
-    AlphaMode, Channel, ChannelTarget, Clip, Interpolation, Material, Node, Note, RawScene, Scene,
+    AlphaMode, Channel, ChannelTarget, Clip, Finding, Interpolation, Material, Node, Note, RawScene, Scene,
     SceneImage, ScenePart, Skin, Transform, Trs,
 };
 use avatar_mesh::{Mesh, PartKind, Skinning, Winding};
@@ -53,8 +53,7 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     }
     scene.images = images.encoded;
     scene.clips = clips(pack, &scene.nodes, &shapes_of_nodes, &mut scene.notes);
-    let mut note =
-        |text: &str| scene.notes.push(Note { place: "the avatar".to_owned(), text: text.to_owned() });
+    let mut note = |text: &str| scene.notes.push(Note::new("the avatar", Finding::left_out(text)));
     note("controls, couplings and times of poses are left out");
     if pack.sliders().is_some() {
         note("sliders are left out: in-between shapes have weights of their own");
@@ -155,7 +154,7 @@ fn clips(pack: &Pack, nodes: &[Node], shapes: &[(usize, Range<usize>)], notes: &
             Some(clip) => clips.push(clip),
             None => {
                 let place = format!("pose {:?}", pose.name);
-                notes.push(Note { place, text: "does not fit the controls, and is left out".to_owned() });
+                notes.push(Note::new(place, Finding::left_out("does not fit the controls, and is left out")));
             }
         }
     }
@@ -276,7 +275,7 @@ impl<'a> Images<'a> {
         };
         if let Err(error) = written {
             let text = format!("expected a picture that PNG can hold, found: {error}");
-            notes.push(Note { place: name.to_owned(), text });
+            notes.push(Note::new(name, Finding::Missing(text)));
             return None;
         }
         self.sources.push((picture, change));

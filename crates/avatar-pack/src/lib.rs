@@ -52,7 +52,7 @@ pub use face::{FaceError, FaceState};
 pub use gaze::Gaze;
 #[cfg(feature = "vrm")]
 pub use import::gaze_values;
-pub use import::{Import, ImportFailure, ImportReport, Role, ShapeSet};
+pub use import::{Import, ImportFailure, ImportReport, Role, ShapeSet, leave_helpers_out};
 pub use load::{load_clips, load_hair, load_materials, load_poses};
 pub use motion::{MotionAt, MotionError, MotionSampler, SceneMotion};
 pub use pack::{Pack, PackContents, PaletteBone, Part};

@@ -1,12 +1,12 @@
 use crate::unique::unique_names;
-use avatar_exchange::{ChannelTarget, Clip, Scene, ScenePose, Transform};
+use avatar_exchange::{ChannelTarget, Clip, Node, Scene, SceneGraph, ScenePose, Transform};
 use glam::{Affine3A, DAffine3};
 use rig_core::JointId;
 
 /// The clips of an imported avatar, and what they do to it.
 #[derive(Clone, Debug)]
 pub struct SceneMotion {
-    scene: Scene,
+    graph: SceneGraph,
     joints: Vec<JointId>,
     node_from_parent: Vec<DAffine3>,
     first_shape: Vec<usize>,
@@ -22,12 +22,11 @@ struct Moved {
 }
 
 impl Moved {
-    fn by(clip: &Clip, scene: &Scene) -> Self {
+    fn by(clip: &Clip, nodes: &[Node]) -> Self {
         let mut moved = Self::default();
         for channel in &clip.channels {
-            let is_movable = |node: &usize| {
-                scene.nodes.get(*node).is_some_and(|node| matches!(node.local, Transform::Trs(_)))
-            };
+            let is_movable =
+                |node: &usize| nodes.get(*node).is_some_and(|node| matches!(node.local, Transform::Trs(_)));
             match channel.target {
                 ChannelTarget::Weights => moved.weights.push(channel.node),
                 // A node whose place is given as a matrix has none of what channels set.
@@ -77,24 +76,25 @@ impl SceneMotion {
         node_from_parent: Vec<DAffine3>,
         first_shape: Vec<usize>,
     ) -> Self {
-        let moved = scene.clips.iter().map(|clip| Moved::by(clip, &scene)).collect();
-        Self { scene, joints, node_from_parent, first_shape, moved }
+        let graph = scene.into_graph();
+        let moved = graph.clips().iter().map(|clip| Moved::by(clip, graph.nodes())).collect();
+        Self { graph, joints, node_from_parent, first_shape, moved }
     }
 
-    /// The scene that the avatar was made of.
-    pub fn scene(&self) -> &Scene {
-        &self.scene
+    /// The nodes and clips of the scene that the avatar was made of. Its meshes are the pack's parts.
+    pub fn graph(&self) -> &SceneGraph {
+        &self.graph
     }
 
     /// The place in [`crate::Pack::shapes`] of a shape at a node of the scene.
     pub fn shape(&self, node: usize, shape: usize) -> Option<usize> {
-        let shapes = self.scene.nodes.get(node)?.weights.len();
+        let shapes = self.graph.nodes().get(node)?.weights.len();
         (shape < shapes).then(|| self.first_shape.get(node).map(|first| first + shape)).flatten()
     }
 
     /// Names of the clips; those without get a number.
     pub fn clips(&self) -> Vec<String> {
-        unique_names(self.scene.clips.iter().map(|clip| clip.name.as_str()), "clip")
+        unique_names(self.graph.clips().iter().map(|clip| clip.name.as_str()), "clip")
     }
 
     /// How long a clip is, in seconds.
@@ -102,7 +102,7 @@ impl SceneMotion {
     /// # Errors
     /// A clip that there is not.
     pub fn duration_secs(&self, clip: &str) -> Result<f64, MotionError> {
-        Ok(self.scene.clips[self.find(clip)?].duration_secs().into())
+        Ok(self.graph.clips()[self.find(clip)?].duration_secs())
     }
 
     /// What a clip sets at a time in seconds; before its first key and after its last one these hold.
@@ -120,8 +120,8 @@ impl SceneMotion {
     /// # Errors
     /// A clip that there is not, by its place in [`SceneMotion::clips`].
     pub fn sampler(&self, clip: usize) -> Result<MotionSampler, MotionError> {
-        match self.scene.clips.get(clip) {
-            Some(_) => Ok(MotionSampler { clip, pose: self.scene.rest(), at: MotionAt::default() }),
+        match self.graph.clips().get(clip) {
+            Some(_) => Ok(MotionSampler { clip, pose: self.graph.rest(), at: MotionAt::default() }),
             None => Err(self.missing(&format!("number {clip}"))),
         }
     }
@@ -131,12 +131,12 @@ impl SceneMotion {
         let MotionSampler { clip, pose, at } = sampler;
         at.locals.clear();
         at.weights.clear();
-        if self.scene.apply(*clip, time_secs as f32, pose).is_err() {
+        if self.graph.apply(*clip, time_secs, pose).is_err() {
             return at;
         }
         let Some(moved) = self.moved.get(*clip) else { return at };
         for &node in &moved.locals {
-            let (local, rest) = (&pose.locals[node], &self.scene.nodes[node].local);
+            let (local, rest) = (&pose.locals[node], &self.graph.nodes()[node].local);
             let here = match local == rest {
                 // To the bit, as without the clip.
                 true => Affine3A::IDENTITY,

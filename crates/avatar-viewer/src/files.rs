@@ -1,6 +1,7 @@
 use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
-use avatar_exchange::{Format, TextFile};
+use avatar_exchange::vrm::VrmModel;
+use avatar_exchange::{Format, Scene, TextFile};
 use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning, load_poses};
 use avatar_stage::DefaultFace;
 use pose_anim::{ClipSet, ControlTable, PoseSet};
@@ -13,8 +14,8 @@ use std::path::{Component, Path, PathBuf};
 pub(crate) enum Files {
     BuiltIn,
     Folder(PathBuf),
-    /// A file of an interchange format, as an avatar.
-    File(PathBuf, Box<Import>),
+    /// A file of an interchange format with the further files that belong to it, as an avatar.
+    File(PathBuf, Vec<PathBuf>, Box<Import>),
 }
 
 impl Files {
@@ -34,7 +35,10 @@ impl Files {
                     path.display()
                 )
             }
-            Ok(_) => import(path, further).map(|import| Self::File(path.to_owned(), Box::new(import))),
+            Ok(_) => {
+                let import = Box::new(import(path, further)?);
+                Ok(Self::File(path.to_owned(), further.to_vec(), import))
+            }
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 bail!(
                     "{}: expected the folder or file of an avatar (or a verb), found nothing of that name",
@@ -50,7 +54,7 @@ impl Files {
     pub(crate) fn name(&self) -> String {
         match self {
             Self::BuiltIn => "marsienne".to_owned(),
-            Self::Folder(path) | Self::File(path, _) => {
+            Self::Folder(path) | Self::File(path, ..) => {
                 path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
             }
         }
@@ -77,7 +81,7 @@ impl Files {
         let mut pack = match self {
             Self::Folder(_) => return Ok(Pack::load(self)?),
             Self::BuiltIn => Pack::load(self)?,
-            Self::File(_, import) => import.pack.clone(),
+            Self::File(.., import) => import.pack.clone(),
         };
         // Such an avatar has no folder of its own: what its user has made is elsewhere.
         let store = Store::of(self);
@@ -95,7 +99,7 @@ impl Files {
     /// The poses that the avatar has where its user made none.
     pub(crate) fn usual_poses(&self, controls: &ControlTable) -> Result<PoseSet> {
         match self {
-            Self::File(_, import) => Ok(import.pack.poses().clone()),
+            Self::File(.., import) => Ok(import.pack.poses().clone()),
             _ => Ok(load_poses(self, controls)?),
         }
     }
@@ -104,7 +108,7 @@ impl Files {
     pub(crate) fn load_pack_in_any_case(&self) -> Result<Pack> {
         self.load_pack().or_else(|error| {
             let pack = match self {
-                Self::File(_, import) => Ok(import.pack.clone()),
+                Self::File(.., import) => Ok(import.pack.clone()),
                 _ => Pack::load(&WithoutBooks(self)),
             };
             match pack {
@@ -120,20 +124,32 @@ impl Files {
     /// The pictures with their warnings, which are not told here.
     pub(crate) fn read_textures(&self) -> Textures {
         match self {
-            Self::File(_, import) => import.textures.clone(),
+            Self::File(.., import) => import.textures.clone(),
             _ => Textures::load(self),
         }
     }
 
+    /// The scene of a file of an interchange format, which is read again: an avatar keeps what moves of it, not its meshes
+    /// and pictures as the file has them.
+    pub(crate) fn read_scene(&self) -> Result<Option<Scene>> {
+        let Self::File(path, further, _) = self else { return Ok(None) };
+        let mut scene = match read(path, further)? {
+            FileScene::Vrm(model) => model.scene,
+            FileScene::Other(scene) => *scene,
+        };
+        avatar_pack::leave_helpers_out(&mut scene);
+        Ok(Some(scene))
+    }
+
     /// Whether it says more than a scene can hold.
     pub(crate) fn is_vrm(&self) -> bool {
-        matches!(self, Self::File(path, _) if Format::of_name(&path.to_string_lossy()) == Some(Format::Vrm))
+        matches!(self, Self::File(path, ..) if Format::of_name(&path.to_string_lossy()) == Some(Format::Vrm))
     }
 
     /// What became of a file of an interchange format.
     pub(crate) fn report(&self) -> Option<&ImportReport> {
         match self {
-            Self::File(_, import) => Some(&import.report),
+            Self::File(.., import) => Some(&import.report),
             _ => None,
         }
     }
@@ -144,6 +160,20 @@ const MAX_FILE_BYTES: u64 = 4 << 30;
 
 /// Reads an avatar from a file of an interchange format, what belongs to it, and what it refers to from its folder.
 fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
+    let import = match read(path, further)? {
+        FileScene::Vrm(model) => Import::from_vrm(*model),
+        FileScene::Other(scene) => Import::from_scene(*scene),
+    };
+    import.map_err(|error| anyhow!("{}: {error}", path.display()))
+}
+
+/// What a file of an interchange format has.
+enum FileScene {
+    Vrm(Box<VrmModel>),
+    Other(Box<Scene>),
+}
+
+fn read(path: &Path, further: &[PathBuf]) -> Result<FileScene> {
     let file = path.display().to_string();
     let bytes = read_file(path).map_err(|reason| anyhow!("{file}: {reason}"))?;
     let mut files = Vec::new();
@@ -161,10 +191,10 @@ fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     let mut resolve = |name: &str| read_file(&folder.join(inside(name)?));
     if Format::of_name(&file) == Some(Format::Vrm) && further.is_empty() {
         let model = avatar_exchange::vrm::read(&file, &bytes, &mut resolve)?;
-        return Import::from_vrm(model).map_err(|error| anyhow!("{file}: {error}"));
+        return Ok(FileScene::Vrm(Box::new(model)));
     }
     let scene = avatar_exchange::read(&file, &bytes, &further, &mut resolve)?;
-    Import::from_scene(scene).map_err(|error| anyhow!("{file}: {error}"))
+    Ok(FileScene::Other(Box::new(scene)))
 }
 
 /// A file, or those files of a folder that may belong to `first`, in the order of their names.
@@ -268,7 +298,7 @@ impl Source for Files {
         match self {
             Self::BuiltIn => DefaultFace.locate(name),
             Self::Folder(folder) => folder.join(name).display().to_string(),
-            Self::File(path, _) => path.display().to_string(),
+            Self::File(path, ..) => path.display().to_string(),
         }
     }
 }

@@ -99,7 +99,7 @@ impl Store {
 fn path_of(files: &Files, which: usize) -> Option<PathBuf> {
     match files {
         Files::Folder(folder) => Some(folder.join(NAMES[which])),
-        Files::File(path, _) => {
+        Files::File(path, ..) => {
             let mut name = path.file_name()?.to_owned();
             name.push(format!(".{}", NAMES[which]));
             Some(path.with_file_name(name))

@@ -7,7 +7,9 @@ use super::part::WeightNodes;
 use super::sampler::Sampler;
 use super::transform::{Kind, Step, product};
 use super::xml::At;
-use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Transform, Trs};
+use crate::scene::{
+    Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Transform, Trs, widen,
+};
 use glam::{DAffine3, DMat4, DQuat};
 use std::collections::{BTreeMap, HashSet};
 
@@ -92,7 +94,8 @@ impl<'a> Reader<'a> {
             }
         }
         if goals.is_empty() {
-            self.note(at, format!("it moves '{target}', which is left out"));
+            let text = format!("it moves '{target}', which is left out");
+            self.note(at, Finding::LeftOut(text));
         }
         for goal in goals {
             let sampler = self.sampler(at.target("source")?)?;
@@ -175,11 +178,11 @@ impl<'a> Reader<'a> {
         let (times, values) = self.sample(&samplers, curved, cost, window, value)?;
         let rest = self.scene.nodes[node].local;
         if let Transform::Matrix(matrix) = rest {
-            let trs = parts(DMat4::from(crate::scene::widen(&matrix)));
+            let trs = parts(DMat4::from(widen(&matrix)));
             self.scene.nodes[node].local = Transform::Trs(trs);
             let name = self.scene.nodes[node].name.clone();
             let text = format!("node {node} '{name}' is moved, so the shear in its transform is left out");
-            self.note(self.tree.root(), text);
+            self.note(self.tree.root(), Finding::LeftOut(text));
         }
         let pick = |range: std::ops::Range<usize>| {
             values.iter().flat_map(|value| &value[range.clone()]).copied().collect()
@@ -198,7 +201,7 @@ impl<'a> Reader<'a> {
         cost: usize,
         window: Window,
         value: impl Fn(f64, bool) -> Vec<f32>,
-    ) -> Result<(Vec<f32>, Vec<Vec<f32>>), ImportError> {
+    ) -> Result<(Vec<f64>, Vec<Vec<f32>>), ImportError> {
         let mut keys: Vec<f64> = tracks.iter().flat_map(|track| &track.sampler.times).copied().collect();
         keys.extend([window.0, window.1].into_iter().filter(|edge| *edge != 0.0 && *edge != f64::MAX));
         keys.retain(|key| (window.0..=window.1).contains(key));
@@ -209,17 +212,17 @@ impl<'a> Reader<'a> {
             let (before, after) = (value(key, false), value(key, true));
             self.take(self.tree.root(), cost)?;
             if number > 0 && before != after {
-                times.push((key - window.0) as f32);
+                times.push(key - window.0);
                 values.push(before);
             }
-            times.push((key - window.0) as f32);
+            times.push(key - window.0);
             values.push(after);
             let Some(next) = keys.get(number + 1).filter(|_| curved) else { continue };
             let pieces = ((next - key) * RATE).ceil().clamp(1.0, MAX_SAMPLES) as usize;
             self.take(self.tree.root(), cost.saturating_mul(pieces))?;
             for piece in 1..pieces {
                 let time = key + (next - key) * piece as f64 / pieces as f64;
-                times.push((time - window.0) as f32);
+                times.push(time - window.0);
                 values.push(value(time, true));
             }
         }
@@ -245,7 +248,7 @@ impl Track {
     }
 }
 
-fn push(clip: &mut Clip, node: usize, target: ChannelTarget, times: &[f32], values: Vec<f32>) {
+fn push(clip: &mut Clip, node: usize, target: ChannelTarget, times: &[f64], values: Vec<f32>) {
     if !times.is_empty() {
         let (times, interpolation) = (times.to_vec(), Interpolation::Linear);
         clip.channels.push(Channel { node, target, interpolation, times, values });

@@ -6,8 +6,9 @@ use super::node::Nodes;
 use super::source::inputs;
 use super::transform::row_major;
 use super::xml::At;
-use crate::corners::{Influences, unique_names};
-use crate::{ImportError, Skin};
+use crate::build::influences::Influences;
+use crate::build::names::unique_names;
+use crate::scene::{Finding, ImportError, Skin, narrow};
 use glam::{DAffine3, DMat4, Vec3};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -80,7 +81,7 @@ impl<'a> Reader<'a> {
             }
             let joint_from_mesh = joint_from_bind.map_or(DMat4::IDENTITY, row_major) * bind;
             skin.joints.push(joint);
-            skin.inverse_binds.push(crate::scene::narrow(DAffine3::from_mat4(joint_from_mesh)));
+            skin.inverse_binds.push(narrow(DAffine3::from_mat4(joint_from_mesh)));
         }
         let Ok(own) = u16::try_from(skin.joints.len()) else {
             return Err(joints.error("at most 65535 joints", skin.joints.len().to_string()));
@@ -88,17 +89,14 @@ impl<'a> Reader<'a> {
         let influences = self.influences(at, points, own)?;
         if influences.unweighted > 0 {
             skin.joints.push(node);
-            skin.inverse_binds.push(crate::scene::narrow(DAffine3::from_mat4(bind)));
-            self.note(
-                at,
-                format!("{} points without weights follow the mesh's own node", influences.unweighted),
-            );
+            skin.inverse_binds.push(narrow(DAffine3::from_mat4(bind)));
+            let text = format!("{} points without weights follow the mesh's own node", influences.unweighted);
+            self.note(at, Finding::Mended(text));
         }
         if influences.reduced > 0 {
-            self.note(
-                at,
-                format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced),
-            );
+            let text =
+                format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced);
+            self.note(at, Finding::Converted(text));
         }
         self.scene.skins.push(skin);
         Ok((self.scene.skins.len() - 1, influences))
@@ -174,11 +172,12 @@ impl<'a> Reader<'a> {
             let weight = weights.as_ref().and_then(|weights| weights.item(number)?.first().copied());
             morph.weights.push(weight.unwrap_or(0.0) as f32);
         }
-        for ((name, _), label) in morph.shapes.iter_mut().zip(unique_names(labels.into_iter())) {
+        for ((name, _), label) in morph.shapes.iter_mut().zip(unique_names(labels)) {
             *name = label;
         }
         if !morph.shapes.is_empty() {
-            self.note(at, "shapes move positions; the normals of their targets are left out");
+            let text = "shapes move positions; the normals of their targets are left out";
+            self.note(at, Finding::left_out(text));
         }
         Ok(morph)
     }

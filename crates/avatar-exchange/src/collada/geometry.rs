@@ -1,11 +1,11 @@
 //! Meshes: primitives with several indices for each corner.
 
 use super::Reader;
-use super::polygon::triangulate;
 use super::source::{Input, Source, inputs};
 use super::xml::At;
-use crate::ImportError;
-use crate::corners::{Corner, Corners};
+use crate::build::corners::{Corner, Corners};
+use crate::build::polygon::Cutter;
+use crate::scene::{Finding, ImportError};
 use glam::{Vec2, Vec3};
 use std::rc::Rc;
 
@@ -50,7 +50,7 @@ impl<'a> Reader<'a> {
     fn read_geometry(&mut self, at: At<'a>) -> Result<Geometry, ImportError> {
         let mut geometry = Geometry::default();
         let Some(mesh) = at.child("mesh") else {
-            self.note(at, "only meshes are read; this geometry is left out");
+            self.note(at, Finding::left_out("only meshes are read; this geometry is left out"));
             return Ok(geometry);
         };
         let Some(vertices) = mesh.child("vertices") else { return Ok(geometry) };
@@ -66,7 +66,7 @@ impl<'a> Reader<'a> {
                     let corners = self.primitive(primitive, vertices, &geometry.points)?;
                     geometry.primitives.push(Primitive { material, corners });
                 }
-                "lines" | "linestrips" => self.note(primitive, "lines are left out"),
+                "lines" | "linestrips" => self.note(primitive, Finding::left_out("lines are left out")),
                 _ => {}
             }
         }
@@ -86,7 +86,8 @@ impl<'a> Reader<'a> {
         let mut uvs: Vec<&Input<'a>> = all.iter().filter(|input| input.semantic == "TEXCOORD").collect();
         uvs.sort_by_key(|input| input.set);
         if uvs.len() > 1 {
-            self.note(at, format!("{} further sets of texture coordinates are left out", uvs.len() - 1));
+            let text = format!("{} further sets of texture coordinates are left out", uvs.len() - 1);
+            self.note(at, Finding::LeftOut(text));
         }
         let uv = uvs.first().map(|input| (input.offset, input.source));
         let of = |semantic| {
@@ -102,15 +103,16 @@ impl<'a> Reader<'a> {
     fn primitive(&mut self, at: At<'a>, vertices: At<'a>, points: &[Vec3]) -> Result<Corners, ImportError> {
         let mut corners = Corners::default();
         let Some(layout) = self.layout(at, vertices)? else {
-            self.note(at, "a primitive without vertices is left out");
+            self.note(at, Finding::left_out("a primitive without vertices is left out"));
             return Ok(corners);
         };
         let holes = at.all("ph").count();
         if holes > 0 {
-            self.note(at, format!("holes of {holes} polygons are left out"));
+            self.note(at, Finding::LeftOut(format!("holes of {holes} polygons are left out")));
         }
+        let (budget, cutter) = (&mut self.budget, &mut self.cutter);
         let mut add = |corner: [Corner; 3]| {
-            self.budget.take(3).map_err(|(expected, found)| at.error(expected, found))?;
+            budget.take(3, 1).map_err(|exceeded| exceeded.at(at.place()))?;
             corners.triangle(corner);
             Ok(())
         };
@@ -127,7 +129,7 @@ impl<'a> Reader<'a> {
                     let [a, b, c] = [three[0], three[1], three[2]];
                     add(if k % 2 == 0 { [a, b, c] } else { [b, a, c] })
                 })?,
-                "polygons" => polygon(&read, points, &mut add)?,
+                "polygons" => polygon(&read, points, cutter, &mut add)?,
                 _ => {
                     let counts: Vec<usize> =
                         at.child("vcount").map(|counts| counts.numbers()).transpose()?.unwrap_or_default();
@@ -138,14 +140,14 @@ impl<'a> Reader<'a> {
                                 at.error(format!("{count} corners of a polygon"), rest.len().to_string())
                             );
                         };
-                        polygon(these, points, &mut add)?;
+                        polygon(these, points, cutter, &mut add)?;
                         rest = others;
                     }
                 }
             }
         }
         if corners.lacks_normals() {
-            self.note(at, "normals were computed");
+            self.note(at, Finding::mended("normals were computed"));
         }
         Ok(corners)
     }
@@ -154,10 +156,11 @@ impl<'a> Reader<'a> {
 fn polygon(
     corners: &[Corner],
     points: &[Vec3],
+    cutter: &mut Cutter,
     add: &mut impl FnMut([Corner; 3]) -> Result<(), ImportError>,
 ) -> Result<(), ImportError> {
     let positions: Vec<Vec3> = corners.iter().map(|corner| points[corner.point as usize]).collect();
-    triangulate(&positions).into_iter().try_for_each(|triangle| add(triangle.map(|corner| corners[corner])))
+    cutter.cut(&positions).into_iter().try_for_each(|triangle| add(triangle.map(|corner| corners[corner])))
 }
 
 impl Layout {

@@ -1,6 +1,8 @@
 use super::Reader;
 use super::xml::At;
-use crate::{AlphaMode, Material, Resolve, resolve};
+use crate::build::path;
+use crate::scene::{AlphaMode, Finding, Material, Resolve};
+use percent_encoding::percent_decode_str;
 use std::collections::HashMap;
 
 impl<'a> Reader<'a> {
@@ -15,8 +17,8 @@ impl<'a> Reader<'a> {
             let effect = at.child("instance_effect").map(|instance| instance.target("url"));
             match effect {
                 Some(Ok(effect)) => self.effect(effect, &mut material, &mut images, resolve),
-                Some(Err(error)) => self.note(at, error.to_string()),
-                None => self.note(at, "a material without effect"),
+                Some(Err(error)) => self.note(at, Finding::Missing(error.to_string())),
+                None => self.note(at, Finding::missing("a material without effect")),
             }
             self.scene.materials.push(material);
         }
@@ -31,14 +33,15 @@ impl<'a> Reader<'a> {
         resolve: &mut Resolve<'_>,
     ) {
         let Some(profile) = at.child("profile_COMMON") else {
-            return self.note(at, "only profile_COMMON is read");
+            return self.note(at, Finding::left_out("only profile_COMMON is read"));
         };
         let models = ["phong", "lambert", "blinn", "constant"];
         let technique = profile.child("technique");
         let model =
             technique.and_then(|technique| technique.children().find(|at| models.contains(&at.name())));
         let Some(model) = model else {
-            return self.note(profile, "a technique without phong, lambert, blinn or constant");
+            let text = "a technique without phong, lambert, blinn or constant";
+            return self.note(profile, Finding::left_out(text));
         };
         if let Some(emission) = model.child("emission").and_then(color) {
             material.emissive = [emission[0], emission[1], emission[2]];
@@ -50,7 +53,7 @@ impl<'a> Reader<'a> {
                 (None, Some(texture)) => {
                     material.base_color_texture = self.texture(profile, texture, images, resolve);
                 }
-                (None, None) => self.note(diffuse, "neither a colour nor a texture"),
+                (None, None) => self.note(diffuse, Finding::missing("neither a colour nor a texture")),
             }
         }
         material.base_color[3] = opacity(model);
@@ -77,7 +80,7 @@ impl<'a> Reader<'a> {
             sampler.and_then(|at| at.child("instance_image")?.target("url").ok()?.attribute("id"));
         let image = self.tree.by_id(of_surface.or(of_sampler).unwrap_or(name));
         let Some(image) = image.filter(|image| image.name() == "image") else {
-            self.note(at, format!("the texture '{name}' leads to no image"));
+            self.note(at, Finding::Missing(format!("the texture '{name}' leads to no image")));
             return None;
         };
         if let Some(known) = images.get(&image.number) {
@@ -85,29 +88,15 @@ impl<'a> Reader<'a> {
         }
         let address =
             image.path(&["init_from", "ref"]).or(image.child("init_from")).map_or("", |at| at.text());
-        let (read, problem) = resolve::image(&unescaped(address), resolve);
+        // What is no number after a % stays.
+        let (read, problem) = path::image(&percent_decode_str(address).decode_utf8_lossy(), resolve);
         self.scene.images.push(read);
         if let Some(problem) = problem {
-            self.note(image, problem);
+            self.note(image, Finding::Missing(problem));
         }
         images.insert(image.number, self.scene.images.len() - 1);
         Some(self.scene.images.len() - 1)
     }
-}
-
-/// An address with its `%20` as they are meant. What is no such number stays.
-fn unescaped(address: &str) -> String {
-    let (mut bytes, mut rest) = (Vec::with_capacity(address.len()), address.as_bytes());
-    while let Some((&first, others)) = rest.split_first() {
-        let digits =
-            others.get(..2).filter(|_| first == b'%').and_then(|digits| std::str::from_utf8(digits).ok());
-        let byte = digits
-            .filter(|digits| !digits.starts_with('+'))
-            .and_then(|digits| u8::from_str_radix(digits, 16).ok());
-        bytes.push(byte.unwrap_or(first));
-        rest = if byte.is_some() { &others[2..] } else { others };
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 fn color(at: At<'_>) -> Option<[f32; 4]> {

@@ -15,14 +15,14 @@ mod geometry;
 mod material;
 mod node;
 mod part;
-mod polygon;
 mod sampler;
 mod source;
 mod transform;
 mod xml;
 
-use crate::corners::Budget;
-use crate::{ImportError, Note, RawScene, Resolve, Scene};
+use crate::build::budget::Budget;
+use crate::build::polygon::Cutter;
+use crate::scene::{Finding, ImportError, Note, RawScene, Resolve, Scene};
 use geometry::Geometry;
 use source::Source;
 use std::collections::HashMap;
@@ -68,7 +68,8 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     let mut reader = Reader {
         tree: &tree,
         scene: RawScene::default(),
-        budget: Budget::default(),
+        budget: Budget::of_vertices(),
+        cutter: Cutter::default(),
         sources: HashMap::new(),
         geometries: HashMap::new(),
     };
@@ -79,8 +80,11 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     for (library, what) in [("library_lights", "lights"), ("library_cameras", "cameras")] {
         let count: usize = root.all(library).map(|library| library.children().count()).sum();
         if count > 0 {
-            reader.note(root, format!("{count} {what} are left out"));
+            reader.note(root, Finding::LeftOut(format!("{count} {what} are left out")));
         }
+    }
+    for text in reader.cutter.findings() {
+        reader.scene.notes.push(Note::new("polygons", Finding::Mended(text)));
     }
     Ok(reader.scene)
 }
@@ -91,17 +95,18 @@ struct Reader<'a> {
     tree: &'a Tree,
     scene: RawScene,
     budget: Budget,
+    cutter: Cutter,
     sources: HashMap<usize, Rc<Source>>,
     geometries: HashMap<usize, Rc<Geometry>>,
 }
 
 impl Reader<'_> {
-    fn note(&mut self, at: At<'_>, text: impl Into<String>) {
-        self.scene.notes.push(Note { place: at.place(), text: text.into() });
+    fn note(&mut self, at: At<'_>, finding: Finding) {
+        self.scene.notes.push(Note::new(at.place(), finding));
     }
 
     /// Takes from the budget on behalf of an element.
     fn take(&mut self, at: At<'_>, count: usize) -> Result<(), ImportError> {
-        self.budget.take(count).map_err(|(expected, found)| ImportError::new(at.place(), expected, found))
+        self.budget.take(count, 1).map_err(|exceeded| exceeded.at(at.place()))
     }
 }

@@ -3,7 +3,7 @@
 use super::Reader;
 use super::transform::{Step, product};
 use super::xml::At;
-use crate::{ImportError, Node, Transform};
+use crate::scene::{Finding, ImportError, Node, Transform};
 use glam::{DMat4, DQuat, DVec3};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -37,7 +37,7 @@ impl<'a> Reader<'a> {
             None => root.path(&["library_visual_scenes", "visual_scene"]),
         };
         let Some(shown) = shown else {
-            self.note(root, "there is no visual scene");
+            self.note(root, Finding::missing("there is no visual scene"));
             return Ok(nodes);
         };
         let mut top = None;
@@ -85,10 +85,11 @@ impl<'a> Reader<'a> {
             _ => DQuat::IDENTITY,
         };
         if meters != 1.0 {
-            self.note(asset, format!("units of {meters} m are converted to metres by a root node"));
+            let text = format!("units of {meters} m are converted to metres by a root node");
+            self.note(asset, Finding::Converted(text));
         }
         if turn != DQuat::IDENTITY {
-            self.note(asset, "the up axis is turned to +Y by a root node");
+            self.note(asset, Finding::converted("the up axis is turned to +Y by a root node"));
         }
         if meters == 1.0 && turn == DQuat::IDENTITY {
             return Ok(DMat4::IDENTITY);

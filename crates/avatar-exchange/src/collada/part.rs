@@ -4,7 +4,7 @@ use super::Reader;
 use super::controller::{Morph, chain};
 use super::node::Nodes;
 use super::xml::At;
-use crate::{ImportError, Node, ScenePart};
+use crate::scene::{ImportError, Node, ScenePart};
 use std::collections::{HashMap, HashSet};
 
 /// Nodes whose weights a `<source>` holds.
@@ -79,18 +79,17 @@ impl<'a> Reader<'a> {
                 continue;
             }
             self.take(at, primitive.corners.vertices.len())?;
-            let (mesh, tangents) = primitive.corners.mesh(&geometry.points);
+            let mesh = primitive.corners.mesh(&geometry.points);
             let mut part = ScenePart::rigid(chain.geometry.label(), node, mesh);
             for (name, offsets) in &morph.shapes {
                 let shape = primitive.corners.shape(name.clone(), offsets, None, &mut self.budget);
-                part.mesh.shapes.push(shape.map_err(|(expected, found)| at.error(expected, found))?);
+                part.mesh.shapes.push(shape.map_err(|exceeded| exceeded.at(at.place()))?);
             }
             if let Some((skin, influences)) = &skin {
                 part.skin = Some(*skin);
-                part.mesh.skinning = Some(influences.skinning(&primitive.corners));
+                part.mesh.skinning = Some(primitive.corners.skinning(influences));
             }
             part.primitive = number;
-            part.tangents = tangents;
             part.material = bound.get(primitive.material.as_str()).and_then(|at| materials.get(at)).copied();
             self.scene.parts.push(part);
         }

@@ -2,7 +2,7 @@
 
 use super::Reader;
 use super::xml::At;
-use crate::ImportError;
+use crate::scene::{Finding, ImportError};
 
 /// Halvings when a Bézier curve's parameter is looked for: the time is then exact to 2⁻⁴⁰ of the span.
 const HALVINGS: usize = 40;
@@ -61,7 +61,7 @@ impl<'a> Reader<'a> {
             };
         let mut ways: Vec<Way> = (0..times.len()).map(&mut way).collect();
         if let Some(unknown) = unknown {
-            self.note(at, format!("{unknown} became LINEAR"));
+            self.note(at, Finding::Converted(format!("{unknown} became LINEAR")));
         }
         let mut tangents =
             |semantic| Ok(self.source_of(at, semantic)?.map_or(Vec::new(), |source| source.flat().0));
@@ -70,7 +70,7 @@ impl<'a> Reader<'a> {
         let fit = |found: &Vec<f64>| found.len() == values.len() || found.len() == 2 * values.len();
         let curved = ways.iter().any(|way| [Way::Bezier, Way::Hermite].contains(way));
         if curved && !(fit(&in_tangents) && fit(&out_tangents)) {
-            self.note(at, "a curve without tangents became LINEAR");
+            self.note(at, Finding::mended("a curve without tangents became LINEAR"));
             ways.iter_mut().filter(|way| **way != Way::Step).for_each(|way| *way = Way::Linear);
         }
         Ok(Sampler { times, width, values, ways, in_tangents, out_tangents })

@@ -2,7 +2,7 @@
 
 use super::Reader;
 use super::xml::At;
-use crate::ImportError;
+use crate::scene::ImportError;
 use std::rc::Rc;
 
 /// An array as an accessor sees it.

@@ -1,7 +1,7 @@
 //! The steps of a node's transform.
 
 use super::xml::At;
-use crate::ImportError;
+use crate::scene::ImportError;
 use glam::{DMat4, DVec3};
 
 /// One element such as `<rotate>`; the matrix of the first is the outermost.

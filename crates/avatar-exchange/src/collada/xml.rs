@@ -1,6 +1,8 @@
 //! The file as a tree, without namespaces.
 
-use crate::ImportError;
+use crate::build::text::decode_as;
+use crate::scene::ImportError;
+use encoding_rs::{Encoding, UTF_16BE, UTF_16LE};
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion, escape};
 use std::borrow::Cow;
@@ -228,22 +230,22 @@ impl<'a> At<'a> {
     }
 }
 
-/// Bytes to text: UTF-8 or UTF-16 with or without a mark, and Latin-1 for what is neither.
+/// Bytes to text: as the mark at their beginning or the XML declaration says, UTF-16 without a mark, too.
 fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ImportError> {
-    let utf16 = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
-        let units = bytes.as_chunks::<2>().0.iter().map(|pair| unit(*pair));
-        char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect::<String>()
-    };
-    Ok(match bytes {
+    let stated = match bytes {
         [] => return Err(ImportError::new("byte 0", "COLLADA as text", "no bytes")),
-        [0xEF, 0xBB, 0xBF, rest @ ..] => String::from_utf8_lossy(rest),
-        [0xFF, 0xFE, rest @ ..] => utf16(rest, u16::from_le_bytes).into(),
-        [0xFE, 0xFF, rest @ ..] => utf16(rest, u16::from_be_bytes).into(),
-        [b'<', 0, ..] => utf16(bytes, u16::from_le_bytes).into(),
-        [0, b'<', ..] => utf16(bytes, u16::from_be_bytes).into(),
-        _ => match std::str::from_utf8(bytes) {
-            Ok(text) => text.into(),
-            Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect::<String>().into(),
-        },
-    })
+        [b'<', 0, ..] => return Ok(UTF_16LE.decode_without_bom_handling(bytes).0),
+        [0, b'<', ..] => return Ok(UTF_16BE.decode_without_bom_handling(bytes).0),
+        _ => stated_encoding(bytes),
+    };
+    Ok(decode_as(bytes, stated))
+}
+
+/// The encoding that `<?xml ... encoding="..."?>` names.
+fn stated_encoding(bytes: &[u8]) -> Option<&'static Encoding> {
+    let declaration = bytes.strip_prefix(b"<?xml")?.split(|byte| *byte == b'>').next()?;
+    let name = b"encoding";
+    let at = declaration.windows(name.len()).position(|window| window == name)?;
+    let mut quoted = declaration[at + name.len()..].split(|byte| matches!(byte, b'"' | b'\''));
+    Encoding::for_label(quoted.nth(1)?)
 }

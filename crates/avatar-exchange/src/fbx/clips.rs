@@ -2,8 +2,8 @@
 
 use super::shapes::Blend;
 use super::{allocator, quat, vec3};
-use crate::corners::Budget;
-use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, RawScene};
+use crate::build::budget::{Budget, Exceeded};
+use crate::scene::{Channel, ChannelTarget, Clip, ImportError, Interpolation, RawScene};
 use std::collections::HashMap;
 
 /// The property of a blend channel that is its weight in percent.
@@ -31,10 +31,12 @@ pub(super) fn read(
             ImportError::new(place.as_str(), "motion that can be sampled", &*error.description)
         })?;
         let mut channels = Vec::new();
+        let wrong = |exceeded: Exceeded| exceeded.at(place.as_str());
         for node in &baked.nodes {
+            let keys = node.translation_keys.len() + node.rotation_keys.len() + node.scale_keys.len();
+            budget.take(keys, 1).map_err(wrong)?;
             node_channels(node, &mut channels);
         }
-        let wrong = |(expected, found): (String, String)| ImportError::new(place.as_str(), expected, found);
         let keys = keys_of_weights(&baked);
         for blend in blends.iter().filter(|blend| !scene.nodes[blend.node].weights.is_empty()) {
             channels.extend(weights(blend, &keys, budget).map_err(wrong)?);
@@ -49,8 +51,7 @@ pub(super) fn read(
 fn node_channels(node: &ufbx::BakedNode, channels: &mut Vec<Channel>) {
     let mut push = |target, keys: Vec<(f64, Vec<f32>)>, constant: bool| {
         let kept = if constant { 1 } else { keys.len() };
-        let (times, values): (Vec<f32>, Vec<Vec<f32>>) =
-            keys.into_iter().take(kept).map(|(time, value)| (time as f32, value)).unzip();
+        let (times, values): (Vec<f64>, Vec<Vec<f32>>) = keys.into_iter().take(kept).unzip();
         if !times.is_empty() {
             let node = node.typed_id as usize;
             let interpolation = Interpolation::Linear;
@@ -86,7 +87,7 @@ fn weights(
     blend: &Blend<'_>,
     keys: &HashMap<u32, Vec<(f64, f64)>>,
     budget: &mut Budget,
-) -> Result<Option<Channel>, (String, String)> {
+) -> Result<Option<Channel>, Exceeded> {
     let mut times: Vec<f64> = Vec::new();
     for ((element, _), kinks) in blend.channels.iter().zip(&blend.kinks) {
         let Some(keys) = keys.get(element) else { continue };
@@ -117,13 +118,13 @@ fn weights(
             blend.weights(&blend.channels.iter().map(value).collect::<Vec<_>>())
         };
         let (before, after) = (at(false), at(true));
-        budget.take(before.len())?;
+        budget.take(before.len(), 1)?;
         // A jump needs two keys.
         if before != after && time > first {
-            channel.times.push(time as f32);
+            channel.times.push(time);
             channel.values.extend(before);
         }
-        channel.times.push(time as f32);
+        channel.times.push(time);
         channel.values.extend(after);
     }
     Ok(Some(channel))

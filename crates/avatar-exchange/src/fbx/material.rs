@@ -1,6 +1,6 @@
 use super::note;
-use crate::resolve::{self, mime_of, relative};
-use crate::{AlphaMode, Material, RawScene, Resolve, SceneImage};
+use crate::build::path::{beside, image, mime_of};
+use crate::scene::{AlphaMode, Finding, Material, RawScene, Resolve, SceneImage};
 use std::collections::HashMap;
 
 /// Reads all materials in the file's order, with the images that they use.
@@ -72,17 +72,18 @@ impl Images<'_, '_> {
         let video = texture.video.as_ref().map_or(&[][..], |video| &video.content);
         let content = if texture.content.is_empty() { video } else { &texture.content };
         if !content.is_empty() {
-            let name = relative(name);
+            let name = beside(name).unwrap_or_default();
             let mime = mime_of(&name).to_owned();
             scene.images.push(SceneImage { name, mime, bytes: content.to_vec() });
         } else if name.is_empty() {
-            note(&mut scene.notes, place, "it has neither a picture nor a name, it is left out");
+            let text = "it has neither a picture nor a name, it is left out";
+            note(&mut scene.notes, place, Finding::missing(text));
             return None;
         } else {
-            let (image, problem) = resolve::image(name, self.resolve);
+            let (image, problem) = image(name, self.resolve);
             scene.images.push(image);
             if let Some(problem) = problem {
-                note(&mut scene.notes, place, problem);
+                note(&mut scene.notes, place, Finding::Missing(problem));
             }
         }
         Some(scene.images.len() - 1)

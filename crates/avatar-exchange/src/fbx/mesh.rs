@@ -3,8 +3,9 @@
 use super::shapes::Blend;
 use super::skin::BoundSkin;
 use super::{note, place_of, vec3};
-use crate::corners::{Budget, Corner, Corners};
-use crate::{ImportError, RawScene, ScenePart};
+use crate::build::budget::{Budget, Exceeded};
+use crate::build::corners::{Corner, Corners};
+use crate::scene::{Finding, ImportError, RawScene, ScenePart};
 use glam::{Vec2, Vec3};
 
 /// Reads all parts, and their skins, shapes and weights on the way. Returns the shapes of nodes that have any.
@@ -17,41 +18,41 @@ pub(super) fn read<'a>(
     for node in &fbx.nodes {
         let Some(mesh) = &node.mesh else { continue };
         let place = place_of(node);
-        let wrong = |(expected, found): (String, String)| ImportError::new(place.as_str(), expected, found);
-        budget.take(mesh.vertices.len()).map_err(wrong)?;
+        let wrong = |exceeded: Exceeded| exceeded.at(place.as_str());
+        budget.take(mesh.vertices.len(), 1).map_err(wrong)?;
         let points: Vec<Vec3> = mesh.vertices.iter().map(|point| vec3(*point)).collect();
         let blend = Blend::of(node, mesh, &mut scene.notes);
         let mut skin = None;
         for (primitive, segment) in mesh.material_parts.iter().enumerate() {
-            let corners = corners(mesh, segment, budget).map_err(wrong)?;
+            let corners = corners(mesh, segment, budget, &place)?;
             if corners.is_empty() {
                 continue;
             }
             let number = node.element.typed_id as usize;
-            let (mut mesh_here, tangents) = corners.mesh(&points);
+            let mut mesh_here = corners.mesh(&points);
             mesh_here.shapes = match &blend {
                 Some(blend) => blend.shapes(&corners, budget).map_err(wrong)?,
                 None => Vec::new(),
             };
             let mut part = ScenePart::rigid(&name_of(node, mesh), number, mesh_here);
             part.primitive = primitive;
-            part.tangents = tangents;
             part.material = material_of(node, mesh, segment.index).filter(|at| *at < scene.materials.len());
             if skin.is_none() {
                 skin = BoundSkin::read(node, mesh, scene)?;
             }
             if let Some(skin) = &skin {
                 part.skin = Some(skin.number);
-                part.mesh.skinning = Some(skin.influences.skinning(&corners));
+                part.mesh.skinning = Some(corners.skinning(&skin.influences));
             }
             scene.parts.push(part);
         }
         if mesh.num_line_faces + mesh.num_point_faces > 0 {
-            note(&mut scene.notes, place.as_str(), "faces with less than three corners are left out");
+            let text = "faces with less than three corners are left out";
+            note(&mut scene.notes, place.as_str(), Finding::left_out(text));
         }
         if mesh.uv_sets.len() > 1 {
             let text = format!("{} further sets of texture coordinates are left out", mesh.uv_sets.len() - 1);
-            note(&mut scene.notes, place.as_str(), text);
+            note(&mut scene.notes, place.as_str(), Finding::LeftOut(text));
         }
         if let Some(blend) = blend {
             blend.write(scene);
@@ -76,7 +77,8 @@ fn corners(
     mesh: &ufbx::Mesh,
     segment: &ufbx::MeshPart,
     budget: &mut Budget,
-) -> Result<Corners, (String, String)> {
+    place: &str,
+) -> Result<Corners, ImportError> {
     let mut corners = Corners::default();
     let mut triangles = vec![0; mesh.max_face_triangles.saturating_mul(3)];
     for &face in &segment.face_indices {
@@ -86,13 +88,11 @@ fn corners(
         };
         // The library's function stops the program where this room is too small.
         if (face.num_indices as usize - 2).saturating_mul(3) > triangles.len() {
-            return Err((
-                format!("at most {} corners in a face", triangles.len() / 3 + 2),
-                face.num_indices.to_string(),
-            ));
+            let expected = format!("at most {} corners in a face", triangles.len() / 3 + 2);
+            return Err(ImportError::new(place, expected, face.num_indices.to_string()));
         }
         let count = mesh.triangulate_face(&mut triangles, face) as usize;
-        budget.take(count)?;
+        budget.take(count, 1).map_err(|exceeded| exceeded.at(place))?;
         for triangle in triangles.as_chunks::<3>().0.iter().take(count) {
             corners.triangle(triangle.map(|index| corner(mesh, index as usize)));
         }

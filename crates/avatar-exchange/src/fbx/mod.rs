@@ -17,8 +17,8 @@ mod mesh;
 mod shapes;
 mod skin;
 
-use crate::corners::Budget;
-use crate::{ImportError, Node, Note, RawScene, Resolve, Scene, Transform, Trs};
+use crate::build::budget::Budget;
+use crate::scene::{Finding, ImportError, Node, Note, RawScene, Resolve, Scene, Transform, Trs};
 use glam::{Quat, Vec3};
 
 /// Nesting of nodes that the library accepts.
@@ -65,7 +65,7 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     note_conversion(&fbx, &mut scene.notes);
     read_nodes(&fbx, &mut scene)?;
     material::read(&fbx, resolve, &mut scene);
-    let mut budget = Budget::default();
+    let mut budget = Budget::of_vertices();
     let blends = mesh::read(&fbx, &mut scene, &mut budget)?;
     clips::read(&fbx, &blends, &mut scene, &mut budget, memory(bytes.len()))?;
     note_the_rest(&fbx, &mut scene.notes);
@@ -124,23 +124,26 @@ fn load(bytes: &[u8]) -> Result<ufbx::SceneRoot, ImportError> {
     })
 }
 
-fn note(notes: &mut Vec<Note>, place: impl Into<String>, text: impl Into<String>) {
-    notes.push(Note { place: place.into(), text: text.into() });
+fn note(notes: &mut Vec<Note>, place: impl Into<String>, finding: Finding) {
+    notes.push(Note::new(place, finding));
 }
 
 fn note_conversion(fbx: &ufbx::Scene, notes: &mut Vec<Note>) {
     let settings = &fbx.settings;
     let unit = settings.original_unit_meters;
     if (unit - 1.0).abs() > 1e-9 && unit > 0.0 {
-        note(notes, "settings", format!("units of {unit} m were converted to metres"));
+        let text = format!("units of {unit} m were converted to metres");
+        note(notes, "settings", Finding::Converted(text));
     }
     if settings.original_axis_up != ufbx::CoordinateAxis::PositiveY
         && settings.original_axis_up != ufbx::CoordinateAxis::Unknown
     {
-        note(notes, "settings", format!("the up axis {:?} was turned to +Y", settings.original_axis_up));
+        let text = format!("the up axis {:?} was turned to +Y", settings.original_axis_up);
+        note(notes, "settings", Finding::Converted(text));
     }
     for warning in &fbx.metadata.warnings {
-        note(notes, "the file", format!("{} ({} times)", &*warning.description, warning.count));
+        let text = format!("{} ({} times)", &*warning.description, warning.count);
+        note(notes, "the file", Finding::Mended(text));
     }
 }
 
@@ -184,6 +187,6 @@ fn note_the_rest(fbx: &ufbx::Scene, notes: &mut Vec<Note>) {
         ("constraints", fbx.constraints.len()),
     ];
     for (what, count) in left_out.into_iter().filter(|(_, count)| *count > 0) {
-        note(notes, "the file", format!("{count} {what} are left out"));
+        note(notes, "the file", Finding::LeftOut(format!("{count} {what} are left out")));
     }
 }

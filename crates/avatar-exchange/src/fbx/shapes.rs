@@ -1,8 +1,10 @@
 //! Blend shapes. A channel of FBX is a slider on which shapes stand at their full weights.
 
 use super::{note, place_of, vec3};
-use crate::corners::{Budget, Corners, unique_names};
-use crate::{NodeDrivers, Note, RawScene};
+use crate::build::budget::{Budget, Exceeded};
+use crate::build::corners::Corners;
+use crate::build::names::unique_names;
+use crate::scene::{Finding, NodeDrivers, Note, RawScene};
 use avatar_mesh::Shape;
 use avatar_mesh::drivers::{Input, Rule, ShapeDrivers, ShapeRule};
 use glam::Vec3;
@@ -37,7 +39,7 @@ impl<'a> Blend<'a> {
     /// The shapes of a mesh at a node; none where it has none.
     pub(super) fn of(node: &ufbx::Node, mesh: &'a ufbx::Mesh, notes: &mut Vec<Note>) -> Option<Self> {
         let channels: Vec<_> = mesh.blend_deformers.iter().flat_map(|blend| &blend.channels).collect();
-        let drivers = unique_names(channels.iter().map(|channel| channel.element.name.to_string()));
+        let drivers = unique_names(channels.iter().map(|channel| channel.element.name.to_string()).collect());
         let (mut names, mut full_weights, mut targets) = (Vec::new(), Vec::new(), Vec::new());
         let mut kinks = vec![vec![0.0]; channels.len()];
         for (number, channel) in channels.iter().enumerate() {
@@ -49,7 +51,7 @@ impl<'a> Blend<'a> {
                 if !usable(full_weight) || !seen.insert(full_weight.to_bits()) {
                     let text =
                         format!("a shape of channel '{}' at {} is left out", drivers[number], full_weight);
-                    note(notes, place_of(node), text);
+                    note(notes, place_of(node), Finding::LeftOut(text));
                     continue;
                 }
                 names.push(match key.target_weight == last {
@@ -64,7 +66,7 @@ impl<'a> Blend<'a> {
         if targets.is_empty() {
             return None;
         }
-        let names = unique_names(names.into_iter());
+        let names = unique_names(names);
         let follows = |(shape, (channel, full_weight)): (&String, &(usize, f32))| ShapeRule {
             shape: shape.clone(),
             rule: Rule::Follows {
@@ -76,7 +78,8 @@ impl<'a> Blend<'a> {
         let program = match ShapeDrivers::new(&drivers, &names, &rules) {
             Ok(program) => program,
             Err(error) => {
-                note(notes, place_of(node), format!("blend shapes are left out: {error}"));
+                let text = format!("blend shapes are left out: {error}");
+                note(notes, place_of(node), Finding::LeftOut(text));
                 return None;
             }
         };
@@ -109,11 +112,7 @@ impl<'a> Blend<'a> {
     }
 
     /// The shapes for a part's vertices.
-    pub(super) fn shapes(
-        &self,
-        corners: &Corners,
-        budget: &mut Budget,
-    ) -> Result<Vec<Shape>, (String, String)> {
+    pub(super) fn shapes(&self, corners: &Corners, budget: &mut Budget) -> Result<Vec<Shape>, Exceeded> {
         let mut shapes = Vec::with_capacity(self.targets.len());
         for (Target(target), name) in self.targets.iter().zip(&self.drivers.shapes) {
             let offsets = offsets(target, &target.position_offsets);

@@ -1,6 +1,6 @@
 use super::{note, place_of};
-use crate::corners::Influences;
-use crate::{ImportError, RawScene, Skin};
+use crate::build::influences::Influences;
+use crate::scene::{Finding, ImportError, RawScene, Skin};
 use glam::{Affine3A, Vec3};
 
 /// The skin of a mesh at a node.
@@ -25,10 +25,14 @@ impl BoundSkin {
         }
         let place = place_of(node);
         if mesh.skin_deformers.len() > 1 {
-            note(&mut scene.notes, place.as_str(), "all skins but the first are left out");
+            note(&mut scene.notes, place.as_str(), Finding::left_out("all skins but the first are left out"));
         }
         if deformer.num_dq_weights > 0 {
-            note(&mut scene.notes, place.as_str(), "dual quaternion skinning became linear");
+            note(
+                &mut scene.notes,
+                place.as_str(),
+                Finding::converted("dual quaternion skinning became linear"),
+            );
         }
         let own = node.element.typed_id as usize;
         let mut skin = Skin { name: deformer.element.name.to_string(), ..Skin::default() };
@@ -46,12 +50,12 @@ impl BoundSkin {
             skin.joints.push(own);
             skin.inverse_binds.push(affine(&node.geometry_to_node));
             let text = format!("{} points without weights follow the mesh's own node", influences.unweighted);
-            note(&mut scene.notes, place.as_str(), text);
+            note(&mut scene.notes, place.as_str(), Finding::Mended(text));
         }
         if influences.reduced > 0 {
             let text =
                 format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced);
-            note(&mut scene.notes, place, text);
+            note(&mut scene.notes, place, Finding::Converted(text));
         }
         scene.skins.push(skin);
         Ok(Some(Self { number: scene.skins.len() - 1, influences }))

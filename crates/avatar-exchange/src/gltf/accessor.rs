@@ -1,6 +1,6 @@
 use super::component::{float, whole};
 use super::document::{Document, View, in_range};
-use crate::ImportError;
+use crate::scene::ImportError;
 use bytemuck::Pod;
 use gltf::json::accessor::{ComponentType, IndexComponentType, Type, sparse::Sparse};
 use gltf::json::validation::Checked;
@@ -53,7 +53,7 @@ impl Document<'_> {
         if !(header.type_ == type_ && type_.multiplicity() == N) {
             return Err(header.expected(&format!("{type_:?}")));
         }
-        self.budget.take(|| place.clone(), count, size_of::<T>())?;
+        self.budget.take(count, size_of::<T>()).map_err(|exceeded| exceeded.at(&place))?;
         let header = self.header(index)?;
         let (kind, normalized) = (header.kind, header.json.normalized);
         let convert = |element: &[u8]| {
@@ -102,7 +102,7 @@ impl Document<'_> {
         if !(header.type_ == type_ && type_.multiplicity() == N && integers && !header.json.normalized) {
             return Err(header.expected(&format!("{type_:?} of unsigned integers")));
         }
-        self.budget.take(|| place.clone(), count, size_of::<[u32; N]>())?;
+        self.budget.take(count, size_of::<[u32; N]>()).map_err(|exceeded| exceeded.at(&place))?;
         let header = self.header(index)?;
         let convert = |element: &[u8]| {
             let mut numbers = [0; N];

@@ -1,6 +1,6 @@
 use super::document::{Document, in_range};
-use crate::error::quoted;
-use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, RawScene};
+use crate::scene::quoted;
+use crate::scene::{Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, RawScene};
 use gltf::json::accessor::Type;
 use gltf::json::animation;
 use gltf::json::validation::Checked;
@@ -21,11 +21,12 @@ impl Document<'_> {
                     ImportError { place: format!("{}, {}", place(), error.place), ..error }
                 })?
                 else {
-                    self.note(place(), "moves something that is not represented");
+                    self.note(place(), Finding::left_out("moves something that is not represented"));
                     continue;
                 };
                 if !moved.insert((channel.node, channel.target)) {
-                    self.note(place(), "moves what another channel moves, too; the later one counts");
+                    let text = "moves what another channel moves, too; the later one counts";
+                    self.note(place(), Finding::mended(text));
                 }
                 clip.channels.push(channel);
             }
@@ -58,7 +59,8 @@ impl Document<'_> {
                 return Err(ImportError::new(format!("sampler {number}"), expected, "another interpolation"));
             }
         };
-        let times = self.floats::<1, [f32; 1]>(sampler.input, Type::Scalar)?.into_flattened();
+        let times = self.floats::<1, [f32; 1]>(sampler.input, Type::Scalar)?;
+        let times = times.into_iter().map(|[time]| f64::from(time)).collect();
         let values = match target {
             ChannelTarget::Rotation => {
                 self.floats::<4, [f32; 4]>(sampler.output, Type::Vec4)?.into_flattened()

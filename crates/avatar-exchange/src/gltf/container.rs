@@ -1,4 +1,4 @@
-use crate::ImportError;
+use crate::scene::ImportError;
 
 const MAGIC: &[u8; 4] = b"glTF";
 const JSON: u32 = 0x4e4f_534a;

@@ -1,16 +1,18 @@
-use super::budget::Budget;
 use super::container::Container;
 use super::json;
 use super::uri::Uri;
-use crate::Resolve;
-use crate::{ImportError, Note};
+use crate::build::budget::Budget;
+use crate::scene::{Finding, ImportError, Note, Resolve};
 use gltf::json::{Index, Root, buffer};
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, HashSet};
 
 /// Extensions that a file may require: the first is represented, the others change looks only and are noted.
 const KNOWN_EXTENSIONS: &[&str] = &["KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit"];
 const REPRESENTED_EXTENSIONS: usize = 1;
+
+/// The place of notes on extensions of the file as a whole.
+pub(crate) const EXTENSIONS_USED: &str = "extensionsUsed";
 
 /// A file while it is read: its structures, the bytes behind them, and what remains to be said about it.
 pub(super) struct Document<'a> {
@@ -24,7 +26,7 @@ pub(super) struct Document<'a> {
     files: BTreeMap<String, usize>,
     resolve: &'a mut Resolve<'a>,
     notes: Vec<Note>,
-    noted: BTreeSet<(String, String)>,
+    noted: HashSet<Note>,
 }
 
 /// Bytes of a buffer view.
@@ -45,16 +47,17 @@ impl<'a> Document<'a> {
         check_versions(&root)?;
         let mut document = Self {
             root,
-            budget: Budget::new(file_bytes),
+            budget: Budget::of_bytes(file_bytes),
             stores: Vec::new(),
             buffers: Vec::new(),
             files: BTreeMap::new(),
             resolve,
             notes: Vec::new(),
-            noted: BTreeSet::new(),
+            noted: HashSet::new(),
         };
         if dropped > 0 {
-            document.note("animations", format!("{dropped} channels without a node are left out"));
+            let text = format!("{dropped} channels without a node are left out");
+            document.note("animations", Finding::LeftOut(text));
         }
         document.open_buffers(container.bin)?;
         Ok(document)
@@ -109,7 +112,7 @@ impl<'a> Document<'a> {
     /// A copy of the bytes behind an address, and their media type where the address says it.
     pub(super) fn file(&mut self, place: &str, uri: &str) -> Result<(Vec<u8>, String), ImportError> {
         let (store, mime) = self.load(place, uri)?;
-        self.budget.take(|| place.to_owned(), self.stores[store].len(), 1)?;
+        self.budget.take(self.stores[store].len(), 1).map_err(|exceeded| exceeded.at(place))?;
         Ok((self.stores[store].to_vec(), mime))
     }
 
@@ -132,10 +135,10 @@ impl<'a> Document<'a> {
     }
 
     /// Says something about a place, once.
-    pub(super) fn note(&mut self, place: impl Into<String>, text: impl Into<String>) {
-        let (place, text) = (place.into(), text.into());
-        if self.noted.insert((place.clone(), text.clone())) {
-            self.notes.push(Note { place, text });
+    pub(super) fn note(&mut self, place: impl Into<String>, finding: Finding) {
+        let note = Note::new(place, finding);
+        if self.noted.insert(note.clone()) {
+            self.notes.push(note);
         }
     }
 
@@ -150,14 +153,14 @@ impl<'a> Document<'a> {
             .extensions_used
             .iter()
             .filter(|name| !KNOWN_EXTENSIONS[..REPRESENTED_EXTENSIONS].contains(&name.as_str()))
-            .map(|name| format!("{name} is not represented"))
+            .cloned()
             .collect();
         let cameras = root.cameras.len();
-        for text in left_out {
-            self.note("extensionsUsed", text);
+        for name in left_out {
+            self.note(EXTENSIONS_USED, Finding::Extension(name));
         }
         if cameras > 0 {
-            self.note("cameras", format!("{cameras} are left out"));
+            self.note("cameras", Finding::LeftOut(format!("{cameras} are left out")));
         }
     }
 }

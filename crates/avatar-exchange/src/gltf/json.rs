@@ -1,5 +1,4 @@
-use crate::ImportError;
-use crate::error::quoted;
+use crate::scene::{ImportError, quoted};
 use gltf::json::Root;
 use serde_json::{Value, json};
 

@@ -1,5 +1,5 @@
 use super::document::{Document, in_range};
-use crate::{AlphaMode, ImportError, Material, RawScene, SceneImage};
+use crate::scene::{AlphaMode, Finding, ImportError, Material, RawScene, SceneImage};
 use gltf::json::material::AlphaMode as Mode;
 use gltf::json::texture::{Info, Texture, WrappingMode};
 use gltf::json::validation::Checked;
@@ -34,17 +34,18 @@ impl Document<'_> {
                         bytes
                     }
                     Err(error) => {
-                        self.note(&place, format!("expected {}, found {}", error.expected, error.found));
+                        let text = format!("expected {}, found {}", error.expected, error.found);
+                        self.note(&place, Finding::Missing(text));
                         Vec::new()
                     }
                 },
                 (None, Some(view)) => {
                     let length = self.view(view)?.bytes.len();
-                    self.budget.take(|| place.clone(), length, 1)?;
+                    self.budget.take(length, 1).map_err(|exceeded| exceeded.at(&place))?;
                     self.view(view)?.bytes.to_vec()
                 }
                 (None, None) => {
-                    self.note(&place, "has neither an address nor a bufferView");
+                    self.note(&place, Finding::missing("has neither an address nor a bufferView"));
                     Vec::new()
                 }
             };
@@ -59,7 +60,7 @@ impl Document<'_> {
         for (number, material) in std::mem::take(&mut self.root.materials).into_iter().enumerate() {
             let place = format!("material {number}");
             for name in material.extensions.iter().flat_map(|extensions| extensions.others.keys()) {
-                self.note(&place, format!("{name} is not represented"));
+                self.note(&place, Finding::Extension(name.clone()));
             }
             let pbr = &material.pbr_metallic_roughness;
             let (normal, occlusion) = (&material.normal_texture, &material.occlusion_texture);
@@ -125,16 +126,17 @@ impl Document<'_> {
         let wraps_otherwise =
             sampler.is_some_and(|sampler| !(repeats(&sampler.wrap_s) && repeats(&sampler.wrap_t)));
         if wraps_otherwise {
-            self.note(&place, "is repeated, not clamped or mirrored");
+            self.note(&place, Finding::converted("is repeated, not clamped or mirrored"));
         }
         if used.uv_set != 0 {
-            self.note(&place, format!("TEXCOORD_{} is not represented", used.uv_set));
+            let text = format!("TEXCOORD_{} is not represented", used.uv_set);
+            self.note(&place, Finding::LeftOut(text));
         }
         for name in used.extensions.into_iter().flat_map(Map::keys) {
-            self.note(&place, format!("{name} is not represented"));
+            self.note(&place, Finding::Extension(name.clone()));
         }
         if image.is_none() {
-            self.note(&place, "has no image");
+            self.note(&place, Finding::missing("has no image"));
         }
         Ok(image)
     }

@@ -10,7 +10,6 @@
 
 mod accessor;
 mod animation;
-mod budget;
 mod component;
 mod container;
 mod document;
@@ -22,8 +21,10 @@ mod skin;
 mod triangles;
 mod uri;
 
-use crate::{ImportError, RawScene, Resolve, Scene};
+use crate::scene::{ImportError, RawScene, Resolve, Scene};
 use document::Document;
+#[cfg(feature = "vrm")]
+pub(crate) use document::EXTENSIONS_USED;
 
 pub use container::{Container, split};
 

@@ -1,6 +1,6 @@
 use super::document::Document;
-use crate::error::quoted;
-use crate::{ImportError, Node, RawScene, Transform, Trs};
+use crate::scene::quoted;
+use crate::scene::{ImportError, Node, RawScene, Transform, Trs};
 use glam::{DMat4, Quat, Vec3};
 
 /// How far the last row of a matrix may be from 0, 0, 0, 1 before it is taken for a projection.

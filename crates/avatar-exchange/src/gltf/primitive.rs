@@ -1,7 +1,10 @@
 use super::document::{Document, in_range};
 use super::triangles;
-use crate::assemble::{Influences, SHAPE_BYTES_PER_VERTEX, normals_of, shape, unique_names};
-use crate::{ImportError, RawScene, ScenePart};
+use crate::build::influences::{Four, Influences};
+use crate::build::names::unique_names;
+use crate::build::normals::normals_of;
+use crate::build::shape::{SHAPE_BYTES_PER_VERTEX, shape};
+use crate::scene::{Finding, ImportError, RawScene, ScenePart};
 use avatar_mesh::{Mesh, Offsets, Shape, Skinning};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
@@ -40,7 +43,8 @@ impl Document<'_> {
                 }
             };
             if !is_shown[number] {
-                self.note(format!("node {number}"), "is not in the default scene: its mesh is left out");
+                let text = "is not in the default scene: its mesh is left out";
+                self.note(format!("node {number}"), Finding::left_out(text));
                 continue;
             }
             let place = format!("mesh {mesh_number}");
@@ -57,8 +61,8 @@ impl Document<'_> {
                 // Looking at it costs, too: few bytes can put many primitives at many nodes.
                 let attributes: usize =
                     primitive.attributes.keys().map(|key| ATTRIBUTE_COST + extra_name(key).len()).sum();
-                self.budget.take(|| place.clone(), PRIMITIVE_COST + name.len() + attributes, 1)?;
-                let Some((mut mesh, tangents)) = self.mesh(&place, primitive, &names)? else { continue };
+                self.take(&place, PRIMITIVE_COST + name.len() + attributes, 1)?;
+                let Some(mut mesh) = self.mesh(&place, primitive, &names)? else { continue };
                 let skin = match node.skin {
                     None => None,
                     Some(skin) => {
@@ -68,7 +72,7 @@ impl Document<'_> {
                     }
                 };
                 if node.skin.is_some() && skin.is_none() {
-                    self.note(&place, "has a skin but no JOINTS_0: it follows its node");
+                    self.note(&place, Finding::mended("has a skin but no JOINTS_0: it follows its node"));
                 }
                 let material = primitive.material.map(|material| material.value());
                 scene.parts.push(ScenePart {
@@ -76,7 +80,6 @@ impl Document<'_> {
                     node: number,
                     primitive: primitive_number,
                     mesh,
-                    tangents,
                     material,
                     skin,
                 });
@@ -90,7 +93,8 @@ impl Document<'_> {
         let number = self.root.scene.map_or(0, |scene| scene.value());
         let Some(scene) = self.root.scenes.get(number) else {
             if self.root.scene.is_some() {
-                self.note("scene", format!("scene {number} is not there: all nodes are taken"));
+                let text = format!("scene {number} is not there: all nodes are taken");
+                self.note("scene", Finding::Mended(text));
             }
             return Ok(vec![true; nodes.len()]);
         };
@@ -113,7 +117,7 @@ impl Document<'_> {
         targets: usize,
     ) -> Result<Vec<String>, ImportError> {
         let extras = mesh.extras.as_ref().map_or("", |extras| extras.get());
-        self.budget.take(|| place.to_owned(), extras.len() + TARGET_COST * targets, 2)?;
+        self.take(place, extras.len() + TARGET_COST * targets, 2)?;
         let extras: Value = serde_json::from_str(extras).unwrap_or_default();
         let given = extras.get("targetNames").and_then(Value::as_array);
         let name = |number: usize| given.and_then(|names| names.get(number)?.as_str());
@@ -122,18 +126,18 @@ impl Document<'_> {
         Ok(unique_names(names.collect()))
     }
 
-    /// The mesh of a primitive without its bones, and its tangents; `None` where there is nothing to fill.
+    /// The mesh of a primitive without its bones; `None` where there is nothing to fill.
     fn mesh(
         &mut self,
         place: &str,
         primitive: &Primitive,
         names: &[String],
-    ) -> Result<Option<(Mesh, Vec<Vec4>)>, ImportError> {
+    ) -> Result<Option<Mesh>, ImportError> {
         let Checked::Valid(mode) = primitive.mode else {
             return Err(ImportError::new(place, "a mode from 0 to 6", "another one"));
         };
         let Some(positions) = attribute(primitive, Semantic::Positions) else {
-            self.note(place, "has no POSITION and is left out");
+            self.note(place, Finding::left_out("has no POSITION and is left out"));
             return Ok(None);
         };
         let positions: Vec<Vec3> = self.floats::<3, _>(positions, Type::Vec3)?;
@@ -141,29 +145,29 @@ impl Document<'_> {
         let corners = match primitive.indices {
             Some(indices) => self.corners(indices, vertices)?,
             None => {
-                self.budget.take(|| place.to_owned(), vertices, size_of::<u32>())?;
+                self.take(place, vertices, size_of::<u32>())?;
                 (0..u32::try_from(vertices).unwrap_or(u32::MAX)).collect()
             }
         };
         // A strip has nearly as many triangles as corners.
-        self.budget.take(|| place.to_owned(), corners.len(), size_of::<[u32; 3]>())?;
+        self.take(place, corners.len(), size_of::<[u32; 3]>())?;
         let Some((triangles, left_over)) = triangles::of(mode, &corners) else {
-            self.note(place, format!("{mode:?} are left out"));
+            self.note(place, Finding::LeftOut(format!("{mode:?} are left out")));
             return Ok(None);
         };
         if left_over > 0 {
-            self.note(place, format!("{left_over} vertices at the end make no triangle"));
+            let text = format!("{left_over} vertices at the end make no triangle");
+            self.note(place, Finding::LeftOut(text));
         }
         let uvs = self.per_vertex::<2, Vec2>(primitive, Semantic::TexCoords(0), Type::Vec2, vertices)?;
         let tangents = self.per_vertex::<4, Vec4>(primitive, Semantic::Tangents, Type::Vec4, vertices)?;
         let normals = match self.per_vertex::<3, Vec3>(primitive, Semantic::Normals, Type::Vec3, vertices)? {
             Some(normals) => normals,
             None => {
-                self.note(
-                    place,
-                    "has no normals: those of its triangles are taken, smooth where they share vertices",
-                );
-                self.budget.take(|| place.to_owned(), vertices, 3 * size_of::<Vec3>())?;
+                let text =
+                    "has no normals: those of its triangles are taken, smooth where they share vertices";
+                self.note(place, Finding::mended(text));
+                self.take(place, vertices, 3 * size_of::<Vec3>())?;
                 normals_of(&positions, &triangles)
             }
         };
@@ -172,13 +176,13 @@ impl Document<'_> {
         for (number, target) in primitive.targets.iter().flatten().enumerate() {
             let further = if target.tangents.is_some() { size_of::<Vec3>() } else { 0 };
             let bytes = names[number].len() + vertices * (SHAPE_BYTES_PER_VERTEX + further);
-            self.budget.take(|| place.to_owned(), bytes, 1)?;
+            self.take(place, bytes, 1)?;
             let place = format!("{place}, target {number}");
             shapes.push(self.shape(&place, target, names[number].clone(), vertices)?);
         }
         let uvs = uvs.unwrap_or_else(|| vec![Vec2::ZERO; vertices]);
-        let mesh = Mesh { positions, uvs, normals, triangles, shapes, ..Mesh::default() };
-        Ok(Some((mesh, tangents.unwrap_or_default())))
+        let tangents = tangents.unwrap_or_default();
+        Ok(Some(Mesh { positions, uvs, normals, tangents, triangles, shapes, ..Mesh::default() }))
     }
 
     fn corners(&mut self, indices: Index<Accessor>, vertices: usize) -> Result<Vec<u32>, ImportError> {
@@ -254,7 +258,7 @@ impl Document<'_> {
         if sets.is_empty() {
             return Ok(None);
         }
-        self.budget.take(|| place.to_owned(), vertices, size_of::<([u16; 4], [f32; 4])>())?;
+        self.take(place, vertices, size_of::<Four>())?;
         let mut influences = Influences::with_capacity(vertices);
         let mut bones = Vec::with_capacity(4 * sets.len());
         for vertex in 0..vertices {
@@ -262,24 +266,26 @@ impl Document<'_> {
             for (joints, weights) in &sets {
                 // Beyond u16 there is no joint; which one it was not is told when the scene is checked.
                 let joint = |joint: u32| u16::try_from(joint).unwrap_or(u16::MAX);
-                bones.extend(joints[vertex].map(joint).into_iter().zip(weights[vertex]));
+                bones.extend(joints[vertex].map(joint).into_iter().zip(weights[vertex].map(f64::from)));
             }
-            influences.push(&mut bones);
+            influences.push(&mut bones, 0);
         }
         if influences.reduced > 0 {
             let text = format!(
                 "{} vertices have more than four bones: the four largest are kept",
                 influences.reduced
             );
-            self.note(place, text);
+            self.note(place, Finding::Converted(text));
         }
         if influences.unweighted > 0 {
-            self.note(
-                place,
-                format!("{} vertices without weight follow the first joint", influences.unweighted),
-            );
+            let text = format!("{} vertices without weight follow the first joint", influences.unweighted);
+            self.note(place, Finding::Mended(text));
         }
-        Ok(Some(influences.finish()))
+        Ok(Some(influences.into_skinning()))
+    }
+
+    fn take(&mut self, place: &str, count: usize, size: usize) -> Result<(), ImportError> {
+        self.budget.take(count, size).map_err(|exceeded| exceeded.at(place))
     }
 
     fn note_attributes(&mut self, place: &str, primitive: &Primitive) {
@@ -291,7 +297,7 @@ impl Document<'_> {
                 Checked::Invalid => "an unknown attribute".to_owned(),
                 _ => continue,
             };
-            self.note(place, format!("{name} is left out"));
+            self.note(place, Finding::LeftOut(format!("{name} is left out")));
         }
     }
 }

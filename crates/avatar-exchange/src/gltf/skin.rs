@@ -1,7 +1,7 @@
 use super::document::Document;
 use super::node::affine;
 use crate::scene::narrow;
-use crate::{ImportError, RawScene, Skin};
+use crate::scene::{ImportError, RawScene, Skin};
 use glam::{Affine3A, DAffine3};
 use gltf::json::accessor::Type;
 

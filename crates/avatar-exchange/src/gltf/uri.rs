@@ -1,5 +1,10 @@
 //! Addresses of buffers and images: data in place, or a path beside the file.
 
+use crate::build::path::{Outside, inside};
+use base64::Engine;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use percent_encoding::percent_decode;
 use std::borrow::Cow;
 
 /// What an address means.
@@ -38,67 +43,33 @@ fn data(rest: &str) -> Result<Uri, Mistake> {
 fn path(uri: &str) -> Result<String, Mistake> {
     let decoded = percent_decoded(uri)?.into_owned();
     let decoded = String::from_utf8(decoded).map_err(|_| "a path in UTF-8")?;
-    if decoded.is_empty() || decoded.contains('\0') {
-        return Err("a path");
-    }
-    if decoded.starts_with(['/', '\\']) || decoded.split(['/', '\\']).next().is_some_and(|s| s.contains(':'))
-    {
-        return Err("data, or a relative path");
-    }
-    if decoded.split(['/', '\\']).any(|segment| segment == "..") {
-        return Err("a path inside the file's folder");
-    }
-    let segments: Vec<_> = decoded.split(['/', '\\']).filter(|s| !(s.is_empty() || *s == ".")).collect();
-    if segments.is_empty() { Err("a path to a file") } else { Ok(segments.join("/")) }
+    inside(&decoded).map_err(|outside| match outside {
+        Outside::Empty => "a path to a file",
+        Outside::Absolute => "data, or a relative path",
+        Outside::Upwards => "a path inside the file's folder",
+    })
 }
 
+/// RFC 3986, section 2.1, where a `%` without its digits is a mistake.
 fn percent_decoded(text: &str) -> Result<Cow<'_, [u8]>, Mistake> {
-    if !text.contains('%') {
-        return Ok(Cow::Borrowed(text.as_bytes()));
+    let is_digit = |digit: Option<&u8>| digit.is_some_and(u8::is_ascii_hexdigit);
+    let bytes = text.as_bytes();
+    let whole = |(at, _): (usize, &u8)| is_digit(bytes.get(at + 1)) && is_digit(bytes.get(at + 2));
+    match bytes.iter().enumerate().filter(|(_, byte)| **byte == b'%').all(whole) {
+        true => Ok(percent_decode(bytes).into()),
+        false => Err("two hexadecimal digits after each %"),
     }
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.as_bytes().iter();
-    let digit = |byte: Option<&u8>| byte.and_then(|byte| char::from(*byte).to_digit(16));
-    while let Some(&byte) = rest.next() {
-        let decoded = match byte {
-            b'%' => match (digit(rest.next()), digit(rest.next())) {
-                (Some(high), Some(low)) => (16 * high + low) as u8,
-                _ => return Err("two hexadecimal digits after each %"),
-            },
-            byte => byte,
-        };
-        bytes.push(decoded);
-    }
-    Ok(Cow::Owned(bytes))
 }
 
-/// RFC 4648, section 4; padding may be left out.
+/// RFC 4648, section 4; padding may be left out, and bits that stand for nothing do not matter.
 fn base64_decoded(text: &[u8]) -> Result<Vec<u8>, Mistake> {
-    let mut digits = text;
-    while let Some(rest) = digits.strip_suffix(b"=") {
-        digits = rest;
-    }
-    if text.len() - digits.len() > 2 || digits.len() % 4 == 1 {
-        return Err("base64 of a whole number of bytes");
-    }
-    let mut bytes = Vec::with_capacity(digits.len() / 4 * 3 + 2);
-    for group in digits.chunks(4) {
-        let mut bits = 0u32;
-        for &digit in group {
-            let value = match digit {
-                b'A'..=b'Z' => digit - b'A',
-                b'a'..=b'z' => digit - b'a' + 26,
-                b'0'..=b'9' => digit - b'0' + 52,
-                b'+' => 62,
-                b'/' => 63,
-                _ => return Err("base64"),
-            };
-            bits = bits << 6 | u32::from(value);
-        }
-        bits <<= 6 * (4 - group.len());
-        bytes.extend_from_slice(&bits.to_be_bytes()[1..group.len()]);
-    }
-    Ok(bytes)
+    const ENGINE: GeneralPurpose = GeneralPurpose::new(
+        &STANDARD,
+        GeneralPurposeConfig::new()
+            .with_decode_allow_trailing_bits(true)
+            .with_decode_padding_mode(DecodePaddingMode::Indifferent),
+    );
+    ENGINE.decode(text).map_err(|_| "base64 of a whole number of bytes")
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::mesh::{parent, version};
 use super::words::{Words, rotation};
-use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Node};
+use crate::scene::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Node};
 use glam::{DQuat, DVec3};
 
 /// Flags of the components that a joint takes from frames: x, y and z of its position, then of its rotation.
@@ -59,7 +59,7 @@ pub(super) fn read(words: &mut Words<'_>, name: &str, nodes: &[Node]) -> Result<
                 if number.and_then(|word| word.parse().ok()) != Some(read_frames) || read_frames >= frames {
                     return Err(words.error(format!("frame {read_frames} of {frames}"), number));
                 }
-                let time = (read_frames as f64 / rate) as f32;
+                let time = read_frames as f64 / rate;
                 frame(words, (&tracks, &moving), components, time, &mut clip)?;
                 read_frames += 1;
             }
@@ -136,7 +136,7 @@ fn channels(tracks: &[Track]) -> Vec<Channel> {
     (1..=tracks.len()).flat_map(|node| targets.map(|target| channel(node, target))).collect()
 }
 
-fn key(channel: &mut Channel, time_secs: f32, position: DVec3, rotation: DQuat) {
+fn key(channel: &mut Channel, time_secs: f64, position: DVec3, rotation: DQuat) {
     channel.times.push(time_secs);
     match channel.target {
         ChannelTarget::Rotation => channel.values.extend(rotation.as_quat().to_array()),
@@ -148,7 +148,7 @@ fn frame(
     words: &mut Words<'_>,
     (tracks, moving): (&[Track], &[usize]),
     components: usize,
-    time_secs: f32,
+    time_secs: f64,
     clip: &mut Clip,
 ) -> Result<(), ImportError> {
     words.expect("{")?;

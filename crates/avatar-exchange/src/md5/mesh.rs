@@ -1,9 +1,11 @@
 //! `.md5mesh`: joints, and meshes whose vertices hang from them.
 
 use super::words::Words;
-use crate::angle_normals::{add_triangle, finish};
-use crate::{ImportError, Material, Note};
-use avatar_mesh::{Mesh, Skinning};
+use crate::build::influences::Influences;
+use crate::build::normals::{NormalSums, Weighting};
+use crate::build::text::at_line;
+use crate::scene::{Finding, ImportError, Material, Note};
+use avatar_mesh::Mesh;
 use glam::{DAffine3, DQuat, DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 
@@ -172,50 +174,39 @@ fn assemble(
     weights: &[Weight],
 ) -> Result<Mesh, ImportError> {
     let mut mesh = Mesh { triangles, ..Mesh::default() };
-    let mut skinning = Skinning::default();
-    let mut reduced = 0;
-    let mut own: Vec<&Weight> = Vec::new();
+    let mut influences = Influences::default();
+    let mut bones = Vec::new();
     for vertex in vertices {
-        let wrong = |expected: String, found: String| crate::text::at_line(vertex.line, expected, found);
+        let wrong = |expected: String, found: String| at_line(vertex.line, expected, found);
         let range = vertex.first..vertex.first.saturating_add(vertex.count);
         let end = range.end;
         let Some(here) = weights.get(range) else {
             return Err(wrong(format!("weights below {}", weights.len()), format!("up to {end}")));
         };
-        own.clear();
-        own.extend(here);
-        let point = |weight: &&Weight| {
+        if here.iter().all(|weight| weight.weight <= 0.0) {
+            return Err(wrong("a vertex with a weight".to_owned(), format!("{} weights of 0", vertex.count)));
+        }
+        let point = |weight: &Weight| {
             let joint = &model.joints[weight.joint];
             f64::from(weight.weight) * (joint.rotation * weight.in_joint + joint.position)
         };
-        mesh.positions.push(own.iter().map(point).sum::<DVec3>().as_vec3());
+        mesh.positions.push(here.iter().map(point).sum::<DVec3>().as_vec3());
         mesh.uvs.push(vertex.uv);
-        // Stable, so that among equals the order of the file counts.
-        own.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-        reduced += usize::from(own.get(4).is_some_and(|fifth| fifth.weight > 0.0));
-        own.truncate(4);
-        let sum: f64 = own.iter().map(|weight| f64::from(weight.weight)).sum();
-        if sum <= 0.0 {
-            return Err(wrong("a vertex with a weight".to_owned(), format!("{} weights of 0", vertex.count)));
-        }
-        let (mut bones, mut shares) = ([0; 4], [0.0; 4]);
-        for (slot, weight) in own.iter().enumerate() {
-            bones[slot] = weight.joint as u16;
-            shares[slot] = (f64::from(weight.weight) / sum) as f32;
-        }
-        skinning.bones.push(bones);
-        skinning.weights.push(shares);
+        bones.clear();
+        bones.extend(here.iter().map(|weight| (weight.joint as u16, f64::from(weight.weight))));
+        influences.push(&mut bones, 0);
     }
-    if reduced > 0 {
+    if influences.reduced > 0 {
+        let reduced = influences.reduced;
         let text = format!("{reduced} vertices have more than four weights: the largest four remain");
-        model.notes.push(Note { place: format!("line {first_line}"), text });
+        model.notes.push(Note::new(format!("line {first_line}"), Finding::Converted(text)));
     }
-    mesh.skinning = Some(skinning);
+    mesh.skinning = Some(influences.into_skinning());
     mesh.normals = normals(&mesh);
     Ok(mesh)
 }
 
-/// Smooth ones, across the seams of texture coordinates.
+/// Smooth normals, across the seams of texture coordinates.
 fn normals(mesh: &Mesh) -> Vec<Vec3> {
     let mut groups = HashMap::new();
     // Adding 0 makes one zero of two.
@@ -225,10 +216,10 @@ fn normals(mesh: &Mesh) -> Vec<Vec3> {
         *groups.entry(place(position)).or_insert(next)
     };
     let places: Vec<u32> = mesh.positions.iter().map(&mut group).collect();
-    let mut sums = vec![DVec3::ZERO; groups.len()];
+    let mut sums = NormalSums::new(groups.len(), Weighting::Angle);
     for corners in &mesh.triangles {
         let points = corners.map(|corner| mesh.positions[corner as usize]);
-        add_triangle(points, corners.map(|corner| places[corner as usize]), &mut sums);
+        sums.add(points, corners.map(|corner| places[corner as usize]));
     }
-    places.iter().map(|place| finish(sums[*place as usize])).collect()
+    places.iter().map(|place| sums.normal(*place)).collect()
 }

@@ -25,8 +25,10 @@ mod anim;
 mod mesh;
 mod words;
 
-use crate::text::{decode, stem};
-use crate::{ImportError, Node, Note, RawScene, Scene, ScenePart, Skin, TextFile, Transform, Trs};
+use crate::build::text::{decode, stem};
+use crate::scene::{
+    Finding, ImportError, Node, Note, RawScene, Scene, ScenePart, Skin, TextFile, Transform, Trs, narrow,
+};
 use glam::{DAffine3, Quat};
 use words::Words;
 
@@ -46,8 +48,8 @@ pub fn read_raw(mesh: TextFile<'_>, animations: &[TextFile<'_>]) -> Result<RawSc
     let text = decode(mesh.bytes);
     let model = mesh::read(&mut Words::new(&text)).map_err(|error| error.in_file(mesh.file))?;
     let mut raw = scene(stem(mesh.file), model);
-    let note = |text: &str| Note { place: mesh.file.to_owned(), text: text.to_owned() };
-    raw.notes.push(note("z is up there: the node above all joints turns it to y"));
+    let turned = Finding::converted("z is up there: the node above all joints turns it to y");
+    raw.notes.push(Note::new(mesh.file, turned));
     for animation in animations {
         let text = decode(animation.bytes);
         let clip = anim::read(&mut Words::new(&text), stem(animation.file), &raw.nodes)
@@ -86,7 +88,7 @@ fn scene(name: &str, model: mesh::Model) -> RawScene {
         raw.skins.push(Skin {
             name: name.to_owned(),
             joints: (1..raw.nodes.len()).collect(),
-            inverse_binds: models.iter().map(|model| crate::scene::narrow(model.inverse())).collect(),
+            inverse_binds: models.iter().map(|model| narrow(model.inverse())).collect(),
         });
     }
     for (primitive, part) in model.parts.into_iter().enumerate() {

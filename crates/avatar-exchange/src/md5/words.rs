@@ -1,7 +1,7 @@
 //! Words of files of id Tech 4.
 
-use crate::ImportError;
-use crate::text::{at_line, float, number, shown};
+use crate::build::text::{at_line, float, number, shown};
+use crate::scene::ImportError;
 use glam::{DQuat, DVec3};
 
 /// Words, brackets and quoted texts, wherever lines end; what follows two slashes is a comment.

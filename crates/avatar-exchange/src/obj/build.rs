@@ -2,11 +2,12 @@
 
 use super::parse::{Corner, Face, Lines, Smoothing};
 use super::{ObjFile, ObjPart};
-use crate::angle_normals::{add_triangle, finish};
-use crate::text::{at_line, stem};
-use crate::{ImportError, Note};
+use crate::build::normals::{NormalSums, Weighting};
+use crate::build::polygon::Cutter;
+use crate::build::text::{at_line, shown, stem};
+use crate::scene::{Finding, ImportError, Note};
 use avatar_mesh::Mesh;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 
 /// Marks a corner without texture coordinates.
@@ -39,7 +40,10 @@ pub(super) fn build(file: &str, lines: &Lines) -> Result<ObjFile, ImportError> {
         return Err(at_line(lines.last_line.max(1), "at least one face before the end", "none"));
     }
     check_indices(lines)?;
-    let (keys, sums) = keys(lines);
+    let mut cutter = Cutter::default();
+    let triangles: Vec<Vec<[usize; 3]>> =
+        faces(lines).map(|(_, corners)| cutter.cut(&points(lines, corners))).collect();
+    let (keys, sums) = keys(lines, &triangles);
     let mut part_keys = vec![Vec::new(); lines.parts.len()];
     for (face, corners) in faces(lines) {
         part_keys[face.part].extend_from_slice(&keys[corners]);
@@ -56,7 +60,7 @@ pub(super) fn build(file: &str, lines: &Lines) -> Result<ObjFile, ImportError> {
         .map(|(key, keys)| {
             let normal = |normal| match normal {
                 Normal::Given(index) => given(lines, index).unwrap_or(Vec3::Y),
-                Normal::Computed(group) => finish(sums[group as usize]),
+                Normal::Computed(group) => sums.normal(group),
             };
             let mesh = Mesh {
                 positions: keys.iter().map(|key| lines.positions[key.position as usize]).collect(),
@@ -72,7 +76,7 @@ pub(super) fn build(file: &str, lines: &Lines) -> Result<ObjFile, ImportError> {
             ObjPart { name, material: key.material, mesh, sources }
         })
         .collect();
-    for (face, corners) in faces(lines) {
+    for ((face, corners), triangles) in faces(lines).zip(&triangles) {
         let (keys_here, part) = (&keys[corners], &mut obj.parts[face.part]);
         // Every key was put there above.
         let vertex = |key: &Key| part_keys[face.part].partition_point(|other| other < key) as u32;
@@ -82,11 +86,9 @@ pub(super) fn build(file: &str, lines: &Lines) -> Result<ObjFile, ImportError> {
         obj.faces.ends.push(obj.faces.corners.len() as u32);
         obj.faces.parts.push(face.part as u32);
         let vertices = &obj.faces.vertices[first..];
-        for k in 1..vertices.len() - 1 {
-            part.mesh.triangles.push([vertices[0], vertices[k], vertices[k + 1]]);
-        }
+        part.mesh.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| vertices[corner])));
     }
-    obj.notes = notes(lines);
+    obj.notes = notes(lines, &cutter);
     Ok(obj)
 }
 
@@ -127,21 +129,23 @@ fn given(lines: &Lines, index: u32) -> Option<Vec3> {
     }
 }
 
+/// Where the corners of a face are.
+fn points(lines: &Lines, corners: std::ops::Range<usize>) -> Vec<Vec3> {
+    lines.corners[corners].iter().map(|corner| lines.positions[corner.position as usize]).collect()
+}
+
 /// The vertex of each corner, and sums of normals.
-fn keys(lines: &Lines) -> (Vec<Key>, Vec<DVec3>) {
+fn keys(lines: &Lines, triangles: &[Vec<[usize; 3]>]) -> (Vec<Key>, NormalSums) {
     let mut keys = Vec::with_capacity(lines.corners.len());
     let mut groups: HashMap<(u32, Smoothing), u32> = HashMap::new();
-    let mut sums = Vec::new();
+    let mut sums = NormalSums::new(0, Weighting::Angle);
     let mut ring = Vec::new();
-    for (face, corners) in faces(lines) {
+    for ((face, corners), triangles) in faces(lines).zip(triangles) {
         let corners = &lines.corners[corners];
         let usable = |corner: &Corner| corner.normal.filter(|index| given(lines, *index).is_some());
         if corners.iter().any(|corner| usable(corner).is_none()) {
             ring.clear();
-            let mut fresh = || {
-                sums.push(DVec3::ZERO);
-                sums.len() as u32 - 1
-            };
+            let mut fresh = || sums.add_group();
             if face.smoothing == Smoothing::Flat {
                 ring.resize(corners.len(), fresh());
             } else {
@@ -151,9 +155,8 @@ fn keys(lines: &Lines) -> (Vec<Key>, Vec<DVec3>) {
                 ring.extend(corners.iter().map(group));
             }
             let point = |corner: usize| lines.positions[corners[corner].position as usize];
-            for k in 1..corners.len() - 1 {
-                let triangle = [0, k, k + 1];
-                add_triangle(triangle.map(point), triangle.map(|corner| ring[corner]), &mut sums);
+            for triangle in triangles {
+                sums.add(triangle.map(point), triangle.map(|corner| ring[corner]));
             }
         }
         keys.extend(corners.iter().enumerate().map(|(k, corner)| Key {
@@ -165,11 +168,12 @@ fn keys(lines: &Lines) -> (Vec<Key>, Vec<DVec3>) {
     (keys, sums)
 }
 
-fn notes(lines: &Lines) -> Vec<Note> {
+fn notes(lines: &Lines, cutter: &Cutter) -> Vec<Note> {
     let mut notes = Vec::new();
-    let mut note = |line: usize, text: String| notes.push(Note { place: format!("line {line}"), text });
+    let mut note =
+        |line: usize, text: String| notes.push(Note::new(format!("line {line}"), Finding::LeftOut(text)));
     for (keyword, (count, line)) in &lines.unknown {
-        note(*line, format!("{count} lines {} are left out", crate::text::shown(keyword)));
+        note(*line, format!("{count} lines {} are left out", shown(keyword)));
     }
     if let Some(line) = lines.colors {
         note(line, "colours of vertices are left out".to_owned());
@@ -177,27 +181,6 @@ fn notes(lines: &Lines) -> Vec<Note> {
     if let Some(line) = lines.rational {
         note(line, "weights of vertices, for rational curves, are left out".to_owned());
     }
-    let mut hollow = faces(lines).filter(|(_, corners)| !is_fan(lines, corners.clone()));
-    if let Some((face, _)) = hollow.next() {
-        let count = 1 + hollow.count();
-        note(
-            face.line,
-            format!(
-                "{count} polygons are not convex: their triangles, a fan around the first corner, overlap"
-            ),
-        );
-    }
+    notes.extend(cutter.findings().map(|text| Note::new("faces", Finding::Mended(text))));
     notes
-}
-
-/// Whether the triangles around the first corner all face as the polygon does. Other ways to cut a polygon would depend
-/// on where its corners are, and frames of a sequence would differ in their triangles.
-fn is_fan(lines: &Lines, corners: std::ops::Range<usize>) -> bool {
-    let point = |corner: &Corner| lines.positions[corner.position as usize].as_dvec3();
-    let Some((first, rest)) = lines.corners[corners].split_first() else { return true };
-    let origin = point(first);
-    let crosses = || rest.windows(2).map(|two| (point(&two[0]) - origin).cross(point(&two[1]) - origin));
-    // Their sum is twice the area, along the normal of the polygon.
-    let normal = crosses().sum::<DVec3>().normalize_or_zero();
-    crosses().all(|cross| cross.dot(normal) >= -1e-6 * cross.length())
 }

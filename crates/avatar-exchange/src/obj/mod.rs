@@ -1,6 +1,6 @@
 //! Wavefront OBJ: meshes, materials, shapes and sequences of files.
 //!
-//! Groups, objects and materials become parts of one node. Polygons become fans of triangles. Normals that a file lacks
+//! Groups, objects and materials become parts of one node. Polygons become triangles, concave ones, too. Normals that a file lacks
 //! are computed: smooth, or as its smoothing groups say.
 //!
 //! The lines are read here rather than by a library, since errors name their line, shapes need the file's own order of
@@ -24,8 +24,8 @@ mod sequence;
 
 pub use sequence::{ObjFrame, read_sequence};
 
-use crate::text::decode;
-use crate::{ImportError, Material, Node, Note, RawScene, Resolve, Scene, SceneImage, ScenePart};
+use crate::build::text::decode;
+use crate::scene::{ImportError, Material, Node, Note, RawScene, Resolve, Scene, SceneImage, ScenePart};
 use avatar_mesh::{Mesh, Shape, SmoothNormals};
 use glam::Vec3;
 

@@ -1,9 +1,9 @@
 //! Material libraries of OBJ files.
 
 use super::ObjFile;
-use crate::Resolve;
-use crate::text::{at_line, decode, float};
-use crate::{AlphaMode, ImportError, Material, Note, SceneImage};
+use crate::build::path::beside;
+use crate::build::text::{at_line, decode, float, shown};
+use crate::scene::{AlphaMode, Finding, ImportError, Material, Note, Resolve, SceneImage};
 use std::collections::HashMap;
 
 /// Options of texture statements and how many words follow them; `-o`, `-s` and `-t` take up to three numbers.
@@ -53,7 +53,8 @@ pub(super) fn attach(
                 parse(&mut library, obj, &path, &decode(&bytes)).map_err(|error| error.in_file(&path))?;
             }
             Err(reason) => {
-                obj.notes.push(note(&path, &format!("the material library could not be read: {reason}")))
+                let text = format!("the material library could not be read: {reason}");
+                obj.notes.push(Note::new(path, Finding::Missing(text)));
             }
         }
     }
@@ -61,14 +62,14 @@ pub(super) fn attach(
         let material = match library.found.get(name).and_then(|&index| library.materials.get(index)) {
             Some(Draft { material, bump, .. }) => {
                 if let (None, Some(_)) = (material.normal_texture, bump) {
-                    obj.notes
-                        .push(note(&format!("material {name:?}"), "its bump map is taken for a normal map"));
+                    let text = "its bump map is taken for a normal map";
+                    obj.notes.push(Note::new(format!("material {name:?}"), Finding::converted(text)));
                 }
                 Material { normal_texture: material.normal_texture.or(*bump), ..material.clone() }
             }
             None => {
-                obj.notes
-                    .push(note(&format!("material {name:?}"), "is in no library: it gets default values"));
+                let text = "is in no library: it gets default values";
+                obj.notes.push(Note::new(format!("material {name:?}"), Finding::missing(text)));
                 Material { name: name.clone(), metallic: 0.0, ..Material::default() }
             }
         };
@@ -82,35 +83,19 @@ pub(super) fn attach(
                 image.bytes = bytes;
             }
             Err(reason) => {
-                obj.notes.push(note(&image.name, &format!("the image could not be read: {reason}")))
+                let text = format!("the image could not be read: {reason}");
+                obj.notes.push(Note::new(image.name.as_str(), Finding::Missing(text)));
             }
         }
     }
     Ok(())
 }
 
-fn note(place: &str, text: &str) -> Note {
-    Note { place: place.to_owned(), text: text.to_owned() }
-}
-
 /// A line may name several libraries, or one whose name contains spaces.
 fn paths(line: &str) -> Vec<String> {
     let words = || line.split_whitespace();
     let each_is_a_library = words().all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
-    if each_is_a_library { words().filter_map(path).collect() } else { path(line).into_iter().collect() }
-}
-
-/// The path as [`Resolve`] takes it. Writers like to name the places on their own machines: of a path that is absolute or
-/// leads upwards, the file's name remains, which is where people put such files.
-fn path(written: &str) -> Option<String> {
-    let segments = || written.trim().split(['/', '\\']);
-    let outside = written.trim().starts_with(['/', '\\'])
-        || segments().next().is_some_and(|first| first.contains(':'))
-        || segments().any(|segment| segment == "..");
-    let inside: Vec<&str> = segments().filter(|segment| !segment.is_empty() && *segment != ".").collect();
-    let kept = if outside { &inside[inside.len().saturating_sub(1)..] } else { &inside[..] };
-    let path = kept.join("/");
-    (!path.is_empty() && !path.contains([':', '\0']) && path != "..").then_some(path)
+    if each_is_a_library { words().filter_map(beside).collect() } else { beside(line).into_iter().collect() }
 }
 
 fn mime(bytes: &[u8]) -> &'static str {
@@ -141,7 +126,7 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
             continue;
         }
         let Some(draft) = &mut current else {
-            return Err(at_line(line, "newmtl before anything else", crate::text::shown(keyword)));
+            return Err(at_line(line, "newmtl before anything else", shown(keyword)));
         };
         let material = &mut draft.material;
         let one = |what| float(line, what, rest.split_whitespace().next());
@@ -217,9 +202,10 @@ fn texture(
         }
     }
     if moved {
-        obj.notes.push(note(&format!("{library}, line {line}"), "where the texture lies is left out"));
+        let finding = Finding::left_out("where the texture lies is left out");
+        obj.notes.push(Note::new(format!("{library}, line {line}"), finding));
     }
-    let name = path(rest)?;
+    let name = beside(rest)?;
     Some(*images.entry(name.clone()).or_insert_with(|| {
         obj.images.push(SceneImage { name, ..SceneImage::default() });
         obj.images.len() - 1

@@ -1,7 +1,7 @@
 //! Lines of an OBJ file, one after the other.
 
-use crate::ImportError;
-use crate::text::{at_line, float, number, shown};
+use crate::build::text::{at_line, float, number, shown};
+use crate::scene::ImportError;
 use glam::{Vec2, Vec3};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};

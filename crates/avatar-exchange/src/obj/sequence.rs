@@ -1,9 +1,10 @@
 //! Sequences of OBJ files: one connectivity, a geometry for each time.
 
 use super::{ObjFile, read_obj};
-use crate::Resolve;
-use crate::text::stem;
-use crate::{Channel, ChannelTarget, Clip, ImportError, Interpolation, Note, Scene};
+use crate::build::budget::Budget;
+use crate::build::names::unique_names;
+use crate::build::text::stem;
+use crate::scene::{Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Note, Resolve, Scene};
 use avatar_mesh::Shape;
 use avatar_mesh::coherence::{self, FaceMatch, Faces, Geometry};
 use glam::Vec3;
@@ -19,14 +20,14 @@ pub struct ObjFrame<'a> {
     /// Its contents.
     pub bytes: &'a [u8],
     /// When, in seconds.
-    pub time_secs: f32,
+    pub time_secs: f64,
 }
 
 /// Reads files of the same vertices and faces as one scene: a shape for each frame, named like its file, and a clip that
 /// goes from each to the next in a straight line. At rest it is the first in time. Materials are those of that one.
 ///
 /// # Errors
-/// No frames or too many, a time that is no number or comes twice, a file that is wrong or differs in its vertices or
+/// No frames or too many, a time that is not finite or comes twice, a file that is wrong or differs in its vertices or
 /// faces.
 pub fn read_sequence(frames: &[ObjFrame<'_>], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
     let mut order: Vec<&ObjFrame<'_>> = frames.iter().collect();
@@ -46,10 +47,11 @@ pub fn read_sequence(frames: &[ObjFrame<'_>], resolve: &mut Resolve<'_>) -> Resu
         return Err(ImportError::new("the sequence", format!("1 to {MAX_FRAMES} files"), count.to_string()));
     };
     let mut base = read_obj(first.file, first.bytes, resolve)?;
-    let mut names = std::collections::HashSet::new();
-    for (number, frame) in order.iter().enumerate() {
-        let name = stem(frame.file);
-        let name = if names.insert(name) { name.to_owned() } else { format!("{name}.{number}") };
+    let names = unique_names(order.iter().map(|frame| stem(frame.file).to_owned()).collect());
+    let mut budget = Budget::of_vertices();
+    let vertices: usize = base.parts.iter().map(|part| part.mesh.positions.len()).sum();
+    for (number, (frame, name)) in order.iter().zip(names).enumerate() {
+        budget.take(vertices, 1).map_err(|exceeded| exceeded.at("the sequence").in_file(frame.file))?;
         if number == 0 {
             base.add_shape(&name, &[])?;
         } else {
@@ -87,7 +89,7 @@ impl ObjFile {
             ImportError::new(format!("shape {name:?}"), expected, found).in_file(&other.file)
         })?;
         if same.is_warning() {
-            self.notes.push(Note { place: other.file.clone(), text: same.to_string() });
+            self.notes.push(Note::new(other.file.as_str(), Finding::Mended(same.to_string())));
         }
         let mut normals: Vec<Vec<Vec3>> =
             self.parts.iter().map(|part| vec![Vec3::ZERO; part.sources.len()]).collect();

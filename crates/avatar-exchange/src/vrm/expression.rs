@@ -1,5 +1,5 @@
 use super::{Expression, Override, Vrm};
-use crate::ScenePose;
+use crate::scene::ScenePose;
 use std::collections::BTreeMap;
 
 const BLINK: [&str; 3] = ["blink", "blinkLeft", "blinkRight"];

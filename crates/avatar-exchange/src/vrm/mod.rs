@@ -17,9 +17,8 @@ mod place;
 mod v0;
 mod v1;
 
-use crate::Resolve;
 use crate::gltf;
-use crate::{ImportError, Node, Note, RawScene, Scene, Transform, Trs};
+use crate::scene::{Finding, ImportError, Node, Note, RawScene, Resolve, Scene, Transform, Trs};
 use glam::{Quat, Vec3};
 use place::Place;
 use serde_json::Value;
@@ -179,10 +178,10 @@ fn read_vrm(raw: &mut RawScene, bytes: &[u8]) -> Result<Vrm, ImportError> {
             return Err(ImportError::new("extensions", "VRMC_vrm (VRM 1.0) or VRM (0.x)", "neither"));
         }
     };
-    let unsaid = format!("{name} is not represented");
-    raw.notes.retain(|note| !(note.place == "extensionsUsed" && note.text == unsaid));
+    let represented = Note::new(gltf::EXTENSIONS_USED, Finding::Extension(name.to_owned()));
+    raw.notes.retain(|note| *note != represented);
     for bone in REQUIRED_BONES.iter().filter(|bone| vrm.bone(bone).is_none()) {
-        note(raw, "humanoid", format!("lacks the bone {bone}"));
+        note(raw, "humanoid", Finding::Missing(format!("lacks the bone {bone}")));
     }
     if vrm.version == Version::V0 {
         turn(raw);
@@ -190,8 +189,8 @@ fn read_vrm(raw: &mut RawScene, bytes: &[u8]) -> Result<Vrm, ImportError> {
     Ok(vrm)
 }
 
-fn note(raw: &mut RawScene, place: impl Into<String>, text: impl Into<String>) {
-    raw.notes.push(Note { place: place.into(), text: text.into() });
+fn note(raw: &mut RawScene, place: impl Into<String>, finding: Finding) {
+    raw.notes.push(Note::new(place, finding));
 }
 
 /// Turns everything by half a turn around the vertical. The new root comes last, so that no position changes.
@@ -201,7 +200,7 @@ fn turn(raw: &mut RawScene) {
     // Half a turn exactly, which the sine of a rounded π is not.
     let local = Transform::Trs(Trs { rotation: Quat::from_xyzw(0.0, 1.0, 0.0, 0.0), ..Trs::default() });
     raw.nodes.push(Node { name: "VRM 0.x".to_owned(), parent: None, local, weights: Vec::new() });
-    note(raw, "VRM", "looks along -Z: it is turned around by a root node");
+    note(raw, "VRM", Finding::converted("looks along -Z: it is turned around by a root node"));
 }
 
 fn vec3(values: [f32; 3]) -> Vec3 {

@@ -1,4 +1,4 @@
-use crate::ImportError;
+use crate::scene::ImportError;
 use serde_json::Value;
 
 /// A value of the JSON and where it is: every mistake is told with its place.

@@ -2,7 +2,7 @@
 
 use super::place::Place;
 use super::{Expression, LookAt, LookAtKind, Meta, MorphBind, RangeMap, Version, Vrm, note, vec3};
-use crate::{ImportError, RawScene};
+use crate::scene::{Finding, ImportError, RawScene};
 use std::collections::HashSet;
 
 /// Presets of 0.x by what VRM 1.0 calls them.
@@ -58,7 +58,7 @@ pub(super) fn read(root: &Place<'_>, vrm: &Place<'_>, raw: &mut RawScene) -> Res
             let expression = expression(&place, &nodes, &mut binds_left, raw)?;
             if !names.insert(expression.name.clone()) {
                 let text = format!("a second expression '{}' is left out", expression.name);
-                note(raw, place.path(), text);
+                note(raw, place.path(), Finding::LeftOut(text));
                 continue;
             }
             expressions.push(expression);
@@ -117,7 +117,8 @@ fn expression(
     }
     let changes = place.list("materialValues")?.len();
     if changes > 0 {
-        note(raw, place.path(), format!("{changes} changes of materials are not represented"));
+        let text = format!("{changes} changes of materials are not represented");
+        note(raw, place.path(), Finding::LeftOut(text));
     }
     let name = match preset {
         Some(preset) => preset.to_owned(),
@@ -149,7 +150,7 @@ fn look_at(place: &Place<'_>, raw: &mut RawScene) -> Result<LookAt, ImportError>
         let is_straight =
             |curve: &[f32]| curve.is_empty() || curve == [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0];
         if !is_straight(&curve?) {
-            note(raw, map.path(), "its curve is taken as a straight line");
+            note(raw, map.path(), Finding::converted("its curve is taken as a straight line"));
         }
         Ok::<_, ImportError>(RangeMap {
             input_max_deg: map.float_or("xRange", default.input_max_deg)?,

@@ -2,7 +2,7 @@
 
 use super::place::Place;
 use super::{Expression, LookAt, LookAtKind, Meta, MorphBind, Override, RangeMap, Version, Vrm, note, vec3};
-use crate::{ImportError, RawScene};
+use crate::scene::{Finding, ImportError, RawScene};
 use std::collections::HashSet;
 
 pub(super) fn read(vrm: &Place<'_>, raw: &mut RawScene) -> Result<Vrm, ImportError> {
@@ -61,7 +61,8 @@ fn expression(
     for (key, what) in [("materialColorBinds", "colours"), ("textureTransformBinds", "textures")] {
         let count = place.list(key)?.len();
         if count > 0 {
-            note(raw, place.path(), format!("{count} changes of {what} are not represented"));
+            let text = format!("{count} changes of {what} are not represented");
+            note(raw, place.path(), Finding::LeftOut(text));
         }
     }
     let overrides = |key: &str| match place.get(key)? {

@@ -68,6 +68,12 @@ pub enum ImportFailure {
     /// Rules of shapes that cannot be followed.
     #[error(transparent)]
     Drivers(#[from] DriversError),
+    /// More joints in all skins than vertices can name.
+    #[error("expected at most 65536 joints in all skins, found {found}")]
+    Joints {
+        /// Bones of the scene.
+        found: usize,
+    },
     /// The rest pose could not be taken.
     #[error(transparent)]
     Face(#[from] FaceError),
@@ -104,12 +110,12 @@ impl Import {
         if scene.parts.is_empty() {
             report.notes.push("there is no mesh: a skeleton and its motion, nothing to draw".to_owned());
         }
-        leave_helpers_out(&mut scene, &mut report);
+        note_helpers(leave_helpers_out(&mut scene), &mut report);
         let joints = rig::Joints::of(&scene, known, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
         let sliders = sliders::Wanted::of(&scene, &shapes)?;
         let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
-        let (parts, textures) = parts::parts(&scene, &shapes, &mut report);
+        let (parts, textures) = parts::parts(&scene, &shapes, &mut report)?;
         let poses = poses::poses(&controls);
         let head =
             joints.roles.iter().find(|(role, _)| *role == Role::Head).map(|(_, node)| joints.of_node[*node]);
@@ -133,13 +139,17 @@ impl Import {
     }
 }
 
-/// MakeHuman's base mesh without what it does not show.
-fn leave_helpers_out(scene: &mut Scene, report: &mut ImportReport) {
+/// Leaves out of MakeHuman's base mesh the parts that only serve to fit clothes, hair and bones. Returns how many these
+/// were. [`Import::from_scene`] does so by itself.
+pub fn leave_helpers_out(scene: &mut Scene) -> usize {
     let parts = scene.parts.len();
     if scene.parts.iter().any(|part| part.name == "body") {
         scene.retain_parts(|part| !shape_sets::is_fitting_helper(&part.name));
     }
-    let left_out = parts - scene.parts.len();
+    parts - scene.parts.len()
+}
+
+fn note_helpers(left_out: usize, report: &mut ImportReport) {
     if left_out > 0 {
         report
             .notes

@@ -1,10 +1,10 @@
-use super::ImportReport;
+use super::{ImportFailure, ImportReport};
 use crate::textures::{OwnImages, decode};
 use crate::unique::unique_names;
 use crate::{Part, Textures, Warning};
 use avatar_exchange::{AlphaMode, Scene, ScenePart};
 use avatar_look::Material;
-use avatar_mesh::{PartKind, Shape};
+use avatar_mesh::{Mesh, PartKind, Shape};
 use image::RgbaImage;
 
 /// The shapes of all nodes in one list.
@@ -39,10 +39,14 @@ impl ShapeNames {
 }
 
 /// The parts, which know the places of their shapes in the common list, and their pictures.
-pub(super) fn parts(scene: &Scene, shapes: &ShapeNames, report: &mut ImportReport) -> (Vec<Part>, Textures) {
+pub(super) fn parts(
+    scene: &Scene,
+    shapes: &ShapeNames,
+    report: &mut ImportReport,
+) -> Result<(Vec<Part>, Textures), ImportFailure> {
     let names = unique_names(scene.parts.iter().map(|part| part_name(scene, part)), "part");
     let mut images = Images::default();
-    let parts: Vec<Part> = (scene.parts.iter().zip(names))
+    let parts = (scene.parts.iter().zip(names))
         .map(|(part, name)| {
             let kind = kind_of(scene, part, &name);
             let material = images.take(scene, part, kind, &name, report);
@@ -53,13 +57,27 @@ pub(super) fn parts(scene: &Scene, shapes: &ShapeNames, report: &mut ImportRepor
             let mut mesh = part.mesh.clone();
             // Shapes that move positions only get the normals of the moved surface.
             mesh.add_shape_normals();
+            to_palette(scene, part, &mut mesh)?;
             let first_shape = shapes.first.get(part.node).copied().unwrap_or(0);
             let bytes = mesh.positions.len() * 32 + mesh.triangles.len() * 12;
-            Part { name, kind, mesh, first_shape, bytes, bone, material: Some(material), bounds: None }
+            Ok(Part { name, kind, mesh, first_shape, bytes, bone, material: Some(material), bounds: None })
         })
-        .collect();
+        .collect::<Result<Vec<Part>, ImportFailure>>()?;
     let textures = images.decoded(scene);
-    (parts, textures)
+    Ok((parts, textures))
+}
+
+/// Bones of a scene's part are joints of its skin; those of a pack's part are entries of the palette, in which the joints
+/// of all skins follow each other.
+fn to_palette(scene: &Scene, part: &ScenePart, mesh: &mut Mesh) -> Result<(), ImportFailure> {
+    let (Some(skin), Some(skinning)) = (part.skin, &mut mesh.skinning) else { return Ok(()) };
+    let palette = scene.palette();
+    let first = palette.skins.get(skin).copied().unwrap_or(0);
+    for bone in skinning.bones.iter_mut().flatten() {
+        let place = first + usize::from(*bone);
+        *bone = u16::try_from(place).map_err(|_| ImportFailure::Joints { found: palette.entries.len() })?;
+    }
+    Ok(())
 }
 
 fn part_name<'a>(scene: &'a Scene, part: &'a ScenePart) -> &'a str {

@@ -219,7 +219,11 @@ fn files_without_sliders_keep_the_shapes_or_refuse_them() {
     let rest: Vec<_> =
         scene.nodes.iter().map(|node| node.weights.as_slice()).filter(|w| !w.is_empty()).collect();
     assert_eq!(rest, [&[0.75][..], &[0.5, 0.5, 0.0, 0.0]]);
-    assert!(scene.notes.iter().any(|note| note.text.contains("sliders are left out")), "{:?}", scene.notes);
+    assert!(
+        scene.notes.iter().any(|note| note.finding.to_string().contains("sliders are left out")),
+        "{:?}",
+        scene.notes
+    );
     let refused = raw_files(&import.pack, &import.textures).expect_err("in-betweens");
     assert_eq!(refused, RawError::InBetween { sliders: ["shut", "smile", "shut"].map(str::to_owned).into() });
 }

@@ -80,9 +80,8 @@ fn at_rest(args: &ConvertArgs) -> Result<()> {
 
 /// A file's scene as it is; of a pack rig, parts, shapes, and its poses as clips.
 fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
-    let written = match pack.motion() {
-        Some(motion) => {
-            let scene = motion.scene();
+    let written = match files.read_scene()? {
+        Some(scene) => {
             if !scene.drivers.is_empty() {
                 eprintln!(
                     "warning: sliders of in-between and corrective shapes are left out, each shape is one of its own"
@@ -91,7 +90,7 @@ fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
             if files.is_vrm() {
                 eprintln!("warning: roles of bones, expressions and look-at are left out");
             }
-            glb::write(&avatar_pack::portable_pictures(scene))
+            glb::write(&avatar_pack::portable_pictures(&scene))
         }
         None => {
             let raw = avatar_pack::export(pack, &files.load_textures());

@@ -1,0 +1,137 @@
+use super::buffer::Buffer;
+use crate::scene::{AlphaMode, Material, Scene, SceneImage};
+use serde_json::{Map, Value, json};
+
+/// The images that the file has: those with bytes.
+#[derive(Debug)]
+pub(super) struct Images {
+    /// Per image of the scene its position in the file.
+    places: Vec<Option<usize>>,
+    count: usize,
+}
+
+impl Images {
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut count = 0;
+        let place = |image: &SceneImage| {
+            let has_bytes = !image.bytes.is_empty();
+            count += usize::from(has_bytes);
+            has_bytes.then(|| count - 1)
+        };
+        let places = scene.images.iter().map(place).collect();
+        Self { places, count }
+    }
+
+    /// One texture for each image, which repeats.
+    pub(super) fn textures(&self) -> Vec<Value> {
+        (0..self.count).map(|image| json!({ "source": image })).collect()
+    }
+
+    pub(super) fn images(&self, scene: &Scene, buffer: &mut Buffer) -> Vec<Value> {
+        let with_bytes = scene.images.iter().filter(|image| !image.bytes.is_empty());
+        with_bytes
+            .map(|image| {
+                let mut json = super::named(&image.name);
+                json.insert("mimeType".to_owned(), json!(media_type(image)));
+                let view = buffer.view(image.bytes.iter().copied(), None);
+                json.insert("bufferView".to_owned(), json!(view));
+                Value::Object(json)
+            })
+            .collect()
+    }
+
+    fn texture(&self, image: Option<usize>) -> Option<Map<String, Value>> {
+        let place = self.places.get(image?).copied().flatten()?;
+        Some(Map::from_iter([("index".to_owned(), json!(place))]))
+    }
+}
+
+/// By the first bytes, or else as stated.
+fn media_type(image: &SceneImage) -> &str {
+    let begins = |start: &[u8]| image.bytes.starts_with(start);
+    if begins(b"\x89PNG\r\n\x1a\n") {
+        "image/png"
+    } else if begins(b"\xff\xd8\xff") {
+        "image/jpeg"
+    } else if begins(b"RIFF") && image.bytes.get(8..12) == Some(b"WEBP") {
+        "image/webp"
+    } else if begins(b"\xabKTX 20\xbb") {
+        "image/ktx2"
+    } else if image.mime.is_empty() {
+        "application/octet-stream"
+    } else {
+        &image.mime
+    }
+}
+
+pub(super) fn materials(scene: &Scene, images: &Images) -> Vec<Value> {
+    scene.materials.iter().map(|material| one(material, images)).collect()
+}
+
+/// A number between two others; what is none becomes the default.
+fn within(value: f32, least: f32, most: f32, default: f32) -> f32 {
+    if value.is_nan() { default } else { value.clamp(least, most) }
+}
+
+fn one(material: &Material, images: &Images) -> Value {
+    let default = Material::default();
+    let factor = |value: f32| Value::from(f64::from(within(value, 0.0, 1.0, 1.0)));
+    let is = |a: f32, b: f32| a.to_bits() == b.to_bits();
+    let mut pbr = Map::new();
+    if material.base_color.iter().any(|x| !is(*x, 1.0)) {
+        pbr.insert("baseColorFactor".to_owned(), material.base_color.iter().map(|x| factor(*x)).collect());
+    }
+    if let Some(texture) = images.texture(material.base_color_texture) {
+        pbr.insert("baseColorTexture".to_owned(), texture.into());
+    }
+    if !is(material.metallic, 1.0) {
+        pbr.insert("metallicFactor".to_owned(), factor(material.metallic));
+    }
+    if !is(material.roughness, 1.0) {
+        pbr.insert("roughnessFactor".to_owned(), factor(material.roughness));
+    }
+    if let Some(texture) = images.texture(material.metallic_roughness_texture) {
+        pbr.insert("metallicRoughnessTexture".to_owned(), texture.into());
+    }
+    let mut json = super::named(&material.name);
+    if !pbr.is_empty() {
+        json.insert("pbrMetallicRoughness".to_owned(), pbr.into());
+    }
+    if let Some(mut texture) = images.texture(material.normal_texture) {
+        if !is(material.normal_scale, 1.0) {
+            let scale = if material.normal_scale.is_finite() { material.normal_scale } else { 1.0 };
+            texture.insert("scale".to_owned(), Value::from(f64::from(scale)));
+        }
+        json.insert("normalTexture".to_owned(), texture.into());
+    }
+    if let Some(mut texture) = images.texture(material.occlusion_texture) {
+        if !is(material.occlusion_strength, 1.0) {
+            texture.insert("strength".to_owned(), factor(material.occlusion_strength));
+        }
+        json.insert("occlusionTexture".to_owned(), texture.into());
+    }
+    if let Some(texture) = images.texture(material.emissive_texture) {
+        json.insert("emissiveTexture".to_owned(), texture.into());
+    }
+    if material.emissive.iter().any(|x| !is(*x, 0.0)) {
+        let emissive = material.emissive.iter().map(|x| f64::from(within(*x, 0.0, 1.0, 0.0)));
+        json.insert("emissiveFactor".to_owned(), emissive.map(Value::from).collect());
+    }
+    let has_cutoff = !is(material.alpha_cutoff, default.alpha_cutoff);
+    let mode = match material.alpha_mode {
+        AlphaMode::Opaque => "OPAQUE",
+        AlphaMode::Mask => "MASK",
+        AlphaMode::Blend => "BLEND",
+    };
+    if has_cutoff || material.alpha_mode != AlphaMode::Opaque {
+        json.insert("alphaMode".to_owned(), json!(mode));
+    }
+    if has_cutoff {
+        let cutoff = within(material.alpha_cutoff, 0.0, f32::MAX, default.alpha_cutoff);
+        json.insert("alphaCutoff".to_owned(), Value::from(f64::from(cutoff)));
+    }
+    if material.double_sided {
+        json.insert("doubleSided".to_owned(), json!(true));
+    }
+    Value::Object(json)
+}
