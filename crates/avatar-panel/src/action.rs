@@ -25,6 +25,71 @@ pub enum Action {
 
     /// Goes to a pose.
     GoTo(usize),
+    /// Changes poses or clips.
+    Edit(Edit),
+
+    /// Plays a clip: from where it was paused, or else from its start.
+    Play(usize),
+    /// Plays a clip of [`crate::Model::file_clips`]: from where it was paused, or else from its start.
+    PlayFileClip(usize),
+    /// Lets go of the file's clip: the face goes back to its controls.
+    LeaveFileClip,
+    /// Halts what plays where it is.
+    Pause,
+    /// Ends the clip and goes to its start.
+    Stop,
+    /// Shows the clip at a time, paused.
+    Scrub {
+        /// Index of the clip.
+        clip: usize,
+        /// Seconds from its start, at least 0.
+        time_secs: f64,
+    },
+    /// Begins to record the face's motion into a new clip.
+    StartRecording,
+
+    /// Lets the eyes follow the pointer, or no longer.
+    Gaze,
+    /// Gives the face other hair.
+    Hair {
+        /// The one before, instead of the next.
+        backward: bool,
+    },
+
+    /// Asks for a file and opens it.
+    OpenFile,
+    /// Opens a file again.
+    OpenRecent(usize),
+    /// Takes a message away.
+    Dismiss(usize),
+    /// Saves the picture.
+    Picture,
+    /// Films the clip of the file that plays, or the clip that is chosen, or else the present face.
+    Film {
+        /// Index in [`crate::Model::film_formats`].
+        format: usize,
+        /// Index of the clip.
+        clip: Option<usize>,
+    },
+    /// Ends the film that is being made, and discards it.
+    StopFilm,
+    /// Takes the camera to a place: the index in [`crate::Model::cameras`].
+    Camera(usize),
+    /// Fills the screen, or no longer.
+    FullScreen,
+    /// The theme has changed. The panel has told egui already; this is for the window and its background.
+    Theme(Theme),
+    /// The scale of text has changed; the panel has told egui already.
+    TextScale(f32),
+    /// [`crate::Panel::state`] has changed: a good moment to store it.
+    Remember,
+    /// Ends the program.
+    Quit,
+}
+
+/// A change of poses or clips. Those that write a text or its file can be undone.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
     /// Makes a pose of the present face, after all others. The form has been checked.
     SavePose(PoseForm),
     /// Renames a pose or gives it another key or duration; its values stay. The form has been checked.
@@ -50,29 +115,12 @@ pub enum Action {
     /// Does again what [`crate::Model::can_redo`] names.
     Redo,
 
-    /// Plays a clip: from where it was paused, or else from its start.
-    Play(usize),
-    /// Plays a clip of [`crate::Model::file_clips`]: from where it was paused, or else from its start.
-    PlayFileClip(usize),
-    /// Lets go of the file's clip: the face goes back to its controls.
-    LeaveFileClip,
-    /// Halts what plays where it is.
-    Pause,
-    /// Ends the clip and goes to its start.
-    Stop,
     /// Sets what follows the end of a clip.
     SetWrap {
         /// Index of the clip.
         clip: usize,
         /// What follows.
         wrap: Wrap,
-    },
-    /// Shows the clip at a time, paused.
-    Scrub {
-        /// Index of the clip.
-        clip: usize,
-        /// Seconds from its start, at least 0.
-        time_secs: f64,
     },
     /// Bakes the in-between at a time into a key; where the control has no track, the present value begins one.
     InsertKey {
@@ -120,48 +168,8 @@ pub enum Action {
     NewClip,
     /// Deletes a clip.
     DeleteClip(usize),
-    /// Begins to record the face's motion into a new clip.
-    StartRecording,
-    /// Ends the recording.
+    /// Ends the recording, and makes a clip of it.
     StopRecording,
     /// Writes the clips to their file.
     SaveClips,
-
-    /// Lets the eyes follow the pointer, or no longer.
-    Gaze,
-    /// Gives the face other hair.
-    Hair {
-        /// The one before, instead of the next.
-        backward: bool,
-    },
-
-    /// Asks for a file and opens it.
-    OpenFile,
-    /// Opens a file again.
-    OpenRecent(usize),
-    /// Takes a message away.
-    Dismiss(usize),
-    /// Saves the picture.
-    Picture,
-    /// Films the clip of the file that plays, or the clip that is chosen, or else the present face.
-    Film {
-        /// Index in [`crate::Model::film_formats`].
-        format: usize,
-        /// Index of the clip.
-        clip: Option<usize>,
-    },
-    /// Ends the film that is being made, and discards it.
-    StopFilm,
-    /// Takes the camera to a place: the index in [`crate::Model::cameras`].
-    Camera(usize),
-    /// Fills the screen, or no longer.
-    FullScreen,
-    /// The theme has changed. The panel has told egui already; this is for the window and its background.
-    Theme(Theme),
-    /// The scale of text has changed; the panel has told egui already.
-    TextScale(f32),
-    /// [`crate::Panel::state`] has changed: a good moment to store it.
-    Remember,
-    /// Ends the program.
-    Quit,
 }

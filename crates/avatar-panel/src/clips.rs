@@ -1,7 +1,7 @@
 //! The list of clips. The chosen one is what the timeline shows.
 
 use crate::widgets::{Icon, icon_button, icon_button_if};
-use crate::{Action, Model};
+use crate::{Action, Edit, Model};
 use egui::{Button, RichText, ScrollArea, Ui};
 
 pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, actions: &mut Vec<Action>) {
@@ -9,7 +9,7 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, a
         match model.playback.recording_secs {
             Some(secs) => {
                 if icon_button(ui, Icon::Stop, "Stop recording").clicked() {
-                    actions.push(Action::StopRecording);
+                    actions.push(Action::Edit(Edit::StopRecording));
                 }
                 ui.colored_label(crate::style::palette(ui).record, format!("{secs:.1} s"));
             }
@@ -20,16 +20,16 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, a
             }
         }
         if icon_button(ui, Icon::Plus, "New clip").clicked() {
-            actions.push(Action::NewClip);
+            actions.push(Action::Edit(Edit::NewClip));
         }
         if let Some(index) = *chosen
             && let Some(clip) = model.clips.get(index)
             && icon_button_if(ui, true, Icon::Minus, &format!("Delete clip {}", clip.name)).clicked()
         {
-            actions.push(Action::DeleteClip(index));
+            actions.push(Action::Edit(Edit::DeleteClip(index)));
         }
         if ui.add_enabled(model.clips_changed, Button::new("Save clips")).clicked() {
-            actions.push(Action::SaveClips);
+            actions.push(Action::Edit(Edit::SaveClips));
         }
     });
     ui.separator();

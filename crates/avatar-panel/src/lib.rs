@@ -69,7 +69,7 @@ mod track_row;
 mod view;
 mod widgets;
 
-pub use action::Action;
+pub use action::{Action, Edit};
 /// The version of egui that the interface speaks.
 pub use egui;
 pub use model::{

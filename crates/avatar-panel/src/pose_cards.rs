@@ -1,7 +1,7 @@
 //! Poses as cards: with pictures where there are any, as a list where there are none.
 
 use crate::style::palette;
-use crate::{Action, Model};
+use crate::{Action, Edit, Model};
 use egui::{
     Align2, Color32, FontId, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
     UiBuilder, WidgetInfo, pos2, vec2,
@@ -87,7 +87,7 @@ fn card(
         if let Some(carried) = response.dnd_release_payload::<Carried>()
             && carried.0 != index
         {
-            actions.push(Action::MovePose { from: carried.0, to: index });
+            actions.push(Action::Edit(Edit::MovePose { from: carried.0, to: index }));
         }
     });
 }

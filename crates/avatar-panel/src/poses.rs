@@ -3,7 +3,7 @@
 use crate::pose_cards;
 use crate::pose_form::{OpenForm, Outcome};
 use crate::widgets::{Icon, icon_button_if, named};
-use crate::{Action, Model, PoseForm};
+use crate::{Action, Edit, Model, PoseForm};
 use egui::{Button, Label, RichText, Ui};
 
 /// What the list of poses has in mind.
@@ -31,7 +31,7 @@ impl Poses {
         for action in pose_cards::show(ui, model, self.selected) {
             match action {
                 Action::GoTo(index) => self.selected = Some(index),
-                Action::MovePose { to, .. } => self.selected = Some(to),
+                Action::Edit(Edit::MovePose { to, .. }) => self.selected = Some(to),
                 _ => {}
             }
             actions.push(action);
@@ -46,9 +46,10 @@ impl Poses {
             if save.clicked() {
                 self.form = Some(OpenForm::new(None, PoseForm::default()));
             }
-            for (verb, what, action) in
-                [("Undo", model.can_undo, Action::Undo), ("Redo", model.can_redo, Action::Redo)]
-            {
+            for (verb, what, action) in [
+                ("Undo", model.can_undo, Action::Edit(Edit::Undo)),
+                ("Redo", model.can_redo, Action::Edit(Edit::Redo)),
+            ] {
                 let text = what.map_or_else(|| verb.to_owned(), |what| format!("{verb} {what}"));
                 if ui.add_enabled(what.is_some(), Button::new(text)).clicked() {
                     actions.push(action);
@@ -67,8 +68,8 @@ impl Poses {
             Outcome::Closed => self.form = None,
             Outcome::Done(form) => {
                 actions.push(match open.own {
-                    Some(index) => Action::EditPose { index, form },
-                    None => Action::SavePose(form),
+                    Some(index) => Action::Edit(Edit::EditPose { index, form }),
+                    None => Action::Edit(Edit::SavePose(form)),
                 });
                 self.form = None;
             }
@@ -90,13 +91,13 @@ impl Poses {
                 response.clicked()
             };
             if tool(ui, "Update", "Give this pose the present face") {
-                actions.push(Action::UpdatePose(index));
+                actions.push(Action::Edit(Edit::UpdatePose(index)));
             }
             if tool(ui, "Edit…", "Change name, key or duration") {
                 self.form = Some(OpenForm::new(Some(index), PoseForm::from(pose)));
             }
             if tool(ui, "Delete", "Delete this pose; this can be undone") {
-                actions.push(Action::DeletePose(index));
+                actions.push(Action::Edit(Edit::DeletePose(index)));
                 (self.selected, self.form) = (None, None);
             }
             let last = model.poses.poses.len() - 1;
@@ -107,7 +108,7 @@ impl Poses {
             for (icon, direction, possible, to) in moves {
                 let response = icon_button_if(ui, can && possible, icon, &format!("Move {name} {direction}"));
                 if response.clicked() {
-                    actions.push(Action::MovePose { from: index, to });
+                    actions.push(Action::Edit(Edit::MovePose { from: index, to }));
                     self.selected = Some(to);
                 }
             }

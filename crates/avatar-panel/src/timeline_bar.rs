@@ -4,7 +4,7 @@ use crate::style::palette;
 use crate::timeline::Timeline;
 use crate::track_row::limits;
 use crate::widgets::{Icon, icon_button, icon_button_if, named, passed_by};
-use crate::{Action, Model};
+use crate::{Action, Edit, Model};
 use egui::{Button, ComboBox, DragValue, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 use pose_anim::{Clip, Easing, Transition, Wrap};
 
@@ -45,7 +45,7 @@ pub(crate) fn transport(
         let wraps = ComboBox::from_id_salt("wrap").width(80.0).selected_text(text).show_ui(ui, |ui| {
             for (wrap, text) in WRAPS {
                 if ui.selectable_label(clip.wrap == wrap, text).clicked() && clip.wrap != wrap {
-                    actions.push(Action::SetWrap { clip: index, wrap });
+                    actions.push(Action::Edit(Edit::SetWrap { clip: index, wrap }));
                 }
             }
         });
@@ -60,13 +60,17 @@ pub(crate) fn transport(
             .on_hover_text("At the playhead, without changing the curve")
             .on_disabled_hover_text("Choose a track first");
         if let (true, Some(control)) = (insert.clicked(), chosen) {
-            actions.push(Action::InsertKey { clip: index, control, time_secs: playhead_secs });
+            actions.push(Action::Edit(Edit::InsertKey { clip: index, control, time_secs: playhead_secs }));
         }
         let add = ui.menu_button("Add track", |ui| {
             egui::ScrollArea::vertical().max_height(240.0).show(ui, |ui| {
                 for (control, of) in model.controls.controls().iter().enumerate() {
                     if clip.track(control).is_none() && ui.button(&of.name).clicked() {
-                        actions.push(Action::InsertKey { clip: index, control, time_secs: playhead_secs });
+                        actions.push(Action::Edit(Edit::InsertKey {
+                            clip: index,
+                            control,
+                            time_secs: playhead_secs,
+                        }));
                         timeline.control = Some(control);
                         ui.close();
                     }
@@ -131,15 +135,15 @@ pub(crate) fn inspector(
             value = found.value;
         }
         if (time_secs, value) != (found.time_secs, found.value) {
-            actions.push(Action::MoveKey { clip: index, control: at, key, time_secs, value });
+            actions.push(Action::Edit(Edit::MoveKey { clip: index, control: at, key, time_secs, value }));
         }
         if key + 1 < track.keys().len() {
             transition(timeline, ui, found.transition, &mut |easing| {
-                actions.push(Action::SetTransition { clip: index, control: at, key, easing });
+                actions.push(Action::Edit(Edit::SetTransition { clip: index, control: at, key, easing }));
             });
         }
         if ui.button("Delete key").clicked() {
-            actions.push(Action::DeleteKey { clip: index, control: at, key });
+            actions.push(Action::Edit(Edit::DeleteKey { clip: index, control: at, key }));
             timeline.key = None;
         }
     });

@@ -2,7 +2,7 @@
 
 use crate::style::palette;
 use crate::timeline::{Scale, Timeline};
-use crate::{Action, Model};
+use crate::{Action, Edit, Model};
 use egui::{
     Align2, EventFilter, Key, Rect, Role, Sense, Shape, Stroke, TextStyle, Ui, UiBuilder, WidgetInfo, pos2,
     vec2,
@@ -45,7 +45,7 @@ pub(crate) fn show(
         && let Some(at) = ground.interact_pointer_pos()
     {
         let time_secs = scale.snapped(scale.secs_at(at.x));
-        actions.push(Action::InsertKey { clip, control: track.control(), time_secs });
+        actions.push(Action::Edit(Edit::InsertKey { clip, control: track.control(), time_secs }));
     }
     keys(timeline, ui, place, scale, clip, control, track, actions);
 }
@@ -147,12 +147,14 @@ fn keys(
             WidgetInfo::selected(Role::Button, true, chosen, name)
         });
         let (low, high) = limits(track, index);
-        let moved_to = |secs: f64| Action::MoveKey {
-            clip,
-            control: track.control(),
-            key: index,
-            time_secs: secs,
-            value: key.value,
+        let moved_to = |secs: f64| {
+            Action::Edit(Edit::MoveKey {
+                clip,
+                control: track.control(),
+                key: index,
+                time_secs: secs,
+                value: key.value,
+            })
         };
         if response.clicked() || response.drag_started() {
             (timeline.control, timeline.key) = (Some(track.control()), Some(index));
@@ -181,7 +183,7 @@ fn keys(
             });
             let secs = scale.snapped(key.time_secs + steps * scale.frame_secs()).max(low).min(high);
             if gone {
-                actions.push(Action::DeleteKey { clip, control: track.control(), key: index });
+                actions.push(Action::Edit(Edit::DeleteKey { clip, control: track.control(), key: index }));
                 timeline.key = None;
             } else if steps != 0.0 && secs != key.time_secs {
                 actions.push(moved_to(secs));

@@ -2,7 +2,7 @@
 
 mod support;
 
-use avatar_panel::{Action, FileClip, FilePlayback, Tab};
+use avatar_panel::{Action, Edit, FileClip, FilePlayback, Tab};
 use egui::{Key, Modifiers, Pos2, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pose_anim::{Easing, Transition, Wrap};
@@ -57,7 +57,7 @@ fn a_clip_plays_pauses_stops_and_repeats() {
     click(&mut window, "Stop");
     click(&mut window, "What follows the end: Once");
     click(&mut window, "Loop");
-    let wrap = Action::SetWrap { clip: 0, wrap: Wrap::Loop };
+    let wrap = Action::Edit(Edit::SetWrap { clip: 0, wrap: Wrap::Loop });
     assert_eq!(window.state().log, [Action::Play(0), Action::Pause, Action::Stop, wrap]);
     assert!(window.query_by_label("What follows the end: Loop").is_some());
 }
@@ -99,11 +99,11 @@ fn clips_are_made_recorded_saved_and_deleted() {
     click(&mut window, "Save clips");
     click(&mut window, "Delete clip nod");
     let expected = [
-        Action::NewClip,
+        Action::Edit(Edit::NewClip),
         Action::StartRecording,
-        Action::StopRecording,
-        Action::SaveClips,
-        Action::DeleteClip(0),
+        Action::Edit(Edit::StopRecording),
+        Action::Edit(Edit::SaveClips),
+        Action::Edit(Edit::DeleteClip(0)),
     ];
     assert_eq!(window.state().log, expected);
 }
@@ -149,7 +149,10 @@ fn a_key_is_dragged_by_frames_and_not_past_its_neighbour() {
     let place = |window: &Window<'_>, label: &str| window.get_by_label(label).rect().center();
     let (from, x) = (place(&window, MIDDLE), at(&window, 0.71).x);
     drag(&mut window, from, pos2(x, from.y));
-    assert!(matches!(window.state().log[..], [Action::MoveKey { clip: 0, key: 1, value: 10.0, .. }]));
+    assert!(matches!(
+        window.state().log[..],
+        [Action::Edit(Edit::MoveKey { clip: 0, key: 1, value: 10.0, .. })]
+    ));
     let moved = keys(&window)[1].0;
     assert!(
         (moved - 0.71).abs() <= 0.0101 && (moved * 50.0 - (moved * 50.0).round()).abs() < 1e-9,
@@ -200,7 +203,7 @@ fn a_double_click_on_a_track_inserts_there() {
         window.drop_at(place);
         window.step();
     }
-    let inserted = |action: &Action| matches!(action, Action::InsertKey { time_secs, .. } if (time_secs - 0.8).abs() <= 0.0101);
+    let inserted = |action: &Action| matches!(action, Action::Edit(Edit::InsertKey { time_secs, .. }) if (time_secs - 0.8).abs() <= 0.0101);
     assert!(window.state().log.iter().any(inserted), "{:?}", window.state().log);
 }
 
@@ -215,7 +218,7 @@ fn a_track_is_added() {
     // The track is for the program to make.
     assert_eq!(
         window.state().log.last(),
-        Some(&Action::InsertKey { clip: 0, control: turn, time_secs: 0.0 })
+        Some(&Action::Edit(Edit::InsertKey { clip: 0, control: turn, time_secs: 0.0 }))
     );
 }
 
@@ -265,7 +268,7 @@ fn the_transition_is_chosen_from_all_and_its_curve_is_drawn() {
     click(&mut window, "minimum-jerk");
     let bow = window.state().control("head.bow");
     let easing = Easing::MinimumJerk;
-    let expected = Action::SetTransition { clip: 0, control: bow, key: 1, easing };
+    let expected = Action::Edit(Edit::SetTransition { clip: 0, control: bow, key: 1, easing });
     assert_eq!(window.state().log, [expected]);
     let track = window.state().clips[0].track(bow).unwrap();
     assert_eq!(track.keys()[1].transition, Transition::Ease(easing));

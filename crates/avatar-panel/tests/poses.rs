@@ -2,7 +2,7 @@
 
 mod support;
 
-use avatar_panel::{Action, Message, Model, PoseForm, Severity, Tab};
+use avatar_panel::{Action, Edit, Message, Model, PoseForm, Severity, Tab};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -84,7 +84,7 @@ fn the_present_face_is_saved_once_name_and_key_are_right() {
     click(&mut window, "fixed");
     click(&mut window, "Save pose");
     let form = PoseForm { name: "grin".to_owned(), key: Some("g".to_owned()), duration_secs: Some(0.5) };
-    assert_eq!(window.state().log, [Action::SavePose(form)]);
+    assert_eq!(window.state().log, [Action::Edit(Edit::SavePose(form))]);
     assert!(window.query_by_label("Save pose").is_none());
     assert!(names(&window).ends_with(&["grin".to_owned()]));
 }
@@ -98,7 +98,9 @@ fn enter_saves_and_escape_cancels() {
     window.run_steps(3);
     window.key_press(Key::Enter);
     window.run_steps(3);
-    assert!(matches!(window.state().log.last(), Some(Action::SavePose(form)) if form.name == "grin"));
+    assert!(
+        matches!(window.state().log.last(), Some(Action::Edit(Edit::SavePose(form))) if form.name == "grin")
+    );
     let before = window.state().log.len();
     click(&mut window, "Save this face…");
     window.key_press(Key::Escape);
@@ -117,7 +119,7 @@ fn a_pose_is_edited_under_its_own_name() {
     write(&mut window, "Name of the pose", "beam");
     click(&mut window, "Save pose");
     let form = PoseForm { name: "beam".to_owned(), key: Some("1".to_owned()), duration_secs: None };
-    assert_eq!(window.state().log.last(), Some(&Action::EditPose { index: 1, form }));
+    assert_eq!(window.state().log.last(), Some(&Action::Edit(Edit::EditPose { index: 1, form })));
     assert!(window.query_by_label("pose beam, key 1").is_some());
 }
 
@@ -126,16 +128,16 @@ fn buttons_update_move_and_delete() {
     let mut window = window(World::new());
     click(&mut window, "pose smile, key 1");
     click(&mut window, "Update smile");
-    assert_eq!(window.state().log.last(), Some(&Action::UpdatePose(1)));
+    assert_eq!(window.state().log.last(), Some(&Action::Edit(Edit::UpdatePose(1))));
     click(&mut window, "Move smile down");
-    assert_eq!(window.state().log.last(), Some(&Action::MovePose { from: 1, to: 2 }));
+    assert_eq!(window.state().log.last(), Some(&Action::Edit(Edit::MovePose { from: 1, to: 2 })));
     // The tools stay with the pose.
     click(&mut window, "Move smile up");
     click(&mut window, "Move smile up");
     assert_eq!(names(&window)[..3], ["smile", "neutral", "frown"]);
     assert!(window.get_by_label("Move smile up").accesskit_node().is_disabled());
     click(&mut window, "Delete smile");
-    assert_eq!(window.state().log.last(), Some(&Action::DeletePose(0)));
+    assert_eq!(window.state().log.last(), Some(&Action::Edit(Edit::DeletePose(0))));
     assert_eq!(names(&window)[..2], ["neutral", "frown"]);
 }
 
@@ -154,7 +156,7 @@ fn poses_are_dragged_to_another_place() {
     }
     window.drop_at(to);
     window.run_steps(3);
-    assert_eq!(window.state().log, [Action::MovePose { from: 1, to: 5 }]);
+    assert_eq!(window.state().log, [Action::Edit(Edit::MovePose { from: 1, to: 5 })]);
     assert_eq!(names(&window)[4..6], ["anger", "smile"]);
 }
 
@@ -168,7 +170,7 @@ fn undo_and_redo_say_what_they_do() {
     window.state_mut().redo = Some("delete smile");
     window.run_steps(2);
     click(&mut window, "Redo delete smile");
-    assert_eq!(window.state().log, [Action::Undo, Action::Redo]);
+    assert_eq!(window.state().log, [Action::Edit(Edit::Undo), Action::Edit(Edit::Redo)]);
 }
 
 #[test]
@@ -232,5 +234,5 @@ fn a_message_does_not_take_the_keyboard_from_a_form() {
     window.key_press(Key::Enter);
     window.run_steps(2);
     let form = PoseForm { name: "mine".to_owned(), ..PoseForm::default() };
-    assert_eq!(window.state().log, [Action::SavePose(form)]);
+    assert_eq!(window.state().log, [Action::Edit(Edit::SavePose(form))]);
 }

@@ -7,28 +7,37 @@ use avatar_pack::{MotionAt, Pack};
 use pose_anim::{Clip, Wrap};
 
 /// A clip that there is.
-pub(crate) enum FoundClip<'a> {
+#[derive(Clone, Debug)]
+pub(crate) enum FoundClip {
     /// Of joints and shapes, in a file.
-    File(&'a str),
+    File(String),
     /// Of controls, in a pack.
-    Controls(&'a Clip),
+    Controls(Clip),
 }
 
 /// Looks a clip up.
-pub(crate) fn find<'a>(pack: &'a Pack, name: &'a str) -> Result<FoundClip<'a>> {
+pub(crate) fn find(pack: &Pack, name: &str) -> Result<FoundClip> {
     if let Some(clip) = pack.clips().get(name) {
-        return Ok(FoundClip::Controls(clip));
+        return Ok(FoundClip::Controls(clip.clone()));
     }
     match pack.motion() {
         Some(motion) => {
             motion.duration_secs(name).map_err(|error| usage(error.to_string()))?;
-            Ok(FoundClip::File(name))
+            Ok(FoundClip::File(name.to_owned()))
         }
         None => Err(unknown("clip", name, pack.clips().clips.iter().map(|clip| clip.name.as_str()))),
     }
 }
 
-impl FoundClip<'_> {
+impl FoundClip {
+    /// Its name.
+    pub(crate) fn name(&self) -> &str {
+        match self {
+            Self::File(name) => name,
+            Self::Controls(clip) => &clip.name,
+        }
+    }
+
     /// Seconds until the clip is at its end; or, where it repeats, at its beginning again.
     pub(crate) fn duration_secs(&self, pack: &Pack) -> f64 {
         match self {

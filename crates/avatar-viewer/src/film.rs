@@ -11,7 +11,7 @@ use avatar_pack::Pack;
 use avatar_stage::View;
 use image::RgbaImage;
 use std::io::BufWriter;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use tempfile::{NamedTempFile, TempDir};
@@ -20,6 +20,9 @@ use tempfile::{NamedTempFile, TempDir};
 const KEYWORD: &str = "Mimik";
 /// Frames that may wait for the encoder: it works while the next one is drawn, and memory stays bounded.
 const WAITING: usize = 2;
+
+/// More pictures of one name than these are not looked through.
+const MOST_NAMES: u32 = 100_000;
 
 /// A picture as the bytes of a PNG. `state` says what the face does ([`crate::face_args::FaceChoice::describe`]).
 pub(crate) fn png(picture: &RgbaImage, state: &str) -> Result<Vec<u8>> {
@@ -31,6 +34,15 @@ pub(crate) fn png(picture: &RgbaImage, state: &str) -> Result<Vec<u8>> {
 /// Writes a picture with what the face does in it.
 pub(crate) fn still(out: &OutputFile, picture: &RgbaImage, state: &str) -> Result<()> {
     out.write(&png(picture, state)?)
+}
+
+/// A name in the folder that the program was started in that nothing has yet.
+pub(crate) fn free_name(stem: &str, ending: &str) -> Result<PathBuf> {
+    let stem = stem.replace(['/', '\\', ':'], "-");
+    let dot = if ending.is_empty() { "" } else { "." };
+    let mut names = (1..=MOST_NAMES).map(|count| PathBuf::from(format!("{stem}-{count}{dot}{ending}")));
+    let free = names.find(|path| !path.exists());
+    free.ok_or_else(|| anyhow!("expected a free name up to {stem}-{MOST_NAMES}, found none"))
 }
 
 /// Where a film goes: checked before the work.

@@ -5,7 +5,7 @@
 pub(crate) mod canvas;
 
 use avatar_panel::{
-    Action, FileClip, FilePlayback, FilmProgress, KeyRow, Loading, Message, Model, Panel, PanelState,
+    Action, Edit, FileClip, FilePlayback, FilmProgress, KeyRow, Loading, Message, Model, Panel, PanelState,
     Playback, PoseForm, Stats, Tab,
 };
 use egui::{Rect, UiBuilder, Vec2};
@@ -141,15 +141,17 @@ impl World {
             }
             Action::ResetAll => self.values = self.controls.defaults(),
             Action::GoTo(index) => self.active_pose = Some(*index),
-            Action::SavePose(form) => self.poses.poses.push(named(Pose::from_values("", &self.values), form)),
-            Action::EditPose { index, form } => {
+            Action::Edit(Edit::SavePose(form)) => {
+                self.poses.poses.push(named(Pose::from_values("", &self.values), form))
+            }
+            Action::Edit(Edit::EditPose { index, form }) => {
                 self.poses.poses[*index] = named(self.poses.poses[*index].clone(), form);
             }
-            Action::MovePose { from, to } => {
+            Action::Edit(Edit::MovePose { from, to }) => {
                 let pose = self.poses.poses.remove(*from);
                 self.poses.poses.insert(*to, pose);
             }
-            Action::DeletePose(index) => drop(self.poses.poses.remove(*index)),
+            Action::Edit(Edit::DeletePose(index)) => drop(self.poses.poses.remove(*index)),
             Action::Scrub { clip, time_secs } => {
                 self.playback =
                     Playback { clip: Some(*clip), time_secs: *time_secs, playing: false, ..self.playback };
@@ -158,8 +160,8 @@ impl World {
                 self.playback = Playback { clip: Some(*clip), playing: true, ..self.playback };
             }
             Action::Pause => self.playback.playing = false,
-            Action::SetWrap { clip, wrap } => self.clips[*clip].wrap = *wrap,
-            Action::InsertKey { clip, control, time_secs } => {
+            Action::Edit(Edit::SetWrap { clip, wrap }) => self.clips[*clip].wrap = *wrap,
+            Action::Edit(Edit::InsertKey { clip, control, time_secs }) => {
                 if self.clips[*clip].track(*control).is_none() {
                     let value = f64::from(self.values[*control]);
                     let key = Key { time_secs: *time_secs, value, transition: Transition::LINEAR };
@@ -169,13 +171,13 @@ impl World {
                 }
                 self.track(*clip, *control).bake(*time_secs).unwrap();
             }
-            Action::MoveKey { clip, control, key, time_secs, value } => {
+            Action::Edit(Edit::MoveKey { clip, control, key, time_secs, value }) => {
                 self.track(*clip, *control).move_key(*key, *time_secs, *value).unwrap();
             }
-            Action::DeleteKey { clip, control, key } => {
+            Action::Edit(Edit::DeleteKey { clip, control, key }) => {
                 self.track(*clip, *control).remove_key(*key).unwrap();
             }
-            Action::SetTransition { clip, control, key, easing } => {
+            Action::Edit(Edit::SetTransition { clip, control, key, easing }) => {
                 self.track(*clip, *control).set_transition(*key, Transition::Ease(*easing)).unwrap();
             }
             Action::Dismiss(index) => drop(self.messages.remove(*index)),

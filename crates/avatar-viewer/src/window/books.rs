@@ -1,10 +1,13 @@
-//! A face's poses and clips, edited: in their texts, which can be undone, and for poses in their file at once.
+//! A face's poses and clips: the only place where they are. They are edited in their texts, which can be undone, and for poses in
+//! their file at once.
 
-use super::face::{Face, Playback};
-use crate::store;
+use crate::files::Files;
+use crate::store::{self, Store};
 use anyhow::Result;
-use pose_anim::{Clip, Key, Pose, Track};
-use pose_book::{BookError, PoseBook};
+use avatar_pack::Pack;
+use pose_anim::{Clip, ControlTable, Easing, Key, PoseSet, Track};
+use pose_book::{BookError, ClipBook, PoseBook};
+use std::path::Path;
 
 /// Which text an edit is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +18,7 @@ pub(super) enum Book {
 
 /// In which order texts were edited: each knows only its own edits.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Order {
+struct Order {
     done: Vec<Book>,
     undone: Vec<Book>,
 }
@@ -33,83 +36,108 @@ impl Order {
     }
 }
 
-impl Face {
+/// The texts of poses and clips, what they mean, and the files that they are kept in.
+pub(super) struct Books {
+    poses: PoseBook,
+    clips: ClipBook,
+    store: Store,
+    order: Order,
+}
+
+impl Books {
+    /// Takes poses and clips over from a pack, with the comments of their files.
+    pub(super) fn open(files: &Files, pack: &Pack) -> Result<Self> {
+        let mut books = Self {
+            poses: PoseBook::of_set(pack.poses(), pack.controls())?,
+            clips: ClipBook::of_set(pack.clips(), pack.controls())?,
+            store: Store::of(files),
+            order: Order::default(),
+        };
+        // Texts with mistakes are told of when they are followed.
+        let Self { poses, clips, store, .. } = &mut books;
+        if let Ok(Some(text)) = store.read(store::POSES)
+            && poses.replace(&text).is_ok()
+        {
+            store.take(store::POSES, text);
+        }
+        if let Ok(Some(text)) = store.read(store::CLIPS)
+            && clips.replace(&text).is_ok()
+        {
+            store.take(store::CLIPS, text);
+        }
+        Ok(books)
+    }
+
+    pub(super) fn poses(&self) -> &PoseSet {
+        self.poses.poses()
+    }
+
+    pub(super) fn clips(&self) -> &[Clip] {
+        &self.clips.clips().clips
+    }
+
+    pub(super) fn clip(&self, index: usize) -> Option<&Clip> {
+        self.clips().get(index)
+    }
+
+    /// The files that hold them.
+    pub(super) fn store(&self) -> &Store {
+        &self.store
+    }
+
+    /// Whether poses can be kept.
+    pub(super) fn can_save_poses(&self) -> bool {
+        self.poses_path().is_some()
+    }
+
+    fn poses_path(&self) -> Option<&Path> {
+        self.store.path(store::POSES)
+    }
+
     /// Changes the poses, and their file.
     pub(super) fn edit_poses(
         &mut self,
-        edit: impl FnOnce(&mut PoseBook, &Pose) -> Result<(), BookError>,
+        edit: impl FnOnce(&mut PoseBook) -> Result<(), BookError>,
     ) -> Result<()> {
         self.change_poses(edit)?;
         self.order.note(Book::Poses);
         Ok(())
     }
 
-    fn change_poses(
-        &mut self,
-        edit: impl FnOnce(&mut PoseBook, &Pose) -> Result<(), BookError>,
-    ) -> Result<()> {
-        let present = self.present("");
+    fn change_poses(&mut self, edit: impl FnOnce(&mut PoseBook) -> Result<(), BookError>) -> Result<()> {
         let before = self.poses.clone();
-        edit(&mut self.poses, &present)?;
+        edit(&mut self.poses)?;
         if let Err(error) = self.store.write(store::POSES, self.poses.text()) {
             self.poses = before;
             return Err(error);
         }
-        self.pack.set_poses(self.poses.poses().clone())?;
         Ok(())
     }
 
-    /// Changes a clip; it is written to its file when the user says so.
+    /// Changes a clip; it is written to its file when the user says so. An index out of range changes nothing.
     pub(super) fn edit_clip(
         &mut self,
         index: usize,
         what: &str,
         edit: impl FnOnce(&mut Clip) -> Result<()>,
     ) -> Result<()> {
-        let Some(mut clip) = self.clips.clips().clips.get(index).cloned() else { return Ok(()) };
+        let Some(mut clip) = self.clip(index).cloned() else { return Ok(()) };
         edit(&mut clip)?;
         self.clips.set(index, &clip, what)?;
         self.order.note(Book::Clips);
-        self.clips_changed()?;
-        // What is shown follows what is edited.
-        if !self.playback.playing && self.playback.clip == Some(index) {
-            self.scrub(index, self.playback.time_secs);
-        }
         Ok(())
     }
 
-    /// A new clip, without keys yet.
-    pub(super) fn new_clip(&mut self) -> Result<()> {
-        let name = self.free_name("clip");
-        let clip = Clip::new(name, Vec::new())?;
-        self.add_clip(&clip)
-    }
-
-    pub(super) fn add_clip(&mut self, clip: &Clip) -> Result<()> {
+    /// Adds a clip after all others, and returns its index.
+    pub(super) fn add_clip(&mut self, clip: &Clip) -> Result<usize> {
         let index = self.clips.add(clip)?;
         self.order.note(Book::Clips);
-        self.clips_changed()?;
-        self.forget_playback();
-        self.playback.clip = Some(index);
-        Ok(())
+        Ok(index)
     }
 
     pub(super) fn delete_clip(&mut self, index: usize) -> Result<()> {
         self.clips.remove(index)?;
         self.order.note(Book::Clips);
-        self.clips_changed()?;
-        self.forget_playback();
-        Ok(())
-    }
-
-    /// What plays may be another clip now, or none.
-    fn forget_playback(&mut self) {
-        self.pause();
-        self.playback = Playback::default();
-    }
-
-    fn clips_changed(&mut self) -> Result<()> {
-        self.pack.set_clips(self.clips.clips().clone())?;
         Ok(())
     }
 
@@ -122,29 +150,31 @@ impl Face {
         self.store.write(store::CLIPS, self.clips.text())
     }
 
+    /// A name that no clip has yet.
     pub(super) fn free_name(&self, stem: &str) -> String {
         let clips = self.clips.clips();
         let mut names = std::iter::once(stem.to_owned()).chain((2..).map(|count| format!("{stem} {count}")));
         names.find(|name| clips.get(name).is_none()).unwrap_or_default()
     }
 
-    /// Adds a key to a clip at a time: the in-between, or the present value where the control has no track yet.
-    pub(super) fn insert_key(&mut self, index: usize, control: usize, time_secs: f64) -> Result<()> {
-        let value = f64::from(self.goal.get(control).copied().unwrap_or_default());
+    /// Adds a key to a clip at a time: the in-between, or `present` where the control has no track yet.
+    pub(super) fn insert_key(
+        &mut self,
+        index: usize,
+        control: usize,
+        time_secs: f64,
+        present: f32,
+    ) -> Result<()> {
         self.edit_clip(index, "insert a key", |clip| {
             match clip.track_mut(control) {
                 Some(track) => {
                     track.bake(time_secs)?;
                 }
                 None => {
-                    let track = Track::new(
-                        control,
-                        vec![Key::new(time_secs, value, pose_anim::Easing::MinimumJerk)],
-                    )?;
-                    let tracks = clip.tracks().iter().cloned().chain([track]).collect();
-                    let (key, wrap) = (clip.key.clone(), clip.wrap);
-                    *clip = Clip::new(clip.name.clone(), tracks)?.wrapped(wrap);
-                    clip.key = key;
+                    let key = Key::new(time_secs, present.into(), Easing::MinimumJerk);
+                    let tracks =
+                        clip.tracks().iter().cloned().chain([Track::new(control, vec![key])?]).collect();
+                    replace_tracks(clip, tracks)?;
                 }
             }
             Ok(())
@@ -161,65 +191,77 @@ impl Face {
                 return Ok(());
             }
             let tracks = clip.tracks().iter().filter(|track| track.control() != control).cloned().collect();
-            let (key, wrap) = (clip.key.clone(), clip.wrap);
-            *clip = Clip::new(clip.name.clone(), tracks)?.wrapped(wrap);
-            clip.key = key;
-            Ok(())
+            replace_tracks(clip, tracks)
         })
     }
 
-    /// What an undo takes back, or a redo does again.
-    pub(super) fn can_undo(&self, again: bool) -> Option<&str> {
-        self.last_edit(again).map(|(_, what)| what)
+    /// What [`Self::undo`] takes back.
+    pub(super) fn can_undo(&self) -> Option<&str> {
+        self.next_undo().map(|(_, what)| what)
     }
 
-    fn last_edit(&self, again: bool) -> Option<(usize, &str)> {
-        let books = if again { &self.order.undone } else { &self.order.done };
-        let what = |book: &Book| match (book, again) {
-            (Book::Poses, false) => self.poses.can_undo(),
-            (Book::Poses, true) => self.poses.can_redo(),
-            (Book::Clips, false) => self.clips.can_undo(),
-            (Book::Clips, true) => self.clips.can_redo(),
+    /// What [`Self::redo`] does again.
+    pub(super) fn can_redo(&self) -> Option<&str> {
+        self.next_redo().map(|(_, what)| what)
+    }
+
+    fn next_undo(&self) -> Option<(usize, &str)> {
+        let what = |book: &Book| match book {
+            Book::Poses => self.poses.can_undo(),
+            Book::Clips => self.clips.can_undo(),
         };
-        books.iter().enumerate().rev().find_map(|(place, book)| Some((place, what(book)?)))
+        last(&self.order.done, what)
     }
 
-    pub(super) fn undo(&mut self, again: bool) -> Result<()> {
-        let Some((place, _)) = self.last_edit(again) else { return Ok(()) };
-        let books = if again { &self.order.undone } else { &self.order.done };
-        let book = books[place];
+    fn next_redo(&self) -> Option<(usize, &str)> {
+        let what = |book: &Book| match book {
+            Book::Poses => self.poses.can_redo(),
+            Book::Clips => self.clips.can_redo(),
+        };
+        last(&self.order.undone, what)
+    }
+
+    /// Takes the last edit back; returns which text it was in.
+    pub(super) fn undo(&mut self) -> Result<Option<Book>> {
+        let Some((place, _)) = self.next_undo() else { return Ok(None) };
+        let book = self.order.done[place];
         match book {
-            Book::Poses => {
-                self.change_poses(|book, _| {
-                    let _ = if again { book.redo() } else { book.undo() };
-                    Ok(())
-                })?;
-                self.active_pose = None;
-            }
+            Book::Poses => self.change_poses(|poses| {
+                let _ = poses.undo();
+                Ok(())
+            })?,
             Book::Clips => {
-                let _ = if again { self.clips.redo() } else { self.clips.undo() };
-                self.clips_changed()?;
-                let clips = self.clips.clips().clips.len();
-                match self.playback.clip {
-                    Some(index) if index >= clips => self.forget_playback(),
-                    _ => self.pause(),
-                }
+                let _ = self.clips.undo();
             }
         }
-        let (from, to) = match again {
-            false => (&mut self.order.done, &mut self.order.undone),
-            true => (&mut self.order.undone, &mut self.order.done),
-        };
-        from.truncate(place);
-        to.push(book);
-        Ok(())
+        self.order.done.truncate(place);
+        self.order.undone.push(book);
+        Ok(Some(book))
     }
 
-    /// Reads the poses again, which somebody else may have written.
+    /// Does the edit again that was taken back last; returns which text it is in.
+    pub(super) fn redo(&mut self) -> Result<Option<Book>> {
+        let Some((place, _)) = self.next_redo() else { return Ok(None) };
+        let book = self.order.undone[place];
+        match book {
+            Book::Poses => self.change_poses(|poses| {
+                let _ = poses.redo();
+                Ok(())
+            })?,
+            Book::Clips => {
+                let _ = self.clips.redo();
+            }
+        }
+        self.order.undone.truncate(place);
+        self.order.done.push(book);
+        Ok(Some(book))
+    }
+
+    /// Reads the poses again, which somebody else may have written; whether they are other ones now.
     ///
     /// # Errors
     /// The first mistake in them; the old ones stay.
-    pub(super) fn reload_poses(&mut self) -> Result<bool> {
+    pub(super) fn reload_poses(&mut self, files: &Files, controls: &ControlTable) -> Result<bool> {
         match self.store.read(store::POSES)? {
             Some(text) if text == self.poses.text() => {
                 self.store.take(store::POSES, text);
@@ -232,20 +274,18 @@ impl Face {
             // Without a file of its own a face has the usual poses.
             None => {
                 self.store.take(store::POSES, String::new());
-                let usual = self.files.usual_poses(self.pack.controls())?;
-                if usual == *self.pack.poses() {
+                let usual = files.usual_poses(controls)?;
+                if usual == *self.poses() {
                     return Ok(false);
                 }
-                self.poses = PoseBook::of_set(&usual, self.pack.controls())?;
+                self.poses = PoseBook::of_set(&usual, controls)?;
             }
         }
         self.order.forget(Book::Poses);
-        self.pack.set_poses(self.poses.poses().clone())?;
-        self.active_pose = None;
         Ok(true)
     }
 
-    /// Reads the clips again, unless there are changes that are not saved.
+    /// Reads the clips again, unless there are changes that are not saved; whether they are other ones now.
     ///
     /// # Errors
     /// The first mistake in them, or that there are such changes; the old ones stay.
@@ -269,8 +309,19 @@ impl Face {
         self.clips = read;
         self.store.take(store::CLIPS, text);
         self.order.forget(Book::Clips);
-        self.clips_changed()?;
-        self.forget_playback();
         Ok(true)
     }
+}
+
+/// The last book of these that has something to take back or to do again, and what.
+fn last<'a>(books: &[Book], what: impl Fn(&Book) -> Option<&'a str>) -> Option<(usize, &'a str)> {
+    books.iter().enumerate().rev().find_map(|(place, book)| Some((place, what(book)?)))
+}
+
+/// The same clip with other tracks.
+fn replace_tracks(clip: &mut Clip, tracks: Vec<Track>) -> Result<()> {
+    let (key, wrap) = (clip.key.take(), clip.wrap);
+    *clip = Clip::new(clip.name.clone(), tracks)?.wrapped(wrap);
+    clip.key = key;
+    Ok(())
 }

@@ -1,3 +1,4 @@
+use super::action::CameraMove;
 use avatar_stage::{Framing, NamedView, View};
 use std::ops::RangeInclusive;
 
@@ -41,17 +42,27 @@ impl Place {
     }
 }
 
-/// The camera, moved by hand.
+/// The view, as it is moved by hand.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Camera {
+pub(super) struct HandCamera {
     pub(super) view: View,
 }
 
-impl Camera {
+impl HandCamera {
     pub(super) const START: Self = Self { view: View::FRONT };
 
+    /// Moves as the user wants.
+    pub(super) fn apply(&mut self, wanted: CameraMove) {
+        match wanted {
+            CameraMove::Orbit(yaw, pitch) => self.orbit(yaw, pitch),
+            CameraMove::Zoom(factor) => self.zoom(factor),
+            CameraMove::Pan(right, up) => self.pan(right, up),
+            CameraMove::Go(place) => self.go(place),
+        }
+    }
+
     /// Goes to a place.
-    pub(super) fn go(&mut self, place: Place) {
+    fn go(&mut self, place: Place) {
         self.view = match place {
             Place::View(view) => view.view(),
             Place::Face => View { distance: 1.0, pan: [0.0; 2], framing: Framing::Face, ..self.view },
@@ -59,7 +70,7 @@ impl Camera {
     }
 
     /// Turns around the face, in degrees.
-    pub(super) fn orbit(&mut self, yaw: f32, pitch: f32) {
+    fn orbit(&mut self, yaw: f32, pitch: f32) {
         let view = &mut self.view;
         let around = view.yaw_degrees + yaw;
         // Only a full turn is taken away, so that small angles stay the numbers that they are.
@@ -67,27 +78,29 @@ impl Camera {
         view.pitch_degrees = (view.pitch_degrees + pitch).clamp(-MAX_PITCH_DEGREES, MAX_PITCH_DEGREES);
     }
 
-    /// Turns as the pointer drags: the face follows it, so dragging to the right shows the character's right side.
-    pub(super) fn drag(&mut self, dx: f32, dy: f32) {
-        self.orbit(-dx * DEGREES_PER_PIXEL, dy * DEGREES_PER_PIXEL);
-    }
-
     /// Goes nearer (factor below 1) or farther.
-    pub(super) fn zoom(&mut self, factor: f32) {
+    fn zoom(&mut self, factor: f32) {
         let distance = self.view.distance * factor;
         self.view.distance = distance.clamp(*DISTANCES.start(), *DISTANCES.end());
     }
 
-    /// Goes nearer or farther as the wheel turns.
-    pub(super) fn wheel(&mut self, notches: f32) {
-        self.zoom(WHEEL_ZOOM.powf(notches));
-    }
-
     /// Moves the picture by shares of its height, to the right and up.
-    pub(super) fn pan(&mut self, right: f32, up: f32) {
+    fn pan(&mut self, right: f32, up: f32) {
         // What lies farther away moves by more of the head.
         let [x, y] = self.view.pan;
         let moved = |old: f32, by: f32| (old + by * self.view.distance).clamp(-MAX_PAN, MAX_PAN);
         self.view.pan = [moved(x, right), moved(y, up)];
+    }
+}
+
+impl CameraMove {
+    /// What dragging by pixels does: the face follows the pointer, so dragging to the right shows the character's right side.
+    pub(super) fn dragged(dx: f32, dy: f32) -> Self {
+        Self::Orbit(-dx * DEGREES_PER_PIXEL, dy * DEGREES_PER_PIXEL)
+    }
+
+    /// What turning the wheel by notches does.
+    pub(super) fn wheel(notches: f32) -> Self {
+        Self::Zoom(WHEEL_ZOOM.powf(notches))
     }
 }

@@ -1,12 +1,12 @@
 //! A film of what the window shows, made beside it on a device of its own.
 
-use super::App;
-use super::messages::About;
+use super::presenter::Presenter;
+use super::session::Session;
 use super::watch::Wake;
 use crate::cli::Size;
-use crate::clips::{self, FoundClip};
+use crate::clips::FoundClip;
 use crate::face_args::FaceChoice;
-use crate::film::{FilmSink, FilmTarget, Take, through};
+use crate::film::{FilmSink, FilmTarget, Take, free_name, through};
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
 use anyhow::{Result, bail};
@@ -14,7 +14,7 @@ use avatar_film::{Format, Rate};
 use avatar_pack::{Pack, Textures};
 use avatar_panel::FilmProgress;
 use avatar_stage::{SAMPLES, View};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -58,11 +58,11 @@ enum News {
 
 /// What is filmed.
 struct Subject {
-    pack: Pack,
+    pack: Arc<Pack>,
     textures: Textures,
     look: LookArgs,
-    /// Name of the clip; without one the present face is looked at from all around.
-    clip: Option<String>,
+    /// The clip; without one the present face is looked at from all around.
+    clip: Option<FoundClip>,
     values: Vec<f32>,
     view: View,
     size: Size,
@@ -83,10 +83,7 @@ impl Filming {
         let rate = Rate::new(FPS, 1)?;
         let target = FilmTarget::check(&path, subject.size, rate)?;
         let frames = match &subject.clip {
-            Some(name) => {
-                let clip = clips::find(&subject.pack, name)?;
-                length(&clip, &subject.pack, rate)
-            }
+            Some(clip) => length(clip, &subject.pack, rate),
             None => rate.frames_before(TURN_SECS),
         };
         let (sender, news) = channel();
@@ -122,7 +119,7 @@ impl Filming {
     }
 
     /// Whether it is over, and how.
-    fn take(&mut self) -> Option<Result<()>> {
+    pub(super) fn take(&mut self) -> Option<Result<()>> {
         loop {
             match self.news.try_recv() {
                 Ok(News::Done(done)) => self.done = done,
@@ -136,7 +133,7 @@ impl Filming {
     }
 }
 
-fn length(clip: &FoundClip<'_>, pack: &Pack, rate: Rate) -> u64 {
+fn length(clip: &FoundClip, pack: &Pack, rate: Rate) -> u64 {
     let secs = clip.duration_secs(pack);
     if clip.repeats() { rate.frames_before(secs).max(1) } else { through(rate, secs) }
 }
@@ -152,7 +149,6 @@ impl Subject {
         let Self { pack, textures, look, clip, values, view, size, background } = self;
         let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, look)?;
         let mut film = FilmSink::create(target, size, rate, frames)?;
-        let clip = clip.as_deref().map(|name| clips::find(&pack, name)).transpose()?;
         let at = |secs: f64| match &clip {
             Some(clip) => Ok((clip.face(&pack, secs)?, view)),
             None => {
@@ -166,62 +162,54 @@ impl Subject {
     }
 }
 
-impl App {
-    /// Begins a film of a clip, or of the present face from all around.
-    pub(super) fn film(&mut self, format: usize, clip: Option<usize>) {
-        if self.filming.is_some() {
-            return;
-        }
-        match self.try_film(format, clip) {
-            Ok(filming) => {
-                self.messages.settle(About::Film);
-                self.filming = Some(filming);
-            }
-            Err(error) => self.messages.error(About::Film, "The film was not begun.", &error),
-        }
+impl Filming {
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
 
-    fn try_film(&self, format: usize, clip: Option<usize>) -> Result<Filming> {
-        let formats = formats();
-        let Some((_, ending)) = formats.get(format) else { bail!("expected a format that there is") };
-        let Some(stage) = &self.stage else { bail!("expected a window, found none") };
-        let (width, height) = stage.size();
-        let size = Size { width: width.min(LARGEST_SIDE), height: height.min(LARGEST_SIDE) };
-        let of_file = self.face.motion.as_ref().filter(|motion| motion.is_wanted());
-        let of_file = of_file.map(|motion| motion.name.clone());
-        let chosen = clip.and_then(|clip| self.face.pack.clips().clips.get(clip));
-        let clip = of_file.or(chosen.map(|clip| clip.name.clone()));
-        let stem = clip.clone().unwrap_or_else(|| "around".to_owned());
-        let subject = Subject {
-            pack: self.face.pack.clone(),
-            textures: self.face.textures.clone(),
-            look: self.look,
-            clip,
-            values: self.face.goal.clone(),
-            view: self.camera.view,
-            size,
-            background: self.background(),
-        };
-        Filming::start(subject, super::act::free_name(&stem, ending)?, self.proxy.clone())
+    pub(super) fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
+}
 
+impl Session {
     pub(super) fn stop_film(&mut self) {
         if let Some(filming) = &self.filming {
             filming.stop.store(true, Ordering::Relaxed);
         }
     }
+}
 
-    /// Takes over how far the film is.
-    pub(super) fn take_film(&mut self) {
-        let Some(filming) = &mut self.filming else { return };
-        self.frames.soon();
-        let Some(result) = filming.take() else { return };
-        let (path, stopped) = (filming.path.clone(), filming.stop.load(Ordering::Relaxed));
-        self.filming = None;
-        match result {
-            Ok(()) => self.messages.news(About::Film, format!("Saved {}.", path.display()), ""),
-            Err(_) if stopped => self.messages.news(About::Film, "The film was stopped.", ""),
-            Err(error) => self.messages.error(About::Film, "The film was not made.", &error),
-        }
+impl Presenter {
+    /// Begins a film of a clip, or of the present face from all around.
+    pub(super) fn film(
+        &self,
+        session: &Session,
+        format: usize,
+        clip: Option<usize>,
+        window: EventLoopProxy<Wake>,
+    ) -> Result<Filming> {
+        let formats = formats();
+        let Some((_, ending)) = formats.get(format) else { bail!("expected a format that there is") };
+        let Some(stage) = &self.stage else { bail!("expected a window, found none") };
+        let (width, height) = stage.size();
+        let size = Size { width: width.min(LARGEST_SIDE), height: height.min(LARGEST_SIDE) };
+        let face = &session.face;
+        let of_file = face.motion.as_ref().filter(|motion| motion.is_wanted());
+        let of_file = of_file.map(|motion| FoundClip::File(motion.name.clone()));
+        let chosen = clip.and_then(|clip| session.books.clip(clip));
+        let clip = of_file.or(chosen.map(|clip| FoundClip::Controls(clip.clone())));
+        let stem = clip.as_ref().map_or("around", FoundClip::name).to_owned();
+        let subject = Subject {
+            pack: Arc::clone(face.performer.pack()),
+            textures: session.textures.clone(),
+            look: self.look,
+            clip,
+            values: face.targets(),
+            view: self.camera.view,
+            size,
+            background: self.background(),
+        };
+        Filming::start(subject, free_name(&stem, ending)?, window)
     }
 }

@@ -1,54 +1,68 @@
-//! Keys and pointer.
+//! Keys and pointer become actions.
 
-use super::overlay::Overlay;
-use super::{App, keys};
+use super::action::{Action, CameraMove};
+use super::books::Books;
+use super::keys::{self, Keys};
 use winit::dpi::PhysicalPosition;
-use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta};
-use winit::event_loop::ActiveEventLoop;
+use winit::event::{ElementState, KeyEvent, Modifiers, MouseButton, MouseScrollDelta};
 
 /// What the pointer drags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Drag {
+enum Drag {
     Orbit,
     Pan,
 }
 
-impl App {
-    pub(super) fn key(&mut self, event_loop: &ActiveEventLoop, event: &KeyEvent) {
+/// The keys that are bound, and what keyboard and pointer do at the moment.
+pub(super) struct Input {
+    pub(super) keys: Keys,
+    pub(super) modifiers: Modifiers,
+    /// The pointer's last place in the window.
+    pub(super) pointer: PhysicalPosition<f64>,
+    dragging: Option<Drag>,
+    /// A pose was pressed while the pointer holds a slider.
+    interrupted: Option<Interrupted>,
+}
+
+/// A slider that is held has no say any more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Interrupted {
+    /// The pointer still holds it.
+    Held,
+    /// It has let go; the slider's last word is on its way.
+    Released,
+}
+
+impl Input {
+    pub(super) fn new(keys: Keys) -> Self {
+        Self {
+            keys,
+            modifiers: Modifiers::default(),
+            pointer: PhysicalPosition::default(),
+            dragging: None,
+            interrupted: None,
+        }
+    }
+
+    /// What a key that is not the panel's does.
+    pub(super) fn key(&self, event: &KeyEvent, books: &Books) -> Option<Action> {
         if event.state != ElementState::Pressed {
-            return;
+            return None;
         }
         if self.keys.has(&event.logical_key, &self.modifiers) {
-            if let Some(action) = self.keys.action(&event.logical_key, &self.modifiers, event.repeat) {
-                self.act_on_key(event_loop, action);
-            }
-            return;
+            return self.keys.action(&event.logical_key, &self.modifiers, event.repeat);
         }
         // A key that is held down repeats itself; a pose is pressed once. Ctrl is no part of a pose's key.
         let state = self.modifiers.state();
         if event.repeat || state.control_key() || state.alt_key() || state.super_key() {
-            return;
+            return None;
         }
-        if let Some(pose) = keys::pose(&self.face.pack, &event.logical_key, event.physical_key) {
-            self.catch_up();
-            self.interrupt();
-            self.face.go_to(pose);
-            self.redraw();
-        } else if let Some(clip) = keys::clip(&self.face.pack, &event.logical_key) {
-            self.catch_up();
-            self.interrupt();
-            self.play(clip);
-        }
+        let pose = keys::pose(books.poses(), &event.logical_key, event.physical_key).map(Action::PressPose);
+        pose.or_else(|| keys::clip(books.clips(), &event.logical_key).map(Action::PressClip))
     }
 
-    /// A slider that is held lets go of the face: the key is the newer wish.
-    fn interrupt(&mut self) {
-        if self.overlay.as_ref().is_some_and(|overlay| overlay.ctx.egui_is_using_pointer()) {
-            self.interrupted = Some(false);
-        }
-    }
-
-    pub(super) fn button(&mut self, state: ElementState, button: MouseButton) {
+    /// A button goes down or up; `is_panels` says whether the pointer is the panel's.
+    pub(super) fn button(&mut self, state: ElementState, button: MouseButton, is_panels: bool) {
         let drag = match button {
             MouseButton::Left if self.modifiers.state().shift_key() => Drag::Pan,
             MouseButton::Left => Drag::Orbit,
@@ -56,38 +70,46 @@ impl App {
             _ => return,
         };
         if state == ElementState::Released && self.interrupted.is_some() {
-            self.interrupted = Some(true);
+            self.interrupted = Some(Interrupted::Released);
         }
-        let is_ours = !self.overlay.as_ref().is_some_and(Overlay::takes_pointer);
-        self.dragging = (state == ElementState::Pressed && is_ours).then_some(drag);
+        self.dragging = (state == ElementState::Pressed && !is_panels).then_some(drag);
     }
 
-    pub(super) fn wheel(&mut self, delta: MouseScrollDelta) {
-        if self.overlay.as_ref().is_some_and(Overlay::takes_pointer) {
-            return;
-        }
-        self.camera.wheel(match delta {
+    /// What turning the wheel does.
+    pub(super) fn wheel(delta: MouseScrollDelta) -> Action {
+        Action::Camera(CameraMove::wheel(match delta {
             MouseScrollDelta::LineDelta(_, lines) => lines,
             MouseScrollDelta::PixelDelta(pixels) => pixels.y as f32 / 40.0,
-        });
-        self.redraw();
+        }))
     }
 
-    pub(super) fn pointer(&mut self, position: PhysicalPosition<f64>) {
+    /// The pointer is at another place of a window of this height: what that does to the camera.
+    pub(super) fn pointer(&mut self, position: PhysicalPosition<f64>, height: u32) -> Option<Action> {
         let (dx, dy) = ((position.x - self.pointer.x) as f32, (position.y - self.pointer.y) as f32);
         self.pointer = position;
-        self.pointing.moved();
-        if self.pointing.follows {
-            self.redraw();
-        }
-        match self.dragging {
-            Some(Drag::Orbit) => self.camera.drag(dx, dy),
-            Some(Drag::Pan) => {
-                let height = self.stage.as_ref().map_or(1.0, |stage| stage.size().1.max(1) as f32);
-                self.camera.pan(dx / height, -dy / height);
-            }
-            None => return,
-        }
-        self.redraw();
+        let height = height.max(1) as f32;
+        Some(Action::Camera(match self.dragging? {
+            Drag::Orbit => CameraMove::dragged(dx, dy),
+            Drag::Pan => CameraMove::Pan(dx / height, -dy / height),
+        }))
+    }
+
+    pub(super) fn is_dragging(&self) -> bool {
+        self.dragging.is_some()
+    }
+
+    /// A slider that is held lets go of the face: a key is the newer wish.
+    pub(super) fn interrupt(&mut self) {
+        self.interrupted = Some(Interrupted::Held);
+    }
+
+    /// Whether sliders have no say.
+    pub(super) fn is_interrupted(&self) -> bool {
+        self.interrupted.is_some()
+    }
+
+    /// The slider's last word has been heard, if it was let go.
+    pub(super) fn heard(&mut self) {
+        self.interrupted.take_if(|interrupted| *interrupted == Interrupted::Released);
     }
 }

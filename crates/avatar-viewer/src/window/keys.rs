@@ -1,53 +1,17 @@
 //! Which key does what in the window: one table that handles keys, prints them and shows them as help.
 
+use super::action::{Action, CameraMove};
 use super::camera::Place;
 use super::key_name::KeyName;
-use avatar_pack::Pack;
+use avatar_panel::{Action as Panel, Edit};
 use avatar_stage::NamedView;
 use placed_toml::{Document, TomlError};
-use pose_anim::Pose;
+use pose_anim::{Clip, Pose, PoseSet};
 use winit::event::Modifiers;
 use winit::keyboard::{Key, KeyCode, PhysicalKey};
 
-/// What a key does in the window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Action {
-    /// Turn the camera: degrees around, degrees up.
-    Orbit(f32, f32),
-    /// Multiply the camera's distance.
-    Zoom(f32),
-    /// Move the picture: shares of its height to the right and up.
-    Pan(f32, f32),
-    /// Camera to one of its places.
-    Camera(Place),
-    /// Back to the default face.
-    Defaults,
-    /// Other hair: the next, or the one before.
-    Hair { backward: bool },
-    /// Eyes follow the pointer, or no longer.
-    Gaze,
-    /// Play or halt the clip.
-    Play,
-    /// Save the picture.
-    Picture,
-    /// Begin or end the recording of a clip.
-    Record,
-    /// Open another avatar.
-    Open,
-    /// Take the last change of poses or clips back, or do it again.
-    Undo { again: bool },
-    /// Show the keys, or no longer.
-    Help,
-    /// Fold the panel, or unfold it.
-    Panel,
-    /// Fill the screen, or no longer.
-    FullScreen,
-    /// Close the window.
-    Close,
-}
-
 /// A row of the table.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Row {
     /// Its name in `keys.toml`.
     pub(crate) id: &'static str,
@@ -59,8 +23,6 @@ pub(crate) struct Row {
     pub(crate) group: &'static str,
     /// What they do.
     action: Action,
-    /// Whether a key that is held down does it again and again.
-    repeats: bool,
 }
 
 const CAMERA: &str = "Camera";
@@ -74,39 +36,79 @@ const fn row(
     group: &'static str,
     action: Action,
 ) -> Row {
-    let repeats =
-        matches!(action, Action::Orbit(..) | Action::Zoom(_) | Action::Pan(..) | Action::Undo { .. });
-    Row { id, keys, meaning, group, action, repeats }
+    Row { id, keys, meaning, group, action }
 }
 
 /// All keys that the window handles itself.
-pub(crate) const ROWS: [Row; 26] = [
-    row("camera-right", &["Left"], "camera to the character's right", CAMERA, Action::Orbit(-5.0, 0.0)),
-    row("camera-left", &["Right"], "camera to the character's left", CAMERA, Action::Orbit(5.0, 0.0)),
-    row("camera-up", &["Up"], "camera up", CAMERA, Action::Orbit(0.0, 5.0)),
-    row("camera-down", &["Down"], "camera down", CAMERA, Action::Orbit(0.0, -5.0)),
-    row("nearer", &["PageUp"], "nearer", CAMERA, Action::Zoom(0.9)),
-    row("farther", &["PageDown"], "farther", CAMERA, Action::Zoom(1.0 / 0.9)),
-    row("pan-left", &["Shift+Left"], "picture to the left", CAMERA, Action::Pan(-0.05, 0.0)),
-    row("pan-right", &["Shift+Right"], "picture to the right", CAMERA, Action::Pan(0.05, 0.0)),
-    row("pan-up", &["Shift+Up"], "picture up", CAMERA, Action::Pan(0.0, 0.05)),
-    row("pan-down", &["Shift+Down"], "picture down", CAMERA, Action::Pan(0.0, -0.05)),
-    row("front", &["Home"], "camera to the front", CAMERA, Action::Camera(Place::View(NamedView::Front))),
-    row("frame-face", &["f"], "the face fills the picture", CAMERA, Action::Camera(Place::Face)),
-    row("gaze", &["g"], "eyes follow the pointer, or no longer", FACE, Action::Gaze),
-    row("hair", &["h"], "other hair", FACE, Action::Hair { backward: false }),
-    row("hair-before", &["Shift+h"], "the hair before", FACE, Action::Hair { backward: true }),
-    row("defaults", &["Backspace", "Delete"], "back to the default face", FACE, Action::Defaults),
-    row("play", &["Space"], "play or halt the clip", FACE, Action::Play),
+pub(crate) static ROWS: [Row; 26] = [
+    row(
+        "camera-right",
+        &["Left"],
+        "camera to the character's right",
+        CAMERA,
+        Action::Camera(CameraMove::Orbit(-5.0, 0.0)),
+    ),
+    row(
+        "camera-left",
+        &["Right"],
+        "camera to the character's left",
+        CAMERA,
+        Action::Camera(CameraMove::Orbit(5.0, 0.0)),
+    ),
+    row("camera-up", &["Up"], "camera up", CAMERA, Action::Camera(CameraMove::Orbit(0.0, 5.0))),
+    row("camera-down", &["Down"], "camera down", CAMERA, Action::Camera(CameraMove::Orbit(0.0, -5.0))),
+    row("nearer", &["PageUp"], "nearer", CAMERA, Action::Camera(CameraMove::Zoom(0.9))),
+    row("farther", &["PageDown"], "farther", CAMERA, Action::Camera(CameraMove::Zoom(1.0 / 0.9))),
+    row(
+        "pan-left",
+        &["Shift+Left"],
+        "picture to the left",
+        CAMERA,
+        Action::Camera(CameraMove::Pan(-0.05, 0.0)),
+    ),
+    row(
+        "pan-right",
+        &["Shift+Right"],
+        "picture to the right",
+        CAMERA,
+        Action::Camera(CameraMove::Pan(0.05, 0.0)),
+    ),
+    row("pan-up", &["Shift+Up"], "picture up", CAMERA, Action::Camera(CameraMove::Pan(0.0, 0.05))),
+    row("pan-down", &["Shift+Down"], "picture down", CAMERA, Action::Camera(CameraMove::Pan(0.0, -0.05))),
+    row(
+        "front",
+        &["Home"],
+        "camera to the front",
+        CAMERA,
+        Action::Camera(CameraMove::Go(Place::View(NamedView::Front))),
+    ),
+    row(
+        "frame-face",
+        &["f"],
+        "the face fills the picture",
+        CAMERA,
+        Action::Camera(CameraMove::Go(Place::Face)),
+    ),
+    row("gaze", &["g"], "eyes follow the pointer, or no longer", FACE, Action::Panel(Panel::Gaze)),
+    row("hair", &["h"], "other hair", FACE, Action::Panel(Panel::Hair { backward: false })),
+    row("hair-before", &["Shift+h"], "the hair before", FACE, Action::Panel(Panel::Hair { backward: true })),
+    row(
+        "defaults",
+        &["Backspace", "Delete"],
+        "back to the default face",
+        FACE,
+        Action::Panel(Panel::ResetAll),
+    ),
+    row("play", &["Space"], "play or halt the clip", FACE, Action::PlayOrPause),
     row("record", &["Shift+r"], "begin or end the recording of a clip", FACE, Action::Record),
-    row("undo", &["Ctrl+z"], "take the last change back", FACE, Action::Undo { again: false }),
-    row("redo", &["Ctrl+Shift+z", "Ctrl+y"], "do it again", FACE, Action::Undo { again: true }),
-    row("picture", &["p"], "save the picture", WINDOW, Action::Picture),
-    row("open", &["Ctrl+o"], "open another avatar", WINDOW, Action::Open),
+    row("undo", &["Ctrl+z"], "take the last change back", FACE, Action::Panel(Panel::Edit(Edit::Undo))),
+    row("redo", &["Ctrl+Shift+z", "Ctrl+y"], "do it again", FACE, Action::Panel(Panel::Edit(Edit::Redo))),
+    row("picture", &["p"], "save the picture", WINDOW, Action::Panel(Panel::Picture)),
+    row("open", &["Ctrl+o"], "open another avatar", WINDOW, Action::Panel(Panel::OpenFile)),
     row("help", &["F1", "?"], "this table", WINDOW, Action::Help),
-    row("panel", &["F2"], "fold the panel, or unfold it", WINDOW, Action::Panel),
-    row("full-screen", &["F11"], "fill the screen, or no longer", WINDOW, Action::FullScreen),
-    row("close", &["Escape"], "close the window", WINDOW, Action::Close),
+    row("panel", &["F2"], "fold the panel, or unfold it", WINDOW, Action::FoldPanel),
+    row("full-screen", &["F11"], "fill the screen, or no longer", WINDOW, Action::Panel(Panel::FullScreen)),
+    row("close", &["Escape"], "close the window", WINDOW, Action::Panel(Panel::Quit)),
 ];
 
 /// What the mouse does.
@@ -180,7 +182,7 @@ impl Keys {
         let pressed = KeyName::of(key, modifiers)?;
         let index = self.names.iter().position(|names| names.contains(&pressed))?;
         // A repetition that does nothing is still not a pose's.
-        Some(ROWS[index].action).filter(|_| !is_repeat || ROWS[index].repeats)
+        Some(&ROWS[index].action).filter(|action| !is_repeat || action.repeats()).cloned()
     }
 
     /// Whether the window handles this key itself.
@@ -208,7 +210,7 @@ impl Keys {
     }
 
     /// Keys of poses that never come through, because the window takes them itself.
-    pub(crate) fn dead(&self, pack: &Pack) -> Vec<String> {
+    pub(crate) fn dead(&self, poses: &PoseSet) -> Vec<String> {
         let warning = |pose: &Pose| {
             let key = KeyName::parse(pose.key.as_ref()?)?;
             let row = self.names.iter().position(|names| names.contains(&key))?;
@@ -217,17 +219,17 @@ impl Keys {
                 pose.name, ROWS[row].meaning
             ))
         };
-        pack.poses().iter().filter_map(warning).collect()
+        poses.iter().filter_map(warning).collect()
     }
 }
 
 /// The pose that this key presses: by the character that the key types, or, where a layout puts that character
 /// behind Shift (digits on French keyboards), by the key's place.
-pub(crate) fn pose(pack: &Pack, logical: &Key, physical: PhysicalKey) -> Option<usize> {
+pub(crate) fn pose(poses: &PoseSet, logical: &Key, physical: PhysicalKey) -> Option<usize> {
     let named = |name: &str| {
         let exactly = |pose: &Pose| pose.key.as_deref() == Some(name);
         let ignoring_case = |pose: &Pose| pose.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(name));
-        pack.poses().iter().position(exactly).or_else(|| pack.poses().iter().position(ignoring_case))
+        poses.iter().position(exactly).or_else(|| poses.iter().position(ignoring_case))
     };
     let typed = match logical {
         Key::Character(typed) => named(typed),
@@ -241,14 +243,13 @@ pub(crate) fn pose(pack: &Pack, logical: &Key, physical: PhysicalKey) -> Option<
 }
 
 /// The clip that this key plays.
-pub(crate) fn clip(pack: &Pack, logical: &Key) -> Option<usize> {
+pub(crate) fn clip(clips: &[Clip], logical: &Key) -> Option<usize> {
     let name = match logical {
         Key::Character(typed) => typed.to_string(),
         Key::Named(key) => format!("{key:?}"),
         _ => return None,
     };
-    let mut clips = pack.clips().clips.iter();
-    clips.position(|clip| clip.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(&name)))
+    clips.iter().position(|clip| clip.key.as_ref().is_some_and(|key| key.eq_ignore_ascii_case(&name)))
 }
 
 fn digit(code: KeyCode) -> Option<&'static str> {

@@ -1,9 +1,9 @@
 use super::App;
-use super::camera::Camera;
-use super::face::Face;
+use super::camera::HandCamera;
 use super::messages::About;
 use super::point::Pointing;
-use super::watch::{Wake, watch};
+use super::session::Session;
+use super::watch::Wake;
 use crate::face_args::FaceChoice;
 use crate::files::Files;
 use anyhow::Result;
@@ -112,22 +112,19 @@ impl App {
         if !self.may_leave() {
             return;
         }
-        self.loading = Some(Loading::start(path, self.proxy.clone()));
-        self.redraw();
+        self.session.loading = Some(Loading::start(path, self.proxy.clone()));
+        self.presenter.redraw();
     }
 
     /// Takes over what was read; a broken file leaves everything as it is.
     pub(super) fn take_loaded(&mut self) {
-        let Some(loading) = &mut self.loading else { return };
+        let Some(loading) = &mut self.session.loading else { return };
         let loaded = loading.take();
-        if let Some(stage) = &self.stage {
-            stage.window().request_redraw();
-        }
+        self.presenter.redraw();
         let Some(loaded) = loaded else { return };
         let path = loading.path.clone();
-        self.loading = None;
-        let shown = loaded.and_then(|loaded| self.show(loaded.files, loaded.pack, loaded.textures));
-        match shown {
+        self.session.loading = None;
+        match loaded.and_then(|loaded| self.show(loaded)) {
             Ok(()) => {
                 self.messages.settle(About::Opening);
                 self.config.opened(&path);
@@ -140,24 +137,24 @@ impl App {
         }
     }
 
-    fn show(&mut self, files: Files, pack: Pack, textures: Textures) -> Result<()> {
-        let start = FaceChoice::of_values(pack.controls().defaults());
-        let face = Face::new(files, pack, textures, Some(start))?;
-        if let Some(stage) = &mut self.stage {
-            stage.set_avatar(&face.pack, &face.textures, self.look)?;
+    fn show(&mut self, loaded: Loaded) -> Result<()> {
+        let start = FaceChoice::of_values(loaded.pack.controls().defaults());
+        let mut session = Session::new(loaded, start, self.proxy.clone())?;
+        if let Some(stage) = &mut self.presenter.stage {
+            stage.set_avatar(session.face.pack(), &session.textures, self.presenter.look)?;
         }
-        self.face = face;
-        self.is_warned = false;
-        self.pointing = Pointing::new(&self.face.pack, self.proxy.clone(), self.pointing.follows);
-        self.camera = Camera::START;
-        self.frames.forget_miniatures();
-        self.watching = watch(&self.face.files, &self.face.store, self.proxy.clone());
+        // A film of the avatar before goes on.
+        session.filming = self.session.filming.take();
+        self.session = session;
+        let follows = self.presenter.pointing.follows;
+        self.presenter.pointing =
+            Pointing::new(self.session.face.performer.pack(), self.proxy.clone(), follows);
+        self.presenter.camera = HandCamera::START;
+        self.presenter.frames.forget_miniatures();
         for about in [About::Poses, About::Clips, About::Materials, About::Hair] {
             self.messages.settle(about);
         }
-        if let Some(stage) = &self.stage {
-            stage.window().set_title(&self.title());
-        }
+        self.presenter.set_title(&self.session.title());
         Ok(())
     }
 }

@@ -47,6 +47,14 @@ impl Messages {
         self.tell(about, Severity::Error, title, text);
     }
 
+    /// Tells of what failed, under this title; where it was done, what was told about the same goes.
+    pub(super) fn report(&mut self, about: About, title: &str, done: anyhow::Result<()>) {
+        match done {
+            Ok(()) => self.settle(about),
+            Err(error) => self.error(about, title, &error),
+        }
+    }
+
     pub(super) fn warn(&mut self, about: About, title: impl Into<String>, text: impl Into<String>) {
         let (title, text) = (title.into(), text.into());
         eprintln!("warning: {text}");

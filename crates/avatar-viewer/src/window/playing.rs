@@ -1,9 +1,8 @@
 //! Clips that play, and faces that are recorded.
 
-use super::face::{Face, Playback};
+use super::face::Face;
 use anyhow::Result;
-use pose_anim::{Clip, Pose, Track};
-use std::sync::Arc;
+use pose_anim::{Clip, Pose, Track, Wrap};
 
 /// A recording is reduced to keys that stray by at most this share of a control's range.
 const RECORDED_TOLERANCE: f64 = 0.005;
@@ -22,26 +21,65 @@ pub(super) struct Recording {
 /// Seconds in which a face follows the playhead that is dragged.
 const SCRUB_SECS: f64 = 0.08;
 
+/// The clip that is chosen, and its playhead.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Playback {
+    /// Its index in the books.
+    pub(super) clip: Option<usize>,
+    playhead: Playhead,
+}
+
+/// Where the playhead is, in seconds from the start of the clip.
+#[derive(Clone, Copy, Debug)]
+enum Playhead {
+    /// It stands.
+    Stands(f64),
+    /// It goes with the face, which tells the time until the clip is at its end.
+    Runs { end_secs: f64 },
+}
+
+impl Default for Playhead {
+    fn default() -> Self {
+        Self::Stands(0.0)
+    }
+}
+
+impl Playback {
+    /// A clip whose playhead stands at a time.
+    pub(super) const fn at(clip: usize, secs: f64) -> Self {
+        Self { clip: Some(clip), playhead: Playhead::Stands(secs) }
+    }
+}
+
 impl Face {
-    /// Plays a clip from where the playhead stands, or from its start.
-    pub(super) fn play(&mut self, index: usize) -> Result<()> {
-        let Some(clip) = self.clips.clips().clips.get(index) else { return Ok(()) };
-        let ended = clip.wrap == pose_anim::Wrap::Once && self.playback.time_secs >= clip.duration_secs();
-        let from_secs = match self.playback.clip == Some(index) && !ended {
-            true => self.playback.time_secs,
-            false => 0.0,
-        };
-        let rest = clip.starting_at(from_secs)?;
-        // Where the face is at the clip's place already, it need not be led there.
-        let is_there = rest.tracks().iter().all(|track| {
-            let here = self.player.values().get(track.control()).copied().unwrap_or_default();
-            (f64::from(here) - track.at(0.0).value).abs() < 1e-3
-        });
-        self.start = None;
+    /// Whether a clip of the books plays.
+    pub(super) fn is_playing(&self) -> bool {
+        matches!(self.playback.playhead, Playhead::Runs { .. }) && self.performer.clip_time_secs().is_some()
+    }
+
+    /// Where the playhead is, in seconds from the start of the clip.
+    pub(super) fn playhead_secs(&self) -> f64 {
+        match self.playback.playhead {
+            Playhead::Stands(secs) => secs,
+            Playhead::Runs { end_secs } => self.performer.clip_time_secs().unwrap_or(end_secs),
+        }
+    }
+
+    /// The playhead stays where it is.
+    pub(super) fn halt_playhead(&mut self) {
+        self.playback.playhead = Playhead::Stands(self.playhead_secs());
+    }
+
+    /// Plays a clip, the one of this index in the books: from where the playhead stands, or from its start.
+    pub(super) fn play(&mut self, index: usize, clip: &Clip) -> Result<()> {
+        let stands_secs = self.playhead_secs();
+        let ended = clip.wrap == Wrap::Once && stands_secs >= clip.duration_secs();
+        let from_secs = if self.playback.clip == Some(index) && !ended { stands_secs } else { 0.0 };
+        self.performer.play_clip(clip, from_secs)?;
+        self.forget_wishes();
         self.leave_file_clip();
-        self.active_pose = None;
-        self.player.play(&Arc::new(rest), is_there.then_some(0.0));
-        self.playback = Playback { clip: Some(index), time_secs: from_secs, playing: true };
+        let end_secs = clip.duration_secs();
+        self.playback = Playback { clip: Some(index), playhead: Playhead::Runs { end_secs } };
         Ok(())
     }
 
@@ -50,20 +88,24 @@ impl Face {
         if let Some(motion) = &mut self.motion {
             motion.playing = false;
         }
-        if self.playback.playing {
-            self.playback.playing = false;
-            self.player.stop();
-            self.goal.copy_from_slice(self.player.values());
+        if self.is_playing() {
+            self.halt_playhead();
+            self.performer.stop();
         }
     }
 
-    /// Shows a clip at a time.
-    pub(super) fn scrub(&mut self, index: usize, time_secs: f64) {
-        let Some(clip) = self.clips.clips().clips.get(index) else { return };
+    /// What plays may be another clip now, or none.
+    pub(super) fn forget_playback(&mut self) {
+        self.pause();
+        self.playback = Playback::default();
+    }
+
+    /// Shows a clip, the one of this index in the books, at a time.
+    pub(super) fn scrub(&mut self, index: usize, clip: &Clip, time_secs: f64) {
         let values = clip.tracks().iter().map(|track| (track.control(), track.at(time_secs).value as f32));
         let pose = Pose::new("playhead", values.collect()).lasting(SCRUB_SECS);
         self.press(&pose);
-        self.playback = Playback { clip: Some(index), time_secs, playing: false };
+        self.playback = Playback::at(index, time_secs);
     }
 
     pub(super) fn recorded_secs(&self) -> Option<f64> {
@@ -81,7 +123,7 @@ impl Face {
                 motion.name
             );
         }
-        self.recording = Some(Recording { secs: 0.0, samples: vec![self.player.values().to_vec()] });
+        self.recording = Some(Recording { secs: 0.0, samples: vec![self.performer.values().to_vec()] });
         Ok(())
     }
 
@@ -91,9 +133,10 @@ impl Face {
     }
 
     /// Makes a clip of what was recorded: of those controls that moved, with as few keys as say it.
-    pub(super) fn stop_recording(&mut self) -> Result<()> {
-        let Some(Recording { samples, .. }) = self.recording.take() else { return Ok(()) };
-        let controls = self.pack.controls().controls();
+    /// Without a recording there is none.
+    pub(super) fn stop_recording(&mut self, name: String) -> Result<Option<Clip>> {
+        let Some(Recording { samples, .. }) = self.recording.take() else { return Ok(None) };
+        let controls = self.controls().controls();
         let moved = |control: &usize| samples.iter().any(|row| row[*control] != samples[0][*control]);
         let tracks = (0..controls.len()).filter(moved).map(|control| {
             let sample =
@@ -105,8 +148,8 @@ impl Face {
             anyhow::bail!("expected a face that moves while it is recorded, found one at rest");
         }
         let range = |control: usize| f64::from(controls[control].max - controls[control].min);
-        let (mut clip, _) = Clip::new(self.free_name("recording"), tracks)?
-            .reduced(|control| range(control) * RECORDED_TOLERANCE)?;
+        let (mut clip, _) =
+            Clip::new(name, tracks)?.reduced(|control| range(control) * RECORDED_TOLERANCE)?;
         // A cubic may swing a little beyond its keys, and a file takes no key beyond its control's range.
         for (index, control) in controls.iter().enumerate() {
             let Some(track) = clip.track_mut(index) else { continue };
@@ -118,6 +161,6 @@ impl Face {
                 }
             }
         }
-        self.add_clip(&clip)
+        Ok(Some(clip))
     }
 }

@@ -1,15 +1,16 @@
 //! What the pointer says: which part of the face a slider moves, which sliders move the part under the pointer, and where the eyes
 //! are to look.
 
-use super::App;
 use super::face::Face;
-use super::shot::Shot;
+use super::input::Input;
+use super::presenter::Presenter;
+use super::session::Session;
 use super::watch::Wake;
 use avatar_mesh::Deformed;
-use avatar_pack::{Gaze, Pack, Reach};
+use avatar_pack::{Pack, Reach};
 use avatar_render::Camera;
 use glam::{Vec2, Vec3};
-use pose_anim::{Pose, face};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use winit::event_loop::EventLoopProxy;
 
@@ -17,20 +18,11 @@ use winit::event_loop::EventLoopProxy;
 const MARKS: usize = 900;
 /// What the eyes look at lies between the camera and the face, at this share of their distance from the face.
 const TARGET: f32 = 0.5;
-/// Share of the way to the target by which the head turns, and the seconds that it takes: the eyes are there long before.
-const HEAD_SHARE: f32 = 0.45;
-const HEAD_SECS: f64 = 0.9;
-/// Seconds that the eyes take.
-const EYE_SECS: f64 = 0.1;
-/// Degrees by which a control has to be off before it is corrected.
-const OFF_DEGREES: f32 = 0.25;
-
 /// What the pointer is about.
 pub(super) struct Pointing {
     /// Which vertices each control moves, once that is known.
     reach: Option<Reach>,
     coming: Receiver<Reach>,
-    gaze: Option<Gaze>,
     /// Whether the eyes follow the pointer.
     pub(super) follows: bool,
     /// The control whose slider is under the pointer.
@@ -41,14 +33,13 @@ pub(super) struct Pointing {
     deformed: Vec<Deformed>,
     /// Whether the pointer has moved since it was looked at.
     moved: bool,
-    led: Vec<(usize, f32)>,
 }
 
 impl Pointing {
     /// Begins to find out what each control moves.
-    pub(super) fn new(pack: &Pack, window: EventLoopProxy<Wake>, follows: bool) -> Self {
+    pub(super) fn new(pack: &Arc<Pack>, window: EventLoopProxy<Wake>, follows: bool) -> Self {
         let (sender, coming) = channel();
-        let copy = pack.clone();
+        let copy = Arc::clone(pack);
         std::thread::spawn(move || {
             // Another avatar may have taken the place of this one.
             let _ = sender.send(Reach::new(&copy));
@@ -57,13 +48,11 @@ impl Pointing {
         Self {
             reach: None,
             coming,
-            gaze: Gaze::new(pack),
             follows,
             hovered: None,
             highlighted: Vec::new(),
             deformed: Vec::new(),
             moved: false,
-            led: Vec::new(),
         }
     }
 
@@ -86,38 +75,31 @@ impl Pointing {
 
     fn deform(&mut self, face: &Face) {
         if self.deformed.is_empty() {
-            let parts = 0..face.pack.parts().len();
+            let (pack, state) = (face.pack(), face.performer.state());
+            let parts = 0..pack.parts().len();
             // A part that cannot be deformed has nothing to point at.
-            self.deformed =
-                parts.map(|part| face.state.deform(&face.pack, part).unwrap_or_default()).collect();
+            self.deformed = parts.map(|part| state.deform(pack, part).unwrap_or_default()).collect();
         }
     }
 }
 
-impl App {
-    /// The camera of the frame, and the size of the window in pixels.
-    fn present_camera(&self, free: Option<[f32; 4]>) -> Option<(Camera, Vec2)> {
-        let stage = self.stage.as_ref()?;
-        let (width, height) = stage.size();
-        let shot = Shot {
-            pack: &self.face.pack,
-            state: &self.face.state,
-            view: self.camera.view,
-            background: [0; 4],
-            free,
-        };
-        Some((shot.scene(width, height, &self.look).camera, Vec2::new(width as f32, height as f32)))
-    }
-
+impl Presenter {
     /// Looks at what is under the pointer, and marks what the slider under the pointer moves. The face has to be posed.
-    pub(super) fn point(&mut self, free: Option<[f32; 4]>, is_at_rest: bool) {
-        let Some((camera, size)) = self.present_camera(free) else { return };
+    pub(super) fn point(
+        &mut self,
+        session: &Session,
+        input: &Input,
+        free: Option<[f32; 4]>,
+        is_at_rest: bool,
+    ) {
+        let face = &session.face;
+        let Some((camera, size)) = self.present_camera(session, free) else { return };
         if !is_at_rest {
             self.pointing.face_moved();
         }
         let Some(overlay) = &mut self.overlay else { return };
         overlay.marks.clear();
-        let over_picture = !overlay.takes_pointer() && self.dragging.is_none();
+        let over_picture = !overlay.takes_pointer() && !input.is_dragging();
         let sees_sliders = {
             let state = overlay.panel.state();
             state.tab == avatar_panel::Tab::Face && !state.folded
@@ -125,7 +107,7 @@ impl App {
         if let Some(control) = self.pointing.hovered
             && self.pointing.reach.is_some()
         {
-            self.pointing.deform(&self.face);
+            self.pointing.deform(face);
             let Pointing { reach, deformed, .. } = &self.pointing;
             mark(
                 &camera,
@@ -141,10 +123,9 @@ impl App {
                 self.redraw();
             }
         } else if std::mem::take(&mut self.pointing.moved) && is_at_rest && self.pointing.reach.is_some() {
-            self.pointing.deform(&self.face);
-            let at = Vec2::new(self.pointer.x as f32, self.pointer.y as f32) / size * 2.0 - 1.0;
-            let toward = camera.toward(at * Vec2::new(1.0, -1.0));
-            let hit = self.face.pack.hit(&self.pointing.deformed, camera.eye(), toward);
+            self.pointing.deform(face);
+            let toward = camera.toward(in_picture(input, size));
+            let hit = face.pack().hit(&self.pointing.deformed, camera.eye(), toward);
             let before = self.pointing.highlighted.clone();
             let Pointing { reach, highlighted, .. } = &mut self.pointing;
             highlighted.clear();
@@ -159,40 +140,31 @@ impl App {
         }
     }
 
-    /// Lets the eyes follow the pointer, and the head the eyes, or lets them look ahead again.
-    pub(super) fn look(&mut self, free: Option<[f32; 4]>) {
-        if !self.pointing.follows || self.face.playback.playing {
+    /// Lets the eyes follow the pointer, and the head the eyes.
+    pub(super) fn look(&self, session: &mut Session, input: &Input, free: Option<[f32; 4]>) {
+        if !self.pointing.follows || session.face.is_playing() {
             return;
         }
-        let Some((camera, size)) = self.present_camera(free) else { return };
-        let Some(gaze) = &mut self.pointing.gaze else { return };
-        let at = (Vec2::new(self.pointer.x as f32, self.pointer.y as f32) / size * 2.0 - 1.0)
-            * Vec2::new(1.0, -1.0);
-        let center = self.face.pack.bounds().map_or(Vec3::ZERO, |bounds| bounds.center());
+        let Some((camera, size)) = self.present_camera(session, free) else { return };
+        let center = session.face.pack().bounds().map_or(Vec3::ZERO, |bounds| bounds.center());
         let depth = -camera.world_from_camera.inverse().transform_point3(center).z;
-        let target = camera.eye() + camera.toward(at) * depth * (1.0 - TARGET);
-        let led = &mut self.pointing.led;
-        let face = &mut self.face;
-        // Only a face of another pack would be an error.
-        let _ = gaze.face_toward(&face.pack, &face.goal, target, HEAD_SHARE, led);
-        face.lead(led, HEAD_SECS, OFF_DEGREES);
-        let _ = gaze.look_at(&face.pack, face.player.values(), target, led);
-        face.lead(led, EYE_SECS, OFF_DEGREES);
+        let toward = camera.toward(in_picture(input, size));
+        session.face.look_at(camera.eye() + toward * depth * (1.0 - TARGET));
     }
 
     /// The eyes follow the pointer from now on, or look ahead again.
-    pub(super) fn toggle_gaze(&mut self) {
+    pub(super) fn toggle_gaze(&mut self, face: &mut Face) {
         self.pointing.follows = !self.pointing.follows;
         if !self.pointing.follows {
-            let controls = self.face.pack.controls().controls();
-            let led = face::EYES.iter().chain([&face::FACING]).flatten();
-            let ahead = led.filter_map(|name| {
-                let index = self.face.pack.controls().index(name)?;
-                Some((index, controls[index].default))
-            });
-            self.face.press(&Pose::new("ahead", ahead.collect()));
+            face.look_ahead();
         }
     }
+}
+
+/// The pointer's place in a window of this size, as cameras count: from -1 to 1, to the right and up.
+fn in_picture(input: &Input, size: Vec2) -> Vec2 {
+    let at = Vec2::new(input.pointer.x as f32, input.pointer.y as f32);
+    (at / size * 2.0 - 1.0) * Vec2::new(1.0, -1.0)
 }
 
 /// Places in the window of those vertices that face the camera.

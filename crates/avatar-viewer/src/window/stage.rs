@@ -168,7 +168,7 @@ impl Stage {
         self.style = hair.map(|hair| hair.style);
         self.look = look;
         self.miniatures = None;
-        self.is_stale();
+        self.forget_kept();
         Ok(())
     }
 
@@ -260,7 +260,7 @@ impl Stage {
     /// # Errors
     /// A model with fewer parts than the pack has.
     pub(super) fn set_materials(&mut self, pack: &Pack) -> Result<()> {
-        self.is_stale();
+        self.forget_kept();
         Ok(avatar_stage::set_materials(&self.gpu.queue, pack, &self.model)?)
     }
 
@@ -275,7 +275,7 @@ impl Stage {
         self.avatar = AvatarState::new(&self.gpu.device, &self.model);
         self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
         self.miniatures = None;
-        self.is_stale();
+        self.forget_kept();
         Ok(())
     }
 
@@ -283,14 +283,14 @@ impl Stage {
     pub(super) fn advance_hair(&mut self, seconds: f32) {
         // What was in motion hangs still in the first frame without any.
         if seconds.is_finite() || self.hair_moved {
-            self.is_stale();
+            self.forget_kept();
         }
         self.hair_moved = seconds.is_finite();
         self.avatar.advance_hair(&self.gpu.queue, seconds);
     }
 
     /// The picture that is kept no longer shows what there is.
-    fn is_stale(&mut self) {
+    fn forget_kept(&mut self) {
         if let Some(kept) = &mut self.kept {
             kept.is_fresh = false;
         }

@@ -8,7 +8,7 @@ use avatar_pack::MotionSampler;
 const LEAD_SECS: f64 = 0.3;
 
 /// A clip that comes, plays, is paused or goes.
-pub(super) struct Motion {
+pub(super) struct FileMotion {
     pub(super) clip: usize,
     pub(super) name: String,
     /// Seconds from its start.
@@ -21,7 +21,7 @@ pub(super) struct Motion {
     sampler: MotionSampler,
 }
 
-impl Motion {
+impl FileMotion {
     /// Whether frames have to follow each other. Clips of a single face stand still once they are there.
     pub(super) fn moves(&self) -> bool {
         self.leaving || self.share < 1.0 || (self.playing && self.duration_secs > 0.0)
@@ -46,20 +46,21 @@ impl Motion {
 impl Face {
     /// Plays a clip of the file: from where it was paused, or else from its start, over and over.
     pub(super) fn play_file_clip(&mut self, clip: usize) -> Result<()> {
-        let Some(scene) = self.pack.motion() else { return Ok(()) };
-        self.playback.playing = false;
-        self.player.stop();
-        self.goal.copy_from_slice(self.player.values());
-        self.start = None;
-        self.active_pose = None;
+        if self.pack().motion().is_none() {
+            return Ok(());
+        }
+        self.halt_playhead();
+        self.performer.stop();
+        self.forget_wishes();
         if let Some(motion) = self.motion.as_mut().filter(|motion| motion.clip == clip) {
             (motion.playing, motion.leaving) = (true, false);
             return Ok(());
         }
+        let Some(scene) = self.performer.pack().motion() else { return Ok(()) };
         let sampler = scene.sampler(clip)?;
         let name = scene.clips().get(clip).cloned().unwrap_or_default();
         let duration_secs = scene.duration_secs(&name)?;
-        self.motion = Some(Motion {
+        self.motion = Some(FileMotion {
             clip,
             name,
             time_secs: 0.0,
@@ -85,11 +86,14 @@ impl Face {
 
     /// Brings the state to the present values, and from there towards the clip; whether there is one.
     pub(super) fn pose_motion(&mut self) -> Result<bool> {
-        let (Some(motion), Some(scene)) = (&mut self.motion, self.pack.motion()) else { return Ok(false) };
+        let Some(motion) = &mut self.motion else { return Ok(false) };
         // Slow at both ends, as transitions are.
         let share = motion.share * motion.share * (3.0 - 2.0 * motion.share);
-        let at = scene.sample(&mut motion.sampler, motion.time_secs);
-        self.state.pose_toward(&self.pack, self.player.values(), at, share)?;
+        self.performer.pose_with(|pack, values, state| {
+            let Some(scene) = pack.motion() else { return state.pose(pack, values) };
+            let at = scene.sample(&mut motion.sampler, motion.time_secs);
+            state.pose_toward(pack, values, at, share)
+        })?;
         Ok(true)
     }
 }

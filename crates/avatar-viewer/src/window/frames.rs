@@ -1,0 +1,152 @@
+use pose_anim::Pose;
+use std::time::{Duration, Instant};
+
+/// A frame that takes longer (a suspended laptop) does not let the motion jump, nor a recording wait for hours.
+const MAX_FRAME_SECS: f64 = 0.25;
+const MAX_RECORDED_FRAME_SECS: f64 = 5.0;
+/// How long hair swings on after the head has stopped.
+const SWINGS_ON: Duration = Duration::from_millis(1800);
+/// How often progress is shown.
+const SOON: Duration = Duration::from_millis(150);
+/// Frames whose times are kept.
+const HISTORY: usize = 120;
+
+/// When frames were drawn, and what was seen in them.
+#[derive(Default)]
+pub(super) struct Frames {
+    /// When the last frame of a running motion was drawn; `None` while nothing moves.
+    last: Option<Instant>,
+    /// When the last of frames that follow each other was drawn.
+    drawn: Option<Instant>,
+    /// When the last frame was drawn that hair moved in, and until when it does.
+    swing: Option<(Instant, Instant)>,
+    /// When the panel wants to be drawn again.
+    again: Option<Instant>,
+    /// Milliseconds from frame to frame.
+    history: Vec<f32>,
+    passes: Vec<(&'static str, f32)>,
+    /// Small pictures of poses, as what they show: the pose's values tell whether they still do.
+    miniatures: Vec<Miniature>,
+}
+
+/// A small picture of a pose, and what it shows.
+struct Miniature {
+    pose: Pose,
+    background: [u8; 4],
+    texture: egui::TextureHandle,
+}
+
+impl Frames {
+    /// Seconds since the last frame or press, while something moves.
+    pub(super) fn catch_up(&mut self, now: Instant, is_recorded: bool) -> f64 {
+        // What is recorded lasts as long as it lasted for the user.
+        let most = if is_recorded { MAX_RECORDED_FRAME_SECS } else { MAX_FRAME_SECS };
+        let last = self.last.replace(now);
+        last.map_or(0.0, |last| now.duration_since(last).as_secs_f64().min(most))
+    }
+
+    /// When the next frame is to be drawn that nothing else asks for.
+    pub(super) fn next(&self) -> Option<Instant> {
+        self.again
+    }
+
+    pub(super) fn is_due(&mut self) -> bool {
+        self.again.take_if(|again| *again <= Instant::now()).is_some()
+    }
+
+    /// Something beside the face has to be shown, which need not be at once: the panel's own frames are few.
+    pub(super) fn soon(&mut self) {
+        let soon = Instant::now() + SOON;
+        self.again = Some(self.again.map_or(soon, |again| again.min(soon)));
+    }
+
+    pub(super) fn forget_miniatures(&mut self) {
+        self.miniatures.clear();
+    }
+
+    /// Whether something moves, as far as frames were told.
+    pub(super) fn runs(&self) -> bool {
+        self.last.is_some()
+    }
+
+    /// A frame begins: notes how long it has been since the one before, where frames follow each other.
+    pub(super) fn begin(&mut self, now: Instant) {
+        if let Some(last) = self.drawn {
+            let ms = now.duration_since(last).as_secs_f32() * 1e3;
+            if self.history.len() == HISTORY {
+                self.history.remove(0);
+            }
+            self.history.push(ms);
+        }
+    }
+
+    /// A frame that began then has ended; the panel wants to be drawn again after a while.
+    pub(super) fn end(&mut self, began: Instant, moves: bool, again: Duration) {
+        self.drawn = moves.then_some(began);
+        if moves {
+            self.last.get_or_insert_with(Instant::now);
+        } else {
+            self.last = None;
+        }
+        self.again = (again > Duration::ZERO).then(|| Instant::now().checked_add(again)).flatten();
+    }
+
+    /// Seconds by which hair moves in this frame; NaN where it hangs still. Hair goes on a little after the head; where nothing has
+    /// moved for longer it hangs still.
+    pub(super) fn swing(&mut self, is_at_rest: bool, has_swinging_hair: bool) -> f32 {
+        let now = Instant::now();
+        let until = match is_at_rest {
+            false => Some(now + SWINGS_ON),
+            true => self.swing.map(|(_, until)| until).filter(|until| now < *until),
+        };
+        let last = self.swing.filter(|_| until.is_some()).map(|(last, _)| last);
+        self.swing = until.filter(|_| has_swinging_hair).map(|until| (now, until));
+        last.map_or(f32::NAN, |last| now.duration_since(last).as_secs_f32())
+    }
+
+    /// Whether hair still moves.
+    pub(super) fn swings(&self) -> bool {
+        self.swing.is_some()
+    }
+
+    /// Milliseconds from frame to frame, of the latest ones.
+    pub(super) fn history(&self) -> &[f32] {
+        &self.history
+    }
+
+    /// Milliseconds of the passes of a frame.
+    pub(super) fn passes(&self) -> &[(&'static str, f32)] {
+        &self.passes
+    }
+
+    pub(super) fn set_passes(&mut self, passes: Vec<(&'static str, f32)>) {
+        self.passes = passes;
+    }
+
+    /// The small picture of a pose, if there is one.
+    pub(super) fn miniature(&self, pose: &Pose) -> Option<egui::TextureId> {
+        let shown = self.miniatures.iter().find(|miniature| same_face(&miniature.pose, pose));
+        shown.map(|miniature| miniature.texture.id())
+    }
+
+    /// Lets go of small pictures that are not needed any more, and returns a pose that has none yet.
+    pub(super) fn missing_miniature<'p>(
+        &mut self,
+        poses: &'p [Pose],
+        background: [u8; 4],
+    ) -> Option<&'p Pose> {
+        self.miniatures.retain(|miniature| {
+            miniature.background == background && poses.iter().any(|pose| same_face(&miniature.pose, pose))
+        });
+        poses.iter().find(|pose| self.miniature(pose).is_none())
+    }
+
+    pub(super) fn add_miniature(&mut self, pose: &Pose, background: [u8; 4], texture: egui::TextureHandle) {
+        self.miniatures.push(Miniature { pose: pose.clone(), background, texture });
+    }
+}
+
+/// Whether two poses are the same face, whatever they are called.
+fn same_face(a: &Pose, b: &Pose) -> bool {
+    a.values == b.values
+}
