@@ -44,19 +44,23 @@ pub struct Screen {
     config: wgpu::SurfaceConfiguration,
     gpu: Gpu,
     renderer: Renderer,
-    /// `None` until there is a size, and while it is 0.
+    /// `None` while the window has no area.
     targets: Option<Targets>,
 }
 
 impl Screen {
-    /// Opens the best adapter for a window, such as an `Arc` of winit's. Nothing is drawn before [`Self::resize`].
+    /// Opens the best adapter for a window, such as an `Arc` of winit's, of this size in pixels.
     ///
     /// # Errors
     /// A window without a surface, no adapter for it, a surface that cannot be drawn on.
-    pub async fn open(window: impl Into<wgpu::SurfaceTarget<'static>>) -> Result<Self, ScreenError> {
+    pub async fn open(
+        window: impl Into<wgpu::SurfaceTarget<'static>>,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, ScreenError> {
         let (instance, surface) = surface_of(window)?;
         let gpu = open_for_surface(instance, &surface, GpuOptions::default()).await?;
-        Self::new(surface, gpu)
+        Self::new(surface, gpu, width, height)
     }
 
     /// [`Self::open`] for callers without an executor.
@@ -64,14 +68,18 @@ impl Screen {
     /// # Errors
     /// As [`Self::open`].
     #[cfg(not(target_arch = "wasm32"))]
-    pub fn open_blocking(window: impl Into<wgpu::SurfaceTarget<'static>>) -> Result<Self, ScreenError> {
+    pub fn open_blocking(
+        window: impl Into<wgpu::SurfaceTarget<'static>>,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, ScreenError> {
         let (instance, surface) = surface_of(window)?;
         let gpu =
             avatar_render::headless::open_for_surface_blocking(instance, &surface, GpuOptions::default())?;
-        Self::new(surface, gpu)
+        Self::new(surface, gpu, width, height)
     }
 
-    fn new(surface: wgpu::Surface<'static>, gpu: Gpu) -> Result<Self, ScreenError> {
+    fn new(surface: wgpu::Surface<'static>, gpu: Gpu, width: u32, height: u32) -> Result<Self, ScreenError> {
         let mut config = surface
             .get_default_config(&gpu.adapter, 1, 1)
             .ok_or_else(|| ScreenError::NotShown { adapter: gpu.info.name.clone() })?;
@@ -87,7 +95,9 @@ impl Screen {
                 shading: Quality::of_adapter(&gpu.info).shading(Style::Natural),
             },
         )?;
-        Ok(Self { surface, config, gpu, renderer, targets: None })
+        let mut screen = Self { surface, config, gpu, renderer, targets: None };
+        screen.resize(width, height)?;
+        Ok(screen)
     }
 
     /// The device with its queue and adapter.

@@ -1,3 +1,4 @@
+use crate::reading::{self, Unread};
 use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::vrm::VrmModel;
@@ -7,7 +8,7 @@ use avatar_stage::DefaultFace;
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use std::borrow::Cow;
 use std::io::ErrorKind;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Where a pack comes from: a folder, or this program.
 #[derive(Debug)]
@@ -155,9 +156,6 @@ impl Files {
     }
 }
 
-/// Larger files than this are not read.
-const MAX_FILE_BYTES: u64 = 4 << 30;
-
 /// Reads an avatar from a file of an interchange format, what belongs to it, and what it refers to from its folder.
 fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     let import = match read(path, further)? {
@@ -175,7 +173,7 @@ enum FileScene {
 
 fn read(path: &Path, further: &[PathBuf]) -> Result<FileScene> {
     let file = path.display().to_string();
-    let bytes = read_file(path).map_err(|reason| anyhow!("{file}: {reason}"))?;
+    let bytes = reading::file(path).map_err(|reason| anyhow!("{file}: {reason}"))?;
     let mut files = Vec::new();
     let base = path;
     for path in further {
@@ -183,12 +181,12 @@ fn read(path: &Path, further: &[PathBuf]) -> Result<FileScene> {
         let found = with_its_files(path, base).map_err(|reason| anyhow!("{name}: {reason}"))?;
         for path in found {
             let name = path.display().to_string();
-            files.push((read_file(&path).map_err(|reason| anyhow!("{name}: {reason}"))?, name));
+            files.push((reading::file(&path).map_err(|reason| anyhow!("{name}: {reason}"))?, name));
         }
     }
     let further: Vec<_> = files.iter().map(|(bytes, file)| TextFile { file, bytes }).collect();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut resolve = |name: &str| read_file(&folder.join(inside(name)?));
+    let mut resolve = |name: &str| reading::file_within(folder, name).map_err(|error| error.to_string());
     if Format::of_name(&file) == Some(Format::Vrm) && further.is_empty() {
         let model = avatar_exchange::vrm::read(&file, &bytes, &mut resolve)?;
         return Ok(FileScene::Vrm(Box::new(model)));
@@ -248,22 +246,6 @@ fn by_numbers(name: &str) -> Vec<(u64, String)> {
     parts
 }
 
-/// What a file refers to is beside it or below.
-fn inside(name: &str) -> Result<&Path, String> {
-    let path = Path::new(name);
-    let is_inside = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    if is_inside { Ok(path) } else { Err("expected a file in the same folder or below".to_owned()) }
-}
-
-fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    let size =
-        std::fs::metadata(path).map_err(|error| format!("expected a readable file, found: {error}"))?.len();
-    if size > MAX_FILE_BYTES {
-        return Err(format!("expected a file of at most {MAX_FILE_BYTES} bytes, found {size}"));
-    }
-    std::fs::read(path).map_err(|error| format!("expected a readable file, found: {error}"))
-}
-
 /// All files but the poses and clips.
 struct WithoutBooks<'a>(&'a Files);
 
@@ -285,12 +267,10 @@ impl Source for Files {
             Self::File(..) => return Ok(None),
             Self::Folder(folder) => folder,
         };
-        let path = folder.join(name);
-        match std::fs::read(&path) {
+        match reading::file_within(folder, name) {
             Ok(bytes) => Ok(Some(Cow::Owned(bytes))),
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(_) if path.is_dir() => Err(SourceError("expected a file, found a folder".to_owned())),
-            Err(error) => Err(SourceError(format!("expected a readable file, found: {error}"))),
+            Err(Unread::Missing(_)) => Ok(None),
+            Err(Unread::Refused(reason)) => Err(SourceError(reason)),
         }
     }
 

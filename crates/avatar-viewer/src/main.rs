@@ -16,6 +16,7 @@ mod offscreen;
 mod output;
 mod picture_args;
 mod progress;
+mod reading;
 mod script;
 mod store;
 mod usage;

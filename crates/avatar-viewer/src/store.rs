@@ -3,9 +3,9 @@
 use crate::config;
 use crate::files::Files;
 use crate::output::OutputFile;
+use crate::reading::{self, Unread};
 use anyhow::{Context, Result, anyhow};
 use avatar_pack::files;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Names of the files, and their places in [`Store`].
@@ -110,9 +110,10 @@ fn path_of(files: &Files, which: usize) -> Option<PathBuf> {
 
 /// A text that may not be there.
 pub(crate) fn read(path: &Path) -> Result<Option<String>> {
-    match std::fs::read_to_string(path) {
-        Ok(text) => Ok(Some(text)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error).with_context(|| format!("{}: expected a readable text", path.display())),
+    let unreadable = || format!("{}: expected a readable text", path.display());
+    match reading::file(path) {
+        Ok(bytes) => Ok(Some(String::from_utf8(bytes).with_context(unreadable)?)),
+        Err(Unread::Missing(_)) => Ok(None),
+        Err(Unread::Refused(reason)) => Err(anyhow!(reason).context(unreadable())),
     }
 }

@@ -1,0 +1,121 @@
+//! Reads files of which nobody knows what they are: no device is waited for, and no link leads out of an avatar's folder.
+
+use std::fmt;
+use std::io::{ErrorKind, Read};
+use std::path::{Component, Path};
+
+/// Larger files than this are not read.
+const MAX_FILE_BYTES: u64 = 4 << 30;
+
+/// Why a file was not read.
+#[derive(Debug)]
+pub(crate) enum Unread {
+    /// There is none.
+    Missing(String),
+    /// There is one, but not such a one.
+    Refused(String),
+}
+
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Missing(reason) | Self::Refused(reason)) = self;
+        f.write_str(reason)
+    }
+}
+
+impl From<std::io::Error> for Unread {
+    fn from(error: std::io::Error) -> Self {
+        let reason = format!("expected a readable file, found: {error}");
+        if error.kind() == ErrorKind::NotFound { Self::Missing(reason) } else { Self::Refused(reason) }
+    }
+}
+
+/// Reads a regular file, or one that a link leads to, of at most 4 GiB.
+pub(crate) fn file(path: &Path) -> Result<Vec<u8>, Unread> {
+    read_at_most(path, MAX_FILE_BYTES)
+}
+
+/// Reads a file of this name in a folder or below. Links within the folder are followed.
+pub(crate) fn file_within(folder: &Path, name: &str) -> Result<Vec<u8>, Unread> {
+    let refused = || Unread::Refused("expected a file in the same folder or below".to_owned());
+    let steps = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    if !Path::new(name).components().all(steps) {
+        return Err(refused());
+    }
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let path = folder.join(name);
+    if !path.canonicalize()?.starts_with(folder.canonicalize()?) {
+        return Err(refused());
+    }
+    file(&path)
+}
+
+fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
+    // Before it is opened: a pipe would keep us waiting for somebody to write.
+    let metadata = std::fs::metadata(path)?;
+    if !metadata.is_file() {
+        let found = if metadata.is_dir() { "a folder" } else { "a device, pipe or socket" };
+        return Err(Unread::Refused(format!("expected a file, found {found}")));
+    }
+    let too_large =
+        |found: u64| Unread::Refused(format!("expected a file of at most {limit} bytes, found {found}"));
+    if metadata.len() > limit {
+        return Err(too_large(metadata.len()));
+    }
+    // It may have grown since; some files say that they are empty, and are not.
+    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    std::fs::File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit { Err(too_large(bytes.len() as u64)) } else { Ok(bytes) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_read_up_to_a_limit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("file");
+        std::fs::write(&path, [7; 100]).expect("written");
+        assert_eq!(read_at_most(&path, 100).expect("read"), [7; 100]);
+        let told = read_at_most(&path, 99).expect_err("too large").to_string();
+        assert_eq!(told, "expected a file of at most 99 bytes, found 100");
+        assert!(matches!(file(&folder.path().join("none")), Err(Unread::Missing(_))));
+        let told = file(folder.path()).expect_err("a folder").to_string();
+        assert_eq!(told, "expected a file, found a folder");
+    }
+
+    /// The system says that such a file is empty.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_file_that_hides_its_size_has_the_limit_as_well() {
+        let told =
+            read_at_most(Path::new("/proc/self/maps"), 100).expect_err("more than it says").to_string();
+        assert_eq!(told, "expected a file of at most 100 bytes, found 101");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_within_a_folder_and_to_files_only() {
+        use std::os::unix::fs::symlink;
+        let outer = tempfile::tempdir().expect("a folder");
+        let folder = outer.path().join("avatar");
+        std::fs::create_dir_all(folder.join("below")).expect("a folder");
+        std::fs::write(outer.path().join("secret"), "secret").expect("written");
+        std::fs::write(folder.join("below/inner"), "inner").expect("written");
+        symlink("below/inner", folder.join("link")).expect("a link");
+        symlink("../secret", folder.join("out")).expect("a link");
+        symlink("..", folder.join("up")).expect("a link");
+        symlink("/dev/zero", folder.join("endless")).expect("a link");
+        let read = |name: &str| file_within(&folder, name).map_err(|error| error.to_string());
+        assert_eq!(read("link").expect("a link within"), b"inner");
+        assert_eq!(read("./below/inner").expect("below"), b"inner");
+        for name in ["out", "up/secret", "../secret", "/etc/passwd", "endless"] {
+            assert_eq!(read(name).expect_err(name), "expected a file in the same folder or below", "{name}");
+        }
+        assert_eq!(
+            file(&folder.join("endless")).expect_err("endless").to_string(),
+            "expected a file, found a device, pipe or socket"
+        );
+    }
+}
