@@ -2,6 +2,7 @@ use placed_toml::did_you_mean;
 
 /// Why a [`crate::ControlTable`] does not fit a rig and its shapes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BindError {
     /// A control that drives a joint which the rig does not have.
     #[error("control {control:?}: expected a joint of the rig, found {joint:?}{}", did_you_mean(.nearest.as_deref()))]
@@ -27,6 +28,7 @@ pub enum BindError {
 
 /// Why control values could not be applied.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ApplyError {
     /// A slice of a wrong length.
     #[error("expected {expected} {what}, found {found}")]
@@ -50,6 +52,7 @@ pub enum ApplyError {
 
 /// Why poses could not be mixed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MixError {
     /// A pose that does not exist.
     #[error("expected the name of a pose, found {name:?}{}", did_you_mean(.nearest.as_deref()))]
@@ -74,6 +77,7 @@ pub enum MixError {
 
 /// Why a clip could not be made or edited so.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ClipError {
     /// A track without keys, or one that would lose its last.
     #[error("control {control}: expected a track with at least one key, found none")]
@@ -153,6 +157,7 @@ pub enum ClipError {
 
 /// Why time could not go on.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum AdvanceError {
     /// Time runs forward only.
     #[error("expected a time step of 0 or more seconds, found {dt_secs}")]
@@ -180,6 +185,7 @@ impl AdvanceError {
 
 /// Why a state could not be taken over.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum JumpError {
     /// Not one value per control.
     #[error("expected {expected} values, one per control, found {found}")]

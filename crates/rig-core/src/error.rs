@@ -49,6 +49,7 @@ pub struct XmlError {
 
 /// What is wrong at a place of a `Transformations.xml`.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum XmlProblem {
     /// The bytes are no text in UTF-8, UTF-16 (with a byte-order mark) or the declared Latin-1.
     #[error("expected XML text, found bytes that are no text ({0})")]
@@ -151,6 +152,7 @@ pub enum XmlProblem {
 
 /// Why a [`crate::RawRig`] could not be frozen into a [`crate::Rig`] or written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RigError {
     /// Two joints of one name.
     #[error("expected unique joint names, found {joint:?} twice")]
