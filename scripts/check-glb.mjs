@@ -15,8 +15,8 @@ const noPictures = parser => {
 // The scenes of random_glb hold shear on purpose; it is written as it is.
 const onPurpose = new Set(['NODE_MATRIX_NON_TRS']);
 
-// Mean positions of parts in poses as the program computes them, where export_glb wrote them beside the file; and how
-// far three.js may be from them, in units of the rig.
+// Mean positions of parts in poses as the program computes them, where export_glb wrote them beside the file;
+// and how far three.js may be from them, in units of the rig.
 const farthest = 1e-4;
 function expectedOf(path) {
     const file = path.replace(/glb$/, 'tsv');

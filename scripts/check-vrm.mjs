@@ -54,7 +54,8 @@ for (const path of process.argv.slice(2)) {
     }
     const applier = vrm.lookAt.applier;
     if (applier.constructor.type === 'bone') {
-        // Its eyes of bone take the range of looking up where they look down, unlike its own eyes of expressions.
+        // Its eyes of bone take the range of looking up where they look down, unlike its own eyes of
+        // expressions.
         [applier.rangeMapVerticalDown, applier.rangeMapVerticalUp] = [applier.rangeMapVerticalUp, applier.rangeMapVerticalDown];
     }
     for (const { yaw, pitch, bone, found } of expected.looks) {

@@ -141,8 +141,8 @@ fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
     text.split(&fence).skip(1).filter_map(|rest| rest.split("```").next()).collect()
 }
 
-/// The program of each README becomes a project of its own outside of the workspace, with only the lines that stand
-/// there, and runs.
+/// The program of each README becomes a project of its own outside of the workspace, with only the lines that
+/// stand there, and runs.
 #[test]
 fn the_readmes_programs_run_in_projects_of_their_own() {
     let folder = tempfile::tempdir().expect("a temporary folder");

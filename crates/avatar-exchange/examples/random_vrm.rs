@@ -1,5 +1,5 @@
-//! Writes VRM files of random expressions and ranges of eyes, and beside each what is made of it here, for another program to
-//! compare: `random_vrm FOLDER COUNT`.
+//! Writes VRM files of random expressions and ranges of eyes, and beside each what is made of it here, for
+//! another program to compare: `random_vrm FOLDER COUNT`.
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_types,

@@ -1,7 +1,8 @@
 //! Biovision hierarchies: a skeleton, and its motion as one clip.
 //!
-//! The format states neither axes nor units: they stay as they are. A joint's translation is its offset plus its position
-//! channels; its rotation is the product of its rotation channels in their order, so that the last one acts first.
+//! The format states neither axes nor units: they stay as they are. A joint's translation is its offset plus
+//! its position channels; its rotation is the product of its rotation channels in their order, so that the
+//! last one acts first.
 //!
 //! ```
 //! let text = "HIERARCHY\nROOT hip\n{\nOFFSET 0 1 0\nCHANNELS 1 Zrotation\nEnd Site\n{\nOFFSET 0 2 0\n}\n}\n\

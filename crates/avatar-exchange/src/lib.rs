@@ -9,8 +9,8 @@
 //!            └────────────── write (glb)
 //! ```
 //!
-//! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up; a reader of a format
-//! with other axes turns them. Transforms are called `a_from_b`.
+//! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up; a reader of a
+//! format with other axes turns them. Transforms are called `a_from_b`.
 //!
 //! ```
 //! use avatar_exchange::{Node, RawScene, Scene, ScenePart};

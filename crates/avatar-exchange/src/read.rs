@@ -62,12 +62,13 @@ fn extension(file: &str) -> Option<String> {
     Some(name.rsplit_once('.')?.1.to_lowercase())
 }
 
-/// Reads a file of any format that is built in, told by the end of its name, together with files that belong to it:
-/// MakeHuman targets of an OBJ file, which become its shapes; OBJ files of its connectivity, the next frames of a sequence
-/// of [`FRAMES_PER_SECOND`]; animations of an MD5 mesh.
+/// Reads a file of any format that is built in, told by the end of its name, together with files that belong
+/// to it: MakeHuman targets of an OBJ file, which become its shapes; OBJ files of its connectivity, the next
+/// frames of a sequence of [`FRAMES_PER_SECOND`]; animations of an MD5 mesh.
 ///
 /// # Errors
-/// A name of no known format, a further file that does not belong to the format, or what the format's reader finds.
+/// A name of no known format, a further file that does not belong to the format, or what the format's reader
+/// finds.
 pub fn read(
     file: &str,
     bytes: &[u8],

@@ -1,7 +1,7 @@
 //! MakeHuman targets: shapes of an OBJ file, as text.
 //!
-//! Each line is the place of a vertex among the file's `v` lines, from 0 on, and its offset in the file's units
-//! (decimetres in MakeHuman's own). A target without lines is a shape that moves nothing.
+//! Each line is the place of a vertex among the file's `v` lines, from 0 on, and its offset in the file's
+//! units (decimetres in MakeHuman's own). A target without lines is a shape that moves nothing.
 //!
 //! ```
 //! use avatar_exchange::{obj, target};
@@ -22,7 +22,8 @@ use glam::Vec3;
 /// Reads offsets of some of `vertices` vertices, in the order of the file.
 ///
 /// # Errors
-/// The first line that is wrong: no index and three numbers, a vertex beyond the base, or one that comes twice.
+/// The first line that is wrong: no index and three numbers, a vertex beyond the base, or one that comes
+/// twice.
 pub fn read(file: &str, bytes: &[u8], vertices: usize) -> Result<Vec<(u32, Vec3)>, ImportError> {
     let mut offsets = Vec::new();
     let mut seen = vec![false; vertices];

@@ -20,7 +20,8 @@ fn subject(key: &str) -> String {
     if key.is_empty() { String::new() } else { format!("{key}: ") }
 }
 
-/// The end of an error message about a misspelt name: `; did you mean "smile"?`, or nothing without a nearest name.
+/// The end of an error message about a misspelt name: `; did you mean "smile"?`, or nothing without a nearest
+/// name.
 pub fn did_you_mean(nearest: Option<&str>) -> String {
     nearest.map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
 }

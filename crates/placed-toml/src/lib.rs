@@ -1,10 +1,10 @@
-//! Reads TOML by hand, so that every mistake is told with its place: line and column, key, what would be right there, what
-//! stands there, and the nearest valid name. Deserialising into structs would lose the place of a value that has the right
-//! type but a wrong content.
+//! Reads TOML by hand, so that every mistake is told with its place: line and column, key, what would be
+//! right there, what stands there, and the nearest valid name. Deserialising into structs would lose the
+//! place of a value that has the right type but a wrong content.
 //!
 //! ```text
-//!  text ──Document::parse──▶ Document ──root──▶ Table ──take, require, finish──▶ Entry ──number, string, table …──▶ values
-//!                                                    └──read_fields(FIELDS)──▶ the numbers of a struct, by a table of its keys
+//!  text ──Document::parse──▶ Document ──root──▶ Table ──take, require, finish──▶ Entry ──number, string …──▶ values
+//!                                                └──read_fields(FIELDS)──▶ a struct's numbers, by a table of keys
 //! ```
 //!
 //! ```
@@ -33,7 +33,8 @@
 //! let error = read("[lamp]\ncolour = [1, 1, 1]").err().unwrap();
 //! assert_eq!(
 //!     error.to_string(),
-//!     "line 2, column 1: lamp.colour: expected one of the keys radiance, color, found \"colour\"; did you mean \"color\"?"
+//!     "line 2, column 1: lamp.colour: expected one of the keys radiance, color, found \"colour\"; \
+//!      did you mean \"color\"?"
 //! );
 //! ```
 //!

@@ -36,7 +36,8 @@ impl Text<'_> {
     }
 }
 
-/// A key behind those of its tables, as it is written in TOML: quoted where it has to be, and cut where it is long.
+/// A key behind those of its tables, as it is written in TOML: quoted where it has to be, and cut where it is
+/// long.
 pub(crate) fn join(path: &str, key: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     let bare = !key.is_empty() && key.len() <= SHOWN_CHARS && key.chars().all(is_bare);

@@ -60,7 +60,8 @@ fn player_moving(bencher: Bencher<'_, '_>) {
     bench(bencher, moving(&ControlTable::default_face()));
 }
 
-/// The most that a control can have to do: every press asks for a slow move out of a fast one, which would leave the range.
+/// The most that a control can have to do: every press asks for a slow move out of a fast one, which would
+/// leave the range.
 #[divan::bench]
 fn player_in_four_nested_fades(bencher: Bencher<'_, '_>) {
     let table = ControlTable::default_face();

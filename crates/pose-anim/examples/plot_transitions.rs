@@ -109,8 +109,9 @@ fn direct(presses: &[Press]) -> Vec<Jet> {
     restarted(presses, quintic)
 }
 
-/// Bollo 2018: the difference to the target decays by a quintic that must not grow first: velocity away from the target is
-/// dropped, the duration is cut so that it does not cross, and the acceleration is chosen, not kept.
+/// Bollo 2018: the difference to the target decays by a quintic that must not grow first: velocity away from
+/// the target is dropped, the duration is cut so that it does not cross, and the acceleration is chosen, not
+/// kept.
 fn inertialized(presses: &[Press]) -> Vec<Jet> {
     restarted(presses, |start, target, duration, age| {
         let sign = if start.value < target { -1.0 } else { 1.0 };
@@ -170,8 +171,8 @@ fn cut_off(states: &[Jet], part: fn(&Jet) -> f64, least: f64, most: f64) -> Vec<
     found
 }
 
-/// Where the velocity changes within one tick by more than the accelerations at both sides explain: there the acceleration is
-/// infinite, and which way it points. A move out of rest at a speed is one, too.
+/// Where the velocity changes within one tick by more than the accelerations at both sides explain: there the
+/// acceleration is infinite, and which way it points. A move out of rest at a speed is one, too.
 fn velocity_jumps(states: &[Jet]) -> Vec<(usize, bool)> {
     let dt = SECS / TICKS as f64;
     let start =
@@ -184,8 +185,9 @@ fn velocity_jumps(states: &[Jet]) -> Vec<(usize, bool)> {
     start.into_iter().chain(within).collect()
 }
 
-/// Value, velocity and acceleration below each other. `scales`: the largest magnitude of each. What is beyond is cut off and marked
-/// with a tip and its size, and where the velocity jumps, the acceleration with a dotted line and `∞`.
+/// Value, velocity and acceleration below each other. `scales`: the largest magnitude of each. What is beyond
+/// is cut off and marked with a tip and its size, and where the velocity jumps, the acceleration with a
+/// dotted line and `∞`.
 fn figure(curves: &[Curve], presses: &[f64], scales: [f64; 3]) -> String {
     const WIDTH: f64 = 640.0;
     const LEFT: f64 = 64.0;

@@ -26,7 +26,8 @@ struct Factor {
 }
 
 impl ControlTable {
-    /// Finds the joints and shapes that the controls name. `shapes` are the names of the weights, in their order.
+    /// Finds the joints and shapes that the controls name. `shapes` are the names of the weights, in their
+    /// order.
     ///
     /// # Errors
     /// A control names a joint or a shape that does not exist.
@@ -93,12 +94,12 @@ impl Binding {
     /// r(u)    = 10u³ − 15u⁴ + 6u⁵
     /// ```
     ///
-    /// The follower follows fully at its default and not at all at either end of its range: closed lids stay closed
-    /// wherever the eyes look. `r` is the minimum-jerk step, so the fade has no kink at the default nor at the ends
-    /// (a straight line would have both, and a lid that passes its default while the eye looks up would jerk): if
-    /// the values are C², so is the sum, up to the clamp. The fade does not depend on the sign of the offset, or
-    /// the lid would jerk as the eye passes the middle. The raw values are read, never the effective ones, so
-    /// couplings cannot feed back.
+    /// The follower follows fully at its default and not at all at either end of its range: closed lids stay
+    /// closed wherever the eyes look. `r` is the minimum-jerk step, so the fade has no kink at the default
+    /// nor at the ends (a straight line would have both, and a lid that passes its default while the eye
+    /// looks up would jerk): if the values are C², so is the sum, up to the clamp. The fade does not depend
+    /// on the sign of the offset, or the lid would jerk as the eye passes the middle. The raw values are
+    /// read, never the effective ones, so couplings cannot feed back.
     ///
     /// Values beyond the slices' common length are left alone.
     pub fn couple(&self, values: &[f32], out: &mut [f32]) {
@@ -122,12 +123,12 @@ impl Binding {
         }
     }
 
-    /// Sets the local transforms of all driven joints and the weights of all driven shapes; other joints and shapes
-    /// stay as they are. Allocates nothing.
+    /// Sets the local transforms of all driven joints and the weights of all driven shapes; other joints and
+    /// shapes stay as they are. Allocates nothing.
     ///
-    /// `values` are one per control, in degrees, units of the rig or weights. They are taken as they are: ranges
-    /// bind poses and players, but a caller may go beyond them. Where several controls drive one shape, the last
-    /// one wins.
+    /// `values` are one per control, in degrees, units of the rig or weights. They are taken as they are:
+    /// ranges bind poses and players, but a caller may go beyond them. Where several controls drive one
+    /// shape, the last one wins.
     ///
     /// # Errors
     /// A slice of another length than bound, or a value that is not finite; then nothing has been changed.
@@ -156,7 +157,8 @@ impl Binding {
         Ok(())
     }
 
-    /// The elementary transformations of one control's joint at this value, with the joint; `None` for a shape.
+    /// The elementary transformations of one control's joint at this value, with the joint; `None` for a
+    /// shape.
     pub fn elementary(&self, control: usize, value: f32) -> Option<(JointId, Elementary)> {
         let (joint, factor) = self.joints.iter().find_map(|(joint, range)| {
             let factor = self.factors[range.clone()].iter().find(|factor| factor.control == control)?;

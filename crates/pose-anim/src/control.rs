@@ -24,7 +24,8 @@ pub enum Drive {
     Joint {
         /// Name of the joint.
         joint: String,
-        /// Unit vector in the joint's own frame; a positive value turns about it right-handed, or moves along it.
+        /// Unit vector in the joint's own frame; a positive value turns about it right-handed, or moves along
+        /// it.
         axis: Vec3,
         /// Whether it turns or moves.
         kind: JointMotion,
@@ -48,8 +49,9 @@ pub enum JointMotion {
 
 /// Duration of a move of a control, growing linearly with its distance.
 ///
-/// Eye movements follow such a line closely (the *main sequence*; Bahill, Clark & Stark 1975, Carpenter 1988: about
-/// 21 ms plus 2.2 ms per degree). For heads, jaws and lids it is a good approximation within their small ranges.
+/// Eye movements follow such a line closely (the *main sequence*; Bahill, Clark & Stark 1975, Carpenter 1988:
+/// about 21 ms plus 2.2 ms per degree). For heads, jaws and lids it is a good approximation within their
+/// small ranges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
     /// Seconds of the smallest move.
@@ -65,8 +67,8 @@ impl Pace {
     pub const JAW: Self = Self::new(0.18, 0.4);
     /// An eye: 0.06 to 0.2 s.
     pub const EYE: Self = Self::new(0.06, 0.2);
-    /// An eyelid: 0.1 to 0.15 s. This is one way, the closing of a blink; the way back is another move. Where a whole blink, there and back, is
-    /// to take as long, give its two poses durations, or play a clip.
+    /// An eyelid: 0.1 to 0.15 s. This is one way, the closing of a blink; the way back is another move. Where
+    /// a whole blink, there and back, is to take as long, give its two poses durations, or play a clip.
     pub const LID: Self = Self::new(0.1, 0.15);
     /// A blend shape: 0.2 to 0.4 s.
     pub const SHAPE: Self = Self::new(0.2, 0.4);
@@ -78,8 +80,9 @@ impl Pace {
         Self { shortest_secs, longest_secs }
     }
 
-    /// The pace that suits what a control drives, known by the part of the face that the name of the joint or shape contains:
-    /// brow, eyelid (also: blink, squint, wide eyes), eye (also: look, gaze), jaw, head or neck.
+    /// The pace that suits what a control drives, known by the part of the face that the name of the joint or
+    /// shape contains: brow, eyelid (also: blink, squint, wide eyes), eye (also: look, gaze), jaw, head or
+    /// neck.
     pub fn of(drives: &Drive) -> Self {
         Self::named("", drives)
     }
@@ -100,8 +103,8 @@ impl Pace {
     }
 }
 
-/// The pace of the part of the face that a name is about, from the more special to the more general: an eyebrow is no eye, and an eye
-/// that blinks is a lid.
+/// The pace of the part of the face that a name is about, from the more special to the more general: an
+/// eyebrow is no eye, and an eye that blinks is a lid.
 fn pace_by_name(name: &str) -> Option<Pace> {
     let lower = name.to_lowercase();
     // Long enough to mean nothing else wherever they stand.
@@ -169,8 +172,8 @@ pub struct ControlError {
     pub found: String,
 }
 
-/// All controls of a face. The order is that of every slice of values, and within a joint that of composition:
-/// `L = M₀ · M₁ · …`.
+/// All controls of a face. The order is that of every slice of values, and within a joint that of
+/// composition: `L = M₀ · M₁ · …`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ControlTable {
     controls: Vec<Control>,
@@ -183,8 +186,8 @@ impl ControlTable {
     /// A table of these controls, without couplings.
     ///
     /// # Errors
-    /// A name that comes twice, an empty one, a range that is not finite or not around the default, an axis that is not of unit
-    /// length.
+    /// A name that comes twice, an empty one, a range that is not finite or not around the default, an axis
+    /// that is not of unit length.
     pub fn new(controls: Vec<Control>) -> Result<Self, ControlError> {
         let mut names = std::collections::HashSet::new();
         for (index, control) in controls.iter().enumerate() {
@@ -211,8 +214,8 @@ impl ControlTable {
     /// A table of these controls, with couplings between them.
     ///
     /// # Errors
-    /// As [`ControlTable::new`], and a coupling of controls that there are not, of a control with itself, or by a factor that is not finite;
-    /// its place is then told after those of the controls.
+    /// As [`ControlTable::new`], and a coupling of controls that there are not, of a control with itself, or
+    /// by a factor that is not finite; its place is then told after those of the controls.
     pub fn with_couplings(controls: Vec<Control>, couplings: Vec<Coupling>) -> Result<Self, ControlError> {
         let table = Self::new(controls)?;
         let count = table.controls.len();

@@ -1,10 +1,12 @@
 use crate::Jet;
 use std::f64::consts::{LN_2, PI, TAU};
 
-/// A transition function: how far a move has come, `f(s)`, when the share `s` of its time is over; `f(0) = 0` and `f(1) = 1`.
+/// A transition function: how far a move has come, `f(s)`, when the share `s` of its time is over; `f(0) = 0`
+/// and `f(1) = 1`.
 ///
-/// The families are those of R. Penner (*Robert Penner's Programming Macromedia Flash MX*, 2002, ch. 7), with the constants of
-/// d3-ease, which is also where the exponential ones get their small correction from: they meet 0 and 1 exactly.
+/// The families are those of R. Penner (*Robert Penner's Programming Macromedia Flash MX*, 2002, ch. 7), with
+/// the constants of d3-ease, which is also where the exponential ones get their small correction from: they
+/// meet 0 and 1 exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Easing {
     /// `s`.
@@ -17,8 +19,8 @@ pub enum Easing {
     MinimumJerk,
     /// One of the usual families.
     Family(Family, Direction),
-    /// A cubic Bézier curve from (0, 0) to (1, 1) with the handles (x1, y1) and (x2, y2), as `cubic-bezier()` in CSS
-    /// (W3C, *CSS Easing Functions Level 1*). The x are taken as clamped to 0…1.
+    /// A cubic Bézier curve from (0, 0) to (1, 1) with the handles (x1, y1) and (x2, y2), as `cubic-bezier()`
+    /// in CSS (W3C, *CSS Easing Functions Level 1*). The x are taken as clamped to 0…1.
     Bezier([f64; 4]),
 }
 
@@ -99,8 +101,8 @@ impl Easing {
         Some(Self::Family(*family, *direction))
     }
 
-    /// Whether the numbers are such that a curve can be drawn through them: Bézier handles are finite, and no further than
-    /// [`Self::FURTHEST`] up or down. (Their x are clamped anyway.)
+    /// Whether the numbers are such that a curve can be drawn through them: Bézier handles are finite, and no
+    /// further than [`Self::FURTHEST`] up or down. (Their x are clamped anyway.)
     pub fn is_sound(self) -> bool {
         match self {
             Self::Bezier([x1, y1, x2, y2]) => {
@@ -110,8 +112,8 @@ impl Easing {
         }
     }
 
-    /// The furthest that a Bézier handle may reach up or down: a thousand times the move's distance. What is beyond has derivatives
-    /// beyond the numbers, and no meaning.
+    /// The furthest that a Bézier handle may reach up or down: a thousand times the move's distance. What is
+    /// beyond has derivatives beyond the numbers, and no meaning.
     pub const FURTHEST: f64 = 1000.0;
 
     /// Whether the function goes beyond 0 or 1 on purpose.
@@ -142,8 +144,8 @@ impl Easing {
         PLAIN.iter().map(|(name, _)| (*name).to_owned()).chain(families).collect()
     }
 
-    /// The function with its first two derivatives by `s`, which is clamped to 0…1. A derivative that is infinite at an
-    /// end (the circle) is taken very close to it.
+    /// The function with its first two derivatives by `s`, which is clamped to 0…1. A derivative that is
+    /// infinite at an end (the circle) is taken very close to it.
     pub fn at(self, s: f64) -> Jet {
         let s = s.clamp(0.0, 1.0);
         match self {
@@ -260,7 +262,8 @@ fn bezier([x1, y1, x2, y2]: [f64; 4], s: f64) -> Jet {
     let ([xa, xb, xc], [ya, yb, yc]) = (powers(x1, x2), powers(y1, y2));
     let x = |t: f64| t * (xa + t * (xb + t * xc));
     let x_slope = |t: f64| xa + t * (2.0 * xb + 3.0 * xc * t);
-    // x grows with τ. Newton's method converges at once nearly everywhere; where it leaves its bracket, bisect.
+    // x grows with τ. Newton's method converges at once nearly everywhere; where it leaves its bracket,
+    // bisect.
     let (mut low, mut high, mut t) = (0.0, 1.0, s);
     for _ in 0..64 {
         let off = x(t) - s;

@@ -1,7 +1,7 @@
 //! Names of the default face's controls, the ones of [`crate::ControlTable::default_face`].
 //!
-//! A table may bring any other controls. Code that can do more with a control that it knows, such as turning the
-//! eyes to a point, looks it up by these names and copes with its absence.
+//! A table may bring any other controls. Code that can do more with a control that it knows, such as turning
+//! the eyes to a point, looks it up by these names and copes with its absence.
 //!
 //! Left and right are the character's own. Signs and ranges are those of the default table.
 

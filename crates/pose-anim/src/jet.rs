@@ -2,7 +2,8 @@ use std::ops::{Add, Mul, Sub};
 
 /// A quantity that changes in time, at one moment: its value and its first two derivatives by seconds.
 ///
-/// Sums and products follow the rules of Leibniz, so whatever is built from jets carries its analytic derivatives.
+/// Sums and products follow the rules of Leibniz, so whatever is built from jets carries its analytic
+/// derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Jet {
     /// Value.
@@ -24,8 +25,8 @@ impl Jet {
         self.velocity == 0.0 && self.acceleration == 0.0
     }
 
-    /// The minimum-jerk step: `r(s) = 10s³ − 15s⁴ + 6s⁵` at `s = age / duration`, 0 before and 1 after (Flash & Hogan
-    /// 1985, *The coordination of arm movements*, eq. 3). Both derivatives are 0 at either end.
+    /// The minimum-jerk step: `r(s) = 10s³ − 15s⁴ + 6s⁵` at `s = age / duration`, 0 before and 1 after (Flash
+    /// & Hogan 1985, *The coordination of arm movements*, eq. 3). Both derivatives are 0 at either end.
     pub fn step(age_secs: f64, duration_secs: f64) -> Self {
         if age_secs <= 0.0 {
             return Self::rest(0.0);

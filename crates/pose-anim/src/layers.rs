@@ -25,18 +25,20 @@ static STACKS: AtomicUsize = AtomicUsize::new(0);
 
 /// A base player with further players on top of it, each with a mask over the controls and a weight.
 ///
-/// From below to above, with the base's value as the first `x`, the layer's own value `y`, its share `w = weight · mask` and
-/// the control's default `d`:
+/// From below to above, with the base's value as the first `x`, the layer's own value `y`, its share `w =
+/// weight · mask` and the control's default `d`:
 ///
 /// ```text
 /// Override    x ← (1 − w) · x + w · y
 /// Additive    x ← x + w · (y − d), bent smoothly where it would leave the range
 /// ```
 ///
-/// The result has derivatives as the players have, by the rules for sums and products, and is as continuous as they are:
-/// weights move as smoothly as values. Where no layer has any share, the base goes through to the last bit.
+/// The result has derivatives as the players have, by the rules for sums and products, and is as continuous
+/// as they are: weights move as smoothly as values. Where no layer has any share, the base goes through to
+/// the last bit.
 ///
-/// What overshoots its range on purpose is clamped at the very end only, after all layers, or not at all: [`Self::with_overshoot`].
+/// What overshoots its range on purpose is clamped at the very end only, after all layers, or not at all:
+/// [`Self::with_overshoot`].
 #[derive(Clone, Debug)]
 pub struct Layers {
     stack: usize,
@@ -85,16 +87,17 @@ impl Layers {
         }
     }
 
-    /// The same layers, whose combined values may leave their ranges where a transition function overshoots on purpose (back,
-    /// elastic). The offset of an additive layer still takes nothing beyond a range that is not there already.
+    /// The same layers, whose combined values may leave their ranges where a transition function overshoots
+    /// on purpose (back, elastic). The offset of an additive layer still takes nothing beyond a range that is
+    /// not there already.
     #[must_use]
     pub fn with_overshoot(self) -> Self {
         Self { confined: false, ..self }
     }
 
-    /// Puts a layer on top, with weight 0: a player with everything at its default, for the table that the stack was made from. `mask` is its
-    /// share per control, 0 to 1; controls beyond its end have none, and neither have controls beyond the end of another, shorter
-    /// table. This allocates; nothing after it does.
+    /// Puts a layer on top, with weight 0: a player with everything at its default, for the table that the
+    /// stack was made from. `mask` is its share per control, 0 to 1; controls beyond its end have none, and
+    /// neither have controls beyond the end of another, shorter table. This allocates; nothing after it does.
     pub fn add(&mut self, controls: &ControlTable, mode: LayerMode, mask: &[f32]) -> LayerId {
         let mask = &mask[..mask.len().min(controls.len())];
         let share = |index: usize| mask.get(index).map_or(0.0, |share| WEIGHTS.clamp(f64::from(*share)));
@@ -143,8 +146,9 @@ impl Layers {
         if layer.stack == self.stack { self.layers.get_mut(layer.index) } else { None }
     }
 
-    /// Moves the weight of a layer to a value from 0 to 1, smoothly, in this many seconds (0.001 to 3600). Like a press, it may
-    /// come at any time. Weights beyond are clamped, and NaN or a layer of another [`Layers`] changes nothing.
+    /// Moves the weight of a layer to a value from 0 to 1, smoothly, in this many seconds (0.001 to 3600).
+    /// Like a press, it may come at any time. Weights beyond are clamped, and NaN or a layer of another
+    /// [`Layers`] changes nothing.
     pub fn fade_to(&mut self, layer: LayerId, weight: f32, duration_secs: f64) {
         let Some(layer) = self.find(layer) else { return };
         if weight.is_nan() {

@@ -10,12 +10,13 @@
 //!
 //! # Conventions
 //!
-//! - A **control** is one elementary rotation or translation of a joint, or the weight of one blend shape, with a range
-//!   and a default. Its value is in **degrees** (rotations), units of the rig (translations) or weights; radians exist
-//!   inside [`Binding::apply`] only. A positive angle turns right-handed about the control's axis, in the joint's own frame.
-//! - Slices of values have one entry per control, in the order of the [`ControlTable`]. This is also the order of
-//!   composition within a joint: `L = M₀ · M₁ · …`, so the last control acts on a point first. All other conventions are
-//!   those of [`rig_core`].
+//! - A **control** is one elementary rotation or translation of a joint, or the weight of one blend shape,
+//!   with a range and a default. Its value is in **degrees** (rotations), units of the rig (translations) or
+//!   weights; radians exist inside [`Binding::apply`] only. A positive angle turns right-handed about the
+//!   control's axis, in the joint's own frame.
+//! - Slices of values have one entry per control, in the order of the [`ControlTable`]. This is also the
+//!   order of composition within a joint: `L = M₀ · M₁ · …`, so the last control acts on a point first. All
+//!   other conventions are those of [`rig_core`].
 //! - A **pose** is a named set of values. It may leave controls out.
 //! - Times are seconds. The crate has no clock: the caller says how much time passes.
 //! - Left and right are the character's own.
@@ -49,7 +50,9 @@
 //!     "#,
 //!     &controls,
 //! )?;
-//! let rig = Rig::from_xml(br#"<JointSet><Joint name="HeadJoint"><Matrix>1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1</Matrix></Joint></JointSet>"#)?;
+//! let matrix = "<Matrix>1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1</Matrix>";
+//! let xml = format!("<JointSet><Joint name=\"HeadJoint\">{matrix}</Joint></JointSet>");
+//! let rig = Rig::from_xml(xml.as_bytes())?;
 //! let binding = controls.bind(&rig, &["SSmile"])?;
 //! let (mut locals, mut weights) = (rig.locals(), [0.0]);
 //! let mut player = Player::new(&controls);
@@ -68,7 +71,8 @@
 //! # Beyond single poses
 //!
 //! - Poses add up: [`PoseSet::mix`] reads `smile:0.5 wink-left`, [`Pose::mixed`] is the same in code.
-//! - A [`Clip`] is a set of keyframe tracks, to be edited, reduced and played through a [`Player`] ([`Player::play`]).
+//! - A [`Clip`] is a set of keyframe tracks, to be edited, reduced and played through a [`Player`]
+//!   ([`Player::play`]).
 //! - [`Layers`] put further players over a base, with masks and weights: blinking, breathing, speech.
 //! - A [`JointPlayer`] moves a whole joint, for rigs without controls.
 //! - An [`Easing`] is a transition function: of a pose, or from key to key.
@@ -97,7 +101,8 @@
 //!
 //! How moves are made, and why so, is told in `docs/transitions.md`.
 //!
-//! This crate knows no files, no clock, no threads and no GPU, and allocates nothing once its objects are made.
+//! This crate knows no files, no clock, no threads and no GPU, and allocates nothing once its objects are
+//! made.
 
 pub mod face;
 mod error;

@@ -7,9 +7,10 @@ impl Pose {
     /// default + Σ weight · (value − default)
     /// ```
     ///
-    /// over the poses that name it, clamped to its range: poses add up, and half a pose is half way from the undeformed
-    /// face. Duration and transition are those of the first pose that has one, the timing of a control that of the first pose that
-    /// names the control and has one for it ([`Self::timing`]). Weights that are not finite count as 0, values that are not as not named.
+    /// over the poses that name it, clamped to its range: poses add up, and half a pose is half way from the
+    /// undeformed face. Duration and transition are those of the first pose that has one, the timing of a
+    /// control that of the first pose that names the control and has one for it ([`Self::timing`]). Weights
+    /// that are not finite count as 0, values that are not as not named.
     pub fn mixed(name: impl Into<String>, parts: &[(&Self, f32)], controls: &ControlTable) -> Self {
         let mut mixed = Self::new(name, Vec::new());
         mixed.duration_secs = parts.iter().find_map(|(pose, _)| pose.duration_secs);
@@ -44,8 +45,8 @@ impl Pose {
 }
 
 impl PoseSet {
-    /// Reads a mixture such as `smile`, `smile:0.5` or `smile:0.5 wink-left`: names of poses, each with a weight (1 if absent),
-    /// separated by blanks, commas or plus signs. See [`Pose::mixed`].
+    /// Reads a mixture such as `smile`, `smile:0.5` or `smile:0.5 wink-left`: names of poses, each with a
+    /// weight (1 if absent), separated by blanks, commas or plus signs. See [`Pose::mixed`].
     ///
     /// # Errors
     /// An unknown pose, a weight that is no finite number, no pose at all.

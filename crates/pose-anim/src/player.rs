@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 /// Moves the controls of one face from pose to pose.
 ///
-/// A press sends controls towards a pose from wherever they are and however they move. Value, velocity and acceleration
-/// of every control are continuous at every press, every value is in its control's range all the time, and after
-/// its duration each control has exactly the pose's value, at rest. The state is a closed function of the time since
-/// the last press: how that time is cut into steps does not matter.
+/// A press sends controls towards a pose from wherever they are and however they move. Value, velocity and
+/// acceleration of every control are continuous at every press, every value is in its control's range all the
+/// time, and after its duration each control has exactly the pose's value, at rest. The state is a closed
+/// function of the time since the last press: how that time is cut into steps does not matter.
 ///
-/// A player has no clock: time passes in [`Self::advance`] only, and a press happens between two advances. Neither
-/// allocates.
+/// A player has no clock: time passes in [`Self::advance`] only, and a press happens between two advances.
+/// Neither allocates.
 #[derive(Clone, Debug)]
 pub struct Player {
     channels: Vec<Channel>,
@@ -41,8 +41,9 @@ impl Player {
         }
     }
 
-    /// The same player, whose values may leave their ranges where a transition function overshoots on purpose (back,
-    /// elastic). Without this, such a value rests at the end of its range for a while, so its velocity jumps.
+    /// The same player, whose values may leave their ranges where a transition function overshoots on purpose
+    /// (back, elastic). Without this, such a value rests at the end of its range for a while, so its velocity
+    /// jumps.
     #[must_use]
     pub fn with_overshoot(self) -> Self {
         Self { confined: false, ..self }
@@ -50,10 +51,11 @@ impl Player {
 
     /// Heads for a pose, from now on. The controls that the pose leaves out go on with whatever they do.
     ///
-    /// Takes any pose: values are clamped to the ranges, and a control that does not exist or a value that is not
-    /// finite is passed over, as is a transition that is not sound ([`crate::Easing::is_sound`]). Durations, after their factor, are clamped to 0.001
-    /// to 3600 s; delays to 0 to 3600 s. NaN stands for what a control does by itself: its own pace, no delay. (Poses that were read from a text
-    /// are right already.)
+    /// Takes any pose: values are clamped to the ranges, and a control that does not exist or a value that is
+    /// not finite is passed over, as is a transition that is not sound ([`crate::Easing::is_sound`]).
+    /// Durations, after their factor, are clamped to 0.001 to 3600 s; delays to 0 to 3600 s. NaN stands for
+    /// what a control does by itself: its own pace, no delay. (Poses that were read from a text are right
+    /// already.)
     pub fn press(&mut self, pose: &Pose) {
         let easing = pose.transition.filter(|easing| easing.is_sound());
         for (control, value) in &pose.values {
@@ -78,12 +80,13 @@ impl Player {
         }
     }
 
-    /// Plays a clip from its start, from now on: every control that it has a track for fades into it from whatever it does, in
-    /// `fade_secs` or, with `None`, in the time that a move to the clip's start takes; the others go on. A press interrupts it as any
-    /// motion, and a clip that ends at speed comes to rest smoothly.
+    /// Plays a clip from its start, from now on: every control that it has a track for fades into it from
+    /// whatever it does, in `fade_secs` or, with `None`, in the time that a move to the clip's start takes;
+    /// the others go on. A press interrupts it as any motion, and a clip that ends at speed comes to rest
+    /// smoothly.
     ///
-    /// The motion is as smooth as the clip is: a track with corners or jumps keeps them, and so do the seams of a clip that repeats itself
-    /// ([`crate::Wrap`]). The fade takes 0.001 to 3600 s, so 0 means 1 ms.
+    /// The motion is as smooth as the clip is: a track with corners or jumps keeps them, and so do the seams
+    /// of a clip that repeats itself ([`crate::Wrap`]). The fade takes 0.001 to 3600 s, so 0 means 1 ms.
     pub fn play(&mut self, clip: &Arc<Clip>, fade_secs: Option<f64>) {
         for (index, track) in clip.tracks().iter().enumerate() {
             let control = track.control();
@@ -103,22 +106,25 @@ impl Player {
         }
     }
 
-    /// Lets time pass. 0 changes nothing; enough of it (even infinity) brings every control to its target. A clip that repeats itself has
-    /// none: it goes on from the phase that the time leads to, and after an infinite time from its start.
+    /// Lets time pass. 0 changes nothing; enough of it (even infinity) brings every control to its target. A
+    /// clip that repeats itself has none: it goes on from the phase that the time leads to, and after an
+    /// infinite time from its start.
     ///
     /// # Errors
     /// A negative time step or NaN; then nothing changes.
     pub fn advance(&mut self, dt_secs: f64) -> Result<(), AdvanceError> {
         AdvanceError::check(dt_secs)?;
         if dt_secs == 0.0 {
-            // Not even by rounding: just after a press, the new motion repeats the old state up to the last bit.
+            // Not even by rounding: just after a press, the new motion repeats the old state up to the last
+            // bit.
             return Ok(());
         }
         self.advance_and(dt_secs, |_, _| ());
         Ok(())
     }
 
-    /// Lets a time pass that is more than 0, and shows every control's state after it as it is before the end of the pipeline.
+    /// Lets a time pass that is more than 0, and shows every control's state after it as it is before the end
+    /// of the pipeline.
     #[inline]
     pub(crate) fn advance_and(&mut self, dt_secs: f64, mut look: impl FnMut(usize, Jet)) {
         let outputs = self.values.iter_mut().zip(&mut self.velocities).zip(&mut self.accelerations);
@@ -177,8 +183,9 @@ impl Player {
         &self.values
     }
 
-    /// Where every control is heading, in the order of the table: the value at which it comes to rest if nothing else is
-    /// pressed. A control that a clip moves heads for no value of its own; it has its present one.
+    /// Where every control is heading, in the order of the table: the value at which it comes to rest if
+    /// nothing else is pressed. A control that a clip moves heads for no value of its own; it has its present
+    /// one.
     pub fn targets(&self) -> impl ExactSizeIterator<Item = f32> {
         self.channels.iter().zip(&self.cold).map(|(channel, cold)| channel.target(cold) as f32)
     }
@@ -188,9 +195,10 @@ impl Player {
         Some(self.channels.get(control)?.target(self.cold.get(control)?) as f32)
     }
 
-    /// Where a clip stands that was handed to [`Self::play`], in seconds from its start: within its duration, or, where it
-    /// goes there and back ([`crate::Wrap::PingPong`]), within twice its duration. `None` once it has ended, or while it moves no
-    /// control: all of them have been pressed elsewhere, or the clip has no length.
+    /// Where a clip stands that was handed to [`Self::play`], in seconds from its start: within its duration,
+    /// or, where it goes there and back ([`crate::Wrap::PingPong`]), within twice its duration. `None` once
+    /// it has ended, or while it moves no control: all of them have been pressed elsewhere, or the clip has
+    /// no length.
     pub fn clip_time_secs(&self, clip: &Arc<Clip>) -> Option<f64> {
         let mut moved = self.channels.iter().zip(&self.cold).filter_map(|(channel, cold)| channel.clip(cold));
         let (_, age_secs) = moved.find(|(moving, _)| Arc::ptr_eq(moving, clip))?;

@@ -14,8 +14,8 @@ pub struct Pose {
     pub values: Vec<(usize, f32)>,
     /// Seconds that a move to this pose takes. `None`: each control takes its own time ([`crate::Pace`]).
     pub duration_secs: Option<f64>,
-    /// How the move runs. `None`: with the least jerk. Any other one is led smoothly out of the motion before, and
-    /// smoothly to rest.
+    /// How the move runs. `None`: with the least jerk. Any other one is led smoothly out of the motion
+    /// before, and smoothly to rest.
     pub transition: Option<Easing>,
     /// What differs for single controls.
     pub timings: Vec<(usize, Timing)>,
@@ -24,7 +24,8 @@ pub struct Pose {
 /// When and how fast one control joins in a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// Seconds after the press at which the control's move starts; until then it goes on with whatever it does.
+    /// Seconds after the press at which the control's move starts; until then it goes on with whatever it
+    /// does.
     pub delay_secs: f64,
     /// Multiplies the duration.
     pub factor: f64,

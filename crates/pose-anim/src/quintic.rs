@@ -2,8 +2,8 @@ use crate::Jet;
 use crate::quadratic::roots;
 use crate::range::ROUNDING;
 
-/// The only polynomial of degree five that starts in a given state and comes to rest at a target: the move of least
-/// jerk (Flash & Hogan 1985).
+/// The only polynomial of degree five that starts in a given state and comes to rest at a target: the move of
+/// least jerk (Flash & Hogan 1985).
 ///
 /// Because it ends at rest, it has a triple root of `x − target` at its end; with `s = age / duration`:
 ///
@@ -12,8 +12,8 @@ use crate::range::ROUNDING;
 /// c0 = x₀ − target        c1 = v₀D + 3c0        c2 = a₀D²/2 + 3v₀D + 6c0
 /// ```
 ///
-/// In this form the arrival is exact in floating point, and the velocity is `(1 − s)²` times a quadratic, so that
-/// the extrema have a closed form.
+/// In this form the arrival is exact in floating point, and the velocity is `(1 − s)²` times a quadratic, so
+/// that the extrema have a closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Quintic {
     pub(crate) target: f64,
@@ -61,7 +61,8 @@ impl Quintic {
         let [c0, c1, c2] = self.c;
         // dx/ds = (1 − s)² · (q0 + q1·s + q2·s²)
         let (q0, q1, q2) = (c1 - 3.0 * c0, 2.0 * c2 - 4.0 * c1, -5.0 * c2);
-        // A move that touches an end of its range must not fail by rounding. What this lets through is cut off.
+        // A move that touches an end of its range must not fail by rounding. What this lets through is cut
+        // off.
         let slack = ROUNDING * (max - min);
         roots(q2, q1, q0).iter().filter(|s| (0.0..1.0).contains(*s)).all(|s| {
             let u = 1.0 - s;
@@ -89,7 +90,8 @@ mod tests {
             let beyond = (0..=4000)
                 .map(|step| quintic.at(f64::from(step) / 4000.0 * secs).value.abs() - 1.0)
                 .fold(f64::MIN, f64::max);
-            // Between two of the points an extremum is higher by the curvature there times a quarter of a step squared at most.
+            // Between two of the points an extremum is higher by the curvature there times a quarter of a
+            // step squared at most.
             let curve = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| quintic.at(s * secs * (1.0 - 1e-9)).acceleration.abs());
             let missed = curve.into_iter().fold(0.0, f64::max) * 4.0 * (secs / 4000.0).powi(2);
             if quintic.stays_within(-1.0, 1.0) {

@@ -4,12 +4,12 @@ use crate::range::Range;
 /// Share of the range that counts as close to one of its ends.
 const KNEE: f64 = 0.05;
 
-/// `base + offset`, kept in the range smoothly: twice continuously differentiable in both, for a base in range. Without
-/// an offset it is the base to the last bit.
+/// `base + offset`, kept in the range smoothly: twice continuously differentiable in both, for a base in
+/// range. Without an offset it is the base to the last bit.
 ///
-/// A plain clamp would make velocities jump whenever a sum comes to an end of the range. Here, the room `up` to the upper and
-/// `down` to the lower end shape the offset `δ`, where `r` is the minimum-jerk step, `k` the knee (5 % of the range), and, for
-/// `δ > 0`,
+/// A plain clamp would make velocities jump whenever a sum comes to an end of the range. Here, the room `up`
+/// to the upper and `down` to the lower end shape the offset `δ`, where `r` is the minimum-jerk step, `k` the
+/// knee (5 % of the range), and, for `δ > 0`,
 ///
 /// ```text
 /// result = base + up · f( r(up/k) · δ' / up )        δ' = δ · (1 − (1 − r(down/k)) · (1 − r(δ/k)))
@@ -18,15 +18,18 @@ const KNEE: f64 = 0.05;
 ///        1                       beyond
 /// ```
 ///
-/// and for `δ < 0` the mirror image. So the sum is plain where both ends are far: within half of the room, no closer to an end than the
-/// knee. It reaches an end for offsets of 1½ times the room. With the base at an end, say the lower one, an offset that points outward has
-/// no effect, so one that points inward must set in gently (`δ'`), or the change between the two would be a corner.
+/// and for `δ < 0` the mirror image. So the sum is plain where both ends are far: within half of the room, no
+/// closer to an end than the knee. It reaches an end for offsets of 1½ times the room. With the base at an
+/// end, say the lower one, an offset that points outward has no effect, so one that points inward must set in
+/// gently (`δ'`), or the change between the two would be a corner.
 ///
-/// Both sides have the slope `r(up/k) · r(down/k)` at `δ = 0` and no curvature there, as `δ · r(δ/k)` is of fourth order; `f` is C² by
-/// its construction; and as `up → 0`, the argument of `f` tends to 0 like `up²`, so that the result tends to `r(up/k) · δ'`.
+/// Both sides have the slope `r(up/k) · r(down/k)` at `δ = 0` and no curvature there, as `δ · r(δ/k)` is of
+/// fourth order; `f` is C² by its construction; and as `up → 0`, the argument of `f` tends to 0 like `up²`,
+/// so that the result tends to `r(up/k) · δ'`.
 ///
-/// A base that is out of range (a transition function that overshoots on purpose) is not pushed further out, and an offset that points
-/// inward acts as at the end of the range: all of the above tends to that as the base comes to the end, so this is C², too.
+/// A base that is out of range (a transition function that overshoots on purpose) is not pushed further out,
+/// and an offset that points inward acts as at the end of the range: all of the above tends to that as the
+/// base comes to the end, so this is C², too.
 pub(crate) fn soft_limit(base: Jet, offset: Jet, range: Range) -> Jet {
     if offset == Jet::rest(0.0) || range.width() <= 0.0 {
         return base;
@@ -101,8 +104,8 @@ mod tests {
     }
 
     proptest! {
-        /// Through the ends of the range and beyond, along a line, the sum is twice continuously differentiable: no change of
-        /// its jet that does not fall with the step.
+        /// Through the ends of the range and beyond, along a line, the sum is twice continuously
+        /// differentiable: no change of its jet that does not fall with the step.
         #[test]
         fn it_is_smooth_through_the_ends(
             end in prop_oneof![Just(-2.0f64), Just(3.0)],
@@ -116,7 +119,8 @@ mod tests {
             };
             for part in 0..3 {
                 let change = |h: f64| (at(h)[part] - at(-h)[part]).abs();
-                // The third derivative of the step is 60 over the cubed knee at its start; there is one at either side.
+                // The third derivative of the step is 60 over the cubed knee at its start; there is one at
+                // either side.
                 let jerk = 60.0 / (KNEE * RANGE.width()).powi(3) * offset.abs() * speed.abs().powi(3);
                 let slope = speed.abs() * [1.0, 0.0, 0.0][part] + jerk;
                 prop_assert!(change(1e-6) < 3e-6 * slope + 1e-9, "{part}: {}", change(1e-6));
@@ -136,7 +140,8 @@ mod tests {
             };
             for part in 0..3 {
                 let change = (at(1e-6)[part] - at(-1e-6)[part]).abs();
-                // The gentle start is of fourth order, `10 δ⁴ / k³`: a fourth derivative of 240 / k³, and no third.
+                // The gentle start is of fourth order, `10 δ⁴ / k³`: a fourth derivative of 240 / k³, and no
+                // third.
                 let snap = 240.0 / (KNEE * RANGE.width()).powi(3) * speed.abs().powi(4);
                 let slope = [speed.abs(), 1e-6, 1e-6][part];
                 prop_assert!(change < 2e-6 * slope + 1e-12 * snap + 1e-12, "{part}: {change}");

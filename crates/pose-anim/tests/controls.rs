@@ -14,7 +14,8 @@ const SHAPES: [&str; 2] = ["SSmile", "Frown"];
 /// The nine joints. Columns: where the joint's x, y and z point in the parent's frame.
 fn rig() -> Rig {
     let up_left_back = Mat3::from_cols(Vec3::Y, Vec3::X, Vec3::NEG_Z);
-    // Seen from the world: forward, up, to the character's right. Relative to the head, whose frame is not the world's.
+    // Seen from the world: forward, up, to the character's right. Relative to the head, whose frame is not
+    // the world's.
     let in_head = up_left_back.transpose() * Mat3::from_cols(Vec3::Z, Vec3::Y, Vec3::NEG_X);
     let turned_about_z = in_head * Mat3::from_cols(Vec3::NEG_X, Vec3::NEG_Y, Vec3::Z);
     let joint = |name: &str, parent, frame: Mat3, at: Vec3| {
@@ -106,8 +107,8 @@ fn the_table_is_the_documented_one() {
     }
 }
 
-/// Each row: the control at this value carries a direction of the bind pose to another one, worked out by hand: a turn
-/// by α in the plane from u to v carries u to cos α · u + sin α · v.
+/// Each row: the control at this value carries a direction of the bind pose to another one, worked out by
+/// hand: a turn by α in the plane from u to v carries u to cos α · u + sin α · v.
 #[test]
 fn every_joint_control_moves_the_face_as_documented() {
     let (left, up, forward) = (Vec3::X, Vec3::Y, Vec3::Z);

@@ -62,7 +62,8 @@ proptest! {
             let turned = near[2].rotation() * near[0].rotation().inverse();
             let turned = if turned.w < 0.0 { -turned } else { turned };
             let (omega, alpha) = near[1].angular_rates();
-            // However often and fast it is interrupted, it does not spin up: half a turn in 0.05 s peaks at 118.
+            // However often and fast it is interrupted, it does not spin up: half a turn in 0.05 s peaks at
+            // 118.
             prop_assert!(omega.length() < 300.0 && near[1].linear_rates().0.length() < 300.0);
             let slope = 2.0 * DVec3::new(turned.x, turned.y, turned.z) / (2.0 * h);
             let curve = (near[2].angular_rates().0 - near[0].angular_rates().0) / (2.0 * h);
@@ -75,7 +76,8 @@ proptest! {
             let near = arrived.rotation();
             arrived.advance(2e-9).unwrap();
             prop_assert!(arrived.is_at_rest());
-            // Also the last moment is none of a jump; and the target is there, bit for bit, in either of its forms.
+            // Also the last moment is none of a jump; and the target is there, bit for bit, in either of its
+            // forms.
             prop_assert!(jump(near, arrived.rotation()) < 1e-12);
             let (found, given) = (arrived.rotation().as_quat(), target.rotation);
             let precise = given.as_dquat() * (1.0 / given.as_dquat().length());
@@ -96,8 +98,9 @@ proptest! {
         }
     }
 
-    /// Presses in quick succession, each at most 1.5 times slower than the one before and so of about its speed, or of any
-    /// other length: no coordinate leaves the span of its targets by more than half the span's width.
+    /// Presses in quick succession, each at most 1.5 times slower than the one before and so of about its
+    /// speed, or of any other length: no coordinate leaves the span of its targets by more than half the
+    /// span's width.
     #[test]
     fn no_number_of_presses_overshoots_by_more_than_half_the_span(
         first in 0.02f64..0.2,

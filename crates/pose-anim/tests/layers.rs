@@ -136,8 +136,9 @@ fn overshoot_is_cut_at_the_very_end_or_not_at_all() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// With everything moving at once, the combination is in range and has the derivatives that it says, through presses
-    /// of all players and weights. The trapezoid rule's error falls with the step only if nothing jumps.
+    /// With everything moving at once, the combination is in range and has the derivatives that it says,
+    /// through presses of all players and weights. The trapezoid rule's error falls with the step only if
+    /// nothing jumps.
     #[test]
     fn combinations_are_smooth_and_in_range(
         presses in prop::collection::vec((0.0f64..1.0, 0usize..5, 0.0f32..=1.0, -1.0f32..=1.0, 0.05f64..0.6), 1..9),
@@ -182,7 +183,8 @@ proptest! {
             }
             worst
         };
-        // What a bend costs depends on where in a step it falls: three steps, so that none looks good by luck.
+        // What a bend costs depends on where in a step it falls: three steps, so that none looks good by
+        // luck.
         let coarse = [1e-3, 0.93e-3, 1.06e-3].map(error);
         let coarse = [0, 1].map(|which| coarse.iter().map(|worst| worst[which]).fold(0.0, f64::max));
         let fine = error(6.25e-5);

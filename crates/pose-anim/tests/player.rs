@@ -49,7 +49,8 @@ fn poses_from_elsewhere_cannot_harm() {
     assert!(player.state(3).is_none());
 }
 
-/// Numbers that only a program can put into a pose, in every combination, at rest and while moving, clamped and not.
+/// Numbers that only a program can put into a pose, in every combination, at rest and while moving, clamped
+/// and not.
 #[test]
 fn poses_of_bad_numbers_give_good_ones() {
     let table = table();
@@ -268,7 +269,8 @@ fn default_poses_take_their_time() {
     let table = ControlTable::default_face();
     let poses = PoseSet::default_face(&table);
     for pose in &poses {
-        // The motion itself, in steps of a millisecond: from the press to the last look at which it moves or arrives.
+        // The motion itself, in steps of a millisecond: from the press to the last look at which it moves or
+        // arrives.
         let mut player = Player::new(&table);
         player.press(pose);
         let (mut last_moved, mut moved) = (vec![0; table.len()], vec![false; table.len()]);

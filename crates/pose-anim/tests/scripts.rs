@@ -1,4 +1,5 @@
-//! Random interruption scripts: whatever is done whenever, nothing jumps, leaves its range or misses its target.
+//! Random interruption scripts: whatever is done whenever, nothing jumps, leaves its range or misses its
+//! target.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
@@ -84,8 +85,8 @@ fn assert_unchanged(before: &[Jet], after: &[Jet], widths: &[f64], what: &str) {
     }
 }
 
-/// Plays a script once, and looks at every moment where something may jump: presses, starts after a delay, arrivals of each player,
-/// ends of tracks, arrivals of the joint.
+/// Plays a script once, and looks at every moment where something may jump: presses, starts after a delay,
+/// arrivals of each player, ends of tracks, arrivals of the joint.
 fn look_at_all_seams(
     table: &ControlTable,
     stage: &mut Stage,

@@ -2,7 +2,8 @@
 
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table};
 
-/// Takes the entries called `key` out of a document, with the lines before the first one that are about the whole file.
+/// Takes the entries called `key` out of a document, with the lines before the first one that are about the
+/// whole file.
 pub(crate) fn take(document: &mut DocumentMut, key: &str) -> (String, Vec<Table>) {
     let entries = match document.remove(key) {
         // An array of inline tables becomes one of tables, which has room for comments.
@@ -65,7 +66,8 @@ fn number(table: &mut Table, position: &mut isize) {
 
 /// A text after a change of its entries.
 pub(crate) fn edited(text: &str, key: &str, change: impl FnOnce(&mut Vec<Table>)) -> String {
-    // A book's text is valid; were it not, what comes out of an empty document is refused by the one who asked.
+    // A book's text is valid; were it not, what comes out of an empty document is refused by the one who
+    // asked.
     let mut document: DocumentMut = text.parse().unwrap_or_default();
     let (head, mut entries) = take(&mut document, key);
     change(&mut entries);

@@ -41,7 +41,8 @@ impl ClipBook {
         &self.clips
     }
 
-    /// Takes over a text that somebody else wrote. What was done before cannot be undone then; the same text changes nothing.
+    /// Takes over a text that somebody else wrote. What was done before cannot be undone then; the same text
+    /// changes nothing.
     ///
     /// # Errors
     /// As [`Self::read`]; then the book stays as it is.
@@ -63,8 +64,8 @@ impl ClipBook {
         Ok(self.clips.clips.len().saturating_sub(1))
     }
 
-    /// Puts a clip in the place of another one; `what` says what that does, for undo. Tracks that stay the same stay as they
-    /// are written.
+    /// Puts a clip in the place of another one; `what` says what that does, for undo. Tracks that stay the
+    /// same stay as they are written.
     ///
     /// # Errors
     /// No such clip, a name or key that another one has, or a value beyond its control's range.

@@ -7,7 +7,8 @@ pub enum BookError {
     /// A text that is not as its format demands.
     #[error(transparent)]
     Text(Box<TomlError>),
-    /// An edit after which the text would not be as its format demands; the place is one in the text as it would be.
+    /// An edit after which the text would not be as its format demands; the place is one in the text as it
+    /// would be.
     #[error("cannot {edit}: {source}")]
     Refused {
         /// What was to be done.

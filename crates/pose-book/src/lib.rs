@@ -1,8 +1,9 @@
-//! Poses and clips as people edit them: the text of a `poses.toml` or `clips.toml` and what it means, changed together.
+//! Poses and clips as people edit them: the text of a `poses.toml` or `clips.toml` and what it means, changed
+//! together.
 //!
-//! A book holds a text that is always valid. Each edit touches the lines that it is about: comments, order and spelling of
-//! everything else stay as they were. An edit that would make the text invalid is refused, and nothing changes. All edits can
-//! be undone and done again.
+//! A book holds a text that is always valid. Each edit touches the lines that it is about: comments, order
+//! and spelling of everything else stay as they were. An edit that would make the text invalid is refused,
+//! and nothing changes. All edits can be undone and done again.
 //!
 //! ```
 //! use pose_anim::{ControlTable, Pose};
@@ -25,8 +26,8 @@
 //! # Ok::<(), pose_book::BookError>(())
 //! ```
 //!
-//! The crate opens no files: who does writes [`PoseBook::text`] after an edit, and calls [`PoseBook::replace`] when somebody else
-//! has written.
+//! The crate opens no files: who does writes [`PoseBook::text`] after an edit, and calls
+//! [`PoseBook::replace`] when somebody else has written.
 
 mod error;
 mod history;

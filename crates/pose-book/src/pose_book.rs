@@ -23,7 +23,8 @@ impl PoseBook {
         Ok(Self { controls: controls.clone(), history: History::new(text.to_owned()), poses })
     }
 
-    /// A text for poses that come from elsewhere: the usual one of the nine-joint face, with its comments, if they are its poses.
+    /// A text for poses that come from elsewhere: the usual one of the nine-joint face, with its comments, if
+    /// they are its poses.
     ///
     /// # Errors
     /// Poses that no text can say: a name twice, a value beyond its control's range.
@@ -44,7 +45,8 @@ impl PoseBook {
         &self.poses
     }
 
-    /// Takes over a text that somebody else wrote. What was done before cannot be undone then; the same text changes nothing.
+    /// Takes over a text that somebody else wrote. What was done before cannot be undone then; the same text
+    /// changes nothing.
     ///
     /// # Errors
     /// As [`Self::read`]; then the book stays as it is.

@@ -29,8 +29,8 @@ pub(crate) fn easing(easing: Easing) -> Value {
     }
 }
 
-/// Replaces a text or a number that is read at 32 bits; what stands around it, such as a comment behind it, stays. A
-/// value that already says the same keeps its spelling.
+/// Replaces a text or a number that is read at 32 bits; what stands around it, such as a comment behind it,
+/// stays. A value that already says the same keeps its spelling.
 pub(crate) fn put(item: &mut Item, value: Value) {
     replace(item, value, |old, new| old as f32 == new as f32);
 }

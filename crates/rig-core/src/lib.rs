@@ -35,7 +35,9 @@
 //! ```
 //! use rig_core::{Axis, Elementary, Rig};
 //!
-//! let xml = br#"<JointSet><Joint name="NeckJoint"><Matrix>1 0 0 0  0 1 0 2  0 0 1 0  0 0 0 1</Matrix></Joint></JointSet>"#;
+//! let xml = br#"<JointSet><Joint name="NeckJoint">
+//!     <Matrix>1 0 0 0  0 1 0 2  0 0 1 0  0 0 0 1</Matrix>
+//! </Joint></JointSet>"#;
 //! let rig = Rig::from_xml(xml)?;
 //! let neck = rig.joint("NeckJoint").ok_or("no neck")?;
 //! let mut locals = rig.locals();

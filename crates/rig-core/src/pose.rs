@@ -67,7 +67,8 @@ impl RigPose {
         &self.world_from_joint
     }
 
-    /// Bone matrices `X = T · W⁻¹` by [`JointId::index`]: from the bind pose to this pose, both in world space.
+    /// Bone matrices `X = T · W⁻¹` by [`JointId::index`]: from the bind pose to this pose, both in world
+    /// space.
     pub fn posed_from_bind(&self) -> &[Affine3A] {
         &self.posed_from_bind
     }
@@ -97,7 +98,8 @@ impl Rig {
         RigPose::in_bind(self)
     }
 
-    /// Computes `T = T_parent · B · L` and `X = T · W⁻¹` for all joints in one forward pass. Allocates nothing.
+    /// Computes `T = T_parent · B · L` and `X = T · W⁻¹` for all joints in one forward pass. Allocates
+    /// nothing.
     ///
     /// # Errors
     /// `locals` or `pose` has another number of joints.

@@ -54,8 +54,8 @@ pub struct RawRig {
 }
 
 impl RawRig {
-    /// Indices into [`Self::joints`], parents before children, siblings in the order of the list, each subtree
-    /// in one piece; and for each joint of the list the index of its parent.
+    /// Indices into [`Self::joints`], parents before children, siblings in the order of the list, each
+    /// subtree in one piece; and for each joint of the list the index of its parent.
     pub(crate) fn parents_first(&self) -> Result<(Vec<usize>, Vec<Option<usize>>), RigError> {
         let mut by_name = HashMap::with_capacity(self.joints.len());
         for (index, joint) in self.joints.iter().enumerate() {

@@ -37,10 +37,11 @@ pub struct Rig {
 impl Rig {
     /// Freezes an edited rig.
     ///
-    /// Files print few digits, so a rotation in them may be off by up to [`RIGID_TOLERANCE`]. The rotation part of such
-    /// a `B` is replaced by the nearest rotation, once and in `f64`; translations stay, and so does every bit of a `B`
-    /// that is a rotation up to the rounding of `f32`. Thus `[Rᵀ ∣ −Rᵀt]` is the inverse of `W` up to rounding, and
-    /// `X` of the undeformed rig the identity. [`RawRig`] keeps what the file says.
+    /// Files print few digits, so a rotation in them may be off by up to [`RIGID_TOLERANCE`]. The rotation
+    /// part of such a `B` is replaced by the nearest rotation, once and in `f64`; translations stay, and so
+    /// does every bit of a `B` that is a rotation up to the rounding of `f32`. Thus `[Rᵀ ∣ −Rᵀt]` is the
+    /// inverse of `W` up to rounding, and `X` of the undeformed rig the identity. [`RawRig`] keeps what the
+    /// file says.
     ///
     /// # Errors
     /// Names that are not unique, parents that are missing or form a cycle, matrices that are not rigid.
@@ -48,8 +49,8 @@ impl Rig {
         Self::freeze(raw, rigid, rigid_inverse)
     }
 
-    /// Freezes a rig whose bind matrices may scale and shear, as nodes of interchange formats do: all formulas stay, but that
-    /// `W⁻¹` is a general inverse.
+    /// Freezes a rig whose bind matrices may scale and shear, as nodes of interchange formats do: all
+    /// formulas stay, but that `W⁻¹` is a general inverse.
     ///
     /// # Errors
     /// As [`Rig::from_raw`], with matrices that have no inverse in the place of those that are not rigid.
@@ -203,8 +204,9 @@ fn rigid(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
 }
 
 /// The rotation that is nearest to a matrix which is nearly one: that of its polar decomposition, by Newton's
-/// iteration `R ← (R + R⁻ᵀ)/2` (N. J. Higham, *Computing the Polar Decomposition — with Applications*, 1986, eq. 3.3).
-/// Each step squares the error, so three of them take it from a thousandth to below the rounding of `f64`.
+/// iteration `R ← (R + R⁻ᵀ)/2` (N. J. Higham, *Computing the Polar Decomposition — with Applications*, 1986,
+/// eq. 3.3). Each step squares the error, so three of them take it from a thousandth to below the rounding of
+/// `f64`.
 fn nearest_rotation(matrix: Mat3A) -> Mat3A {
     let mut rotation = matrix.as_dmat3();
     for _ in 0..3 {

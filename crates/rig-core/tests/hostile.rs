@@ -77,7 +77,8 @@ fn rubbish_is_an_error() {
     }
 }
 
-/// A damaged byte may by luck give another valid file; then it must be a sane rig that can be written and read.
+/// A damaged byte may by luck give another valid file; then it must be a sane rig that can be written and
+/// read.
 #[test]
 fn flipped_bytes_are_an_error_or_another_rig() {
     let mut random = Random(2);

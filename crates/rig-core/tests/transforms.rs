@@ -1,4 +1,5 @@
-//! Properties of W, T and X on random rigs, against an implementation in f64 that shares no code with the library.
+//! Properties of W, T and X on random rigs, against an implementation in f64 that shares no code with the
+//! library.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
 mod common;
@@ -127,8 +128,8 @@ proptest! {
         }
     }
 
-    /// A file prints few digits. Without local transforms, what is computed is still the bind pose up to the rounding of
-    /// f32, and a rig that was frozen once is frozen again to the same bits.
+    /// A file prints few digits. Without local transforms, what is computed is still the bind pose up to the
+    /// rounding of f32, and a rig that was frozen once is frozen again to the same bits.
     #[test]
     fn rotations_of_few_digits_make_one_bind_pose(
         case in case(),

@@ -1,5 +1,5 @@
-//! Meshes from formats whose normals and texture coordinates belong to corners of faces, and whose weights and
-//! shapes belong to points: corners that agree become one vertex.
+//! Meshes from formats whose normals and texture coordinates belong to corners of faces, and whose weights
+//! and shapes belong to points: corners that agree become one vertex.
 
 use super::budget::{Budget, Exceeded};
 use super::influences::Influences;

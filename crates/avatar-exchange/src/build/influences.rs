@@ -22,9 +22,9 @@ impl Influences {
         Self { of_point: Vec::with_capacity(points), ..Self::default() }
     }
 
-    /// Adds a point: the four largest of its weights, divided by their sum unless that is 1 already. Weights that are
-    /// not above 0 or not finite do not count. A point without any follows `otherwise`. Reorders `bones` where there
-    /// are more than four.
+    /// Adds a point: the four largest of its weights, divided by their sum unless that is 1 already. Weights
+    /// that are not above 0 or not finite do not count. A point without any follows `otherwise`. Reorders
+    /// `bones` where there are more than four.
     pub(crate) fn push(&mut self, bones: &mut [(u16, f64)], otherwise: u16) {
         let counts = |weight: f64| weight > 0.0 && weight.is_finite();
         if bones.len() > 4 {

@@ -1,8 +1,8 @@
 //! What several readers build scenes with. Each stands here once; the readers differ in what they put in.
 //!
-//! `text` decodes bytes and reads numbers with their lines, `path` keeps references inside the file's folder, `budget`
-//! bounds memory, `names` tells equal names apart; `normals`, `influences`, `shape`, `polygon` and `corners` make
-//! meshes.
+//! `text` decodes bytes and reads numbers with their lines, `path` keeps references inside the file's folder,
+//! `budget` bounds memory, `names` tells equal names apart; `normals`, `influences`, `shape`, `polygon` and
+//! `corners` make meshes.
 
 #[cfg(any(feature = "collada", feature = "fbx", feature = "gltf", feature = "obj"))]
 pub(crate) mod budget;

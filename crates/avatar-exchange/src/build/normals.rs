@@ -1,17 +1,17 @@
-//! Normals that a file lacks: sums over the triangles around a vertex, in f64, since products of the largest coordinates
-//! overflow in f32.
+//! Normals that a file lacks: sums over the triangles around a vertex, in f64, since products of the largest
+//! coordinates overflow in f32.
 
 use glam::{DVec3, Vec3};
 
 /// How much a triangle counts at its corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Weighting {
-    /// By its area. Where no triangles share a vertex these are the flat normals that glTF 2.0 (section 3.7.2.1) asks
-    /// for.
+    /// By its area. Where no triangles share a vertex these are the flat normals that glTF 2.0 (section
+    /// 3.7.2.1) asks for.
     #[cfg(any(feature = "collada", feature = "fbx", feature = "gltf"))]
     Area,
-    /// By its angle there (G. Thürmer, C. A. Wüthrich, *Computing Vertex Normals from Polygonal Facets*, Journal of
-    /// Graphics Tools 3(1), 1998), which does not depend on how a polygon is cut.
+    /// By its angle there (G. Thürmer, C. A. Wüthrich, *Computing Vertex Normals from Polygonal Facets*,
+    /// Journal of Graphics Tools 3(1), 1998), which does not depend on how a polygon is cut.
     #[cfg(any(feature = "obj", feature = "md5"))]
     Angle,
 }
@@ -61,8 +61,8 @@ impl NormalSums {
         }
     }
 
-    /// The normal of a group. One without area has none, and a mesh needs one everywhere: it looks along +Z by area (as
-    /// the flat picture planes that such files hold) and +Y by angle.
+    /// The normal of a group. One without area has none, and a mesh needs one everywhere: it looks along +Z
+    /// by area (as the flat picture planes that such files hold) and +Y by angle.
     pub(crate) fn normal(&self, group: u32) -> Vec3 {
         let otherwise = match self.weighting {
             #[cfg(any(feature = "collada", feature = "fbx", feature = "gltf"))]
@@ -74,8 +74,8 @@ impl NormalSums {
     }
 }
 
-/// Normals for a mesh whose file has none, weighted by area: flat where no triangles share a vertex, smooth where they
-/// do, since vertices keep the numbers that the file gives them.
+/// Normals for a mesh whose file has none, weighted by area: flat where no triangles share a vertex, smooth
+/// where they do, since vertices keep the numbers that the file gives them.
 #[cfg(feature = "gltf")]
 pub(crate) fn normals_of(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut sums = NormalSums::new(positions.len(), Weighting::Area);

@@ -1,4 +1,5 @@
-//! References of a file to other files, as [`crate::Resolve`] takes them: relative, with `/`, below the file's folder.
+//! References of a file to other files, as [`crate::Resolve`] takes them: relative, with `/`, below the
+//! file's folder.
 
 #[cfg(any(feature = "collada", feature = "fbx"))]
 use crate::scene::{Resolve, SceneImage};
@@ -34,8 +35,8 @@ pub(crate) fn inside(reference: &str) -> Result<String, Outside> {
     if kept.is_empty() { Err(Outside::Empty) } else { Ok(kept.join("/")) }
 }
 
-/// As [`inside`], for formats whose writers name the places on their own machines: of a reference that leads outside,
-/// the file's name remains, which is where people put such files. `None` where that is no name.
+/// As [`inside`], for formats whose writers name the places on their own machines: of a reference that leads
+/// outside, the file's name remains, which is where people put such files. `None` where that is no name.
 #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
 pub(crate) fn beside(reference: &str) -> Option<String> {
     let reference = reference.trim();
@@ -49,8 +50,8 @@ pub(crate) fn beside(reference: &str) -> Option<String> {
     }
 }
 
-/// The picture behind a reference, and why it has no bytes where they were not found: a scene without a picture is
-/// better than none.
+/// The picture behind a reference, and why it has no bytes where they were not found: a scene without a
+/// picture is better than none.
 #[cfg(any(feature = "collada", feature = "fbx"))]
 pub(crate) fn image(reference: &str, resolve: &mut Resolve<'_>) -> (SceneImage, Option<String>) {
     let path = beside(reference).unwrap_or_default();

@@ -3,8 +3,9 @@
 use glam::{DVec2, DVec3, Vec3};
 use std::collections::BTreeSet;
 
-/// Comparisons of a corner with an ear that all polygons of a file may take together: a second or so. What hand and
-/// exporter make takes a few for each corner; a file made to be slow could take the square of its size.
+/// Comparisons of a corner with an ear that all polygons of a file may take together: a second or so. What
+/// hand and exporter make takes a few for each corner; a file made to be slow could take the square of its
+/// size.
 const MAX_COMPARISONS: u64 = 1 << 28;
 
 /// Cuts the polygons of one file.
@@ -24,9 +25,10 @@ impl Default for Cutter {
 }
 
 impl Cutter {
-    /// Cuts a polygon into triangles, whose corners are positions in `points`; the direction around stays. A polygon
-    /// whose fan around the first corner covers it becomes that fan; of others, ears are cut off (D. Eberly,
-    /// *Triangulation by Ear Clipping*, 2002), always the first one there is. A polygon without area becomes a fan.
+    /// Cuts a polygon into triangles, whose corners are positions in `points`; the direction around stays. A
+    /// polygon whose fan around the first corner covers it becomes that fan; of others, ears are cut off (D.
+    /// Eberly, *Triangulation by Ear Clipping*, 2002), always the first one there is. A polygon without area
+    /// becomes a fan.
     pub(crate) fn cut(&mut self, points: &[Vec3]) -> Vec<[usize; 3]> {
         if points.len() <= 3 || is_fan(points) {
             return fan(points.len());
@@ -57,8 +59,8 @@ fn fan(corners: usize) -> Vec<[usize; 3]> {
     (2..corners).map(|k| [0, k - 1, k]).collect()
 }
 
-/// Whether the triangles around the first corner all face as the polygon does, to within rounding: convex polygons and
-/// many others. True without area.
+/// Whether the triangles around the first corner all face as the polygon does, to within rounding: convex
+/// polygons and many others. True without area.
 fn is_fan(points: &[Vec3]) -> bool {
     let Some((first, rest)) = points.split_first() else { return true };
     let origin = first.as_dvec3();
@@ -118,7 +120,8 @@ impl Ring {
             self.reflex.remove(&ear);
             ears.remove(&ear);
             (self.next[last], self.last[next]) = (next, last);
-            // A cut changes its two neighbours only: an ear elsewhere that is none still has a reflex corner inside.
+            // A cut changes its two neighbours only: an ear elsewhere that is none still has a reflex corner
+            // inside.
             for corner in [last, next] {
                 if self.area(corner) > 0.0 {
                     self.reflex.remove(&corner);
@@ -154,7 +157,8 @@ impl Ring {
         for &other in &self.reflex {
             *comparisons_left = comparisons_left.checked_sub(1)?;
             let p = self.flat[other];
-            // A corner in the same place as one of the ear's, as polygons with bridges to holes have, is not in the way.
+            // A corner in the same place as one of the ear's, as polygons with bridges to holes have, is not
+            // in the way.
             let apart = !corners.contains(&other) && p != a && p != b && p != c;
             if apart && side(a, b, p) >= 0.0 && side(b, c, p) >= 0.0 && side(c, a, p) >= 0.0 {
                 return Some(false);
@@ -169,7 +173,8 @@ fn side(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Drops the coordinate in which the polygon is thinnest; a polygon seen from its front runs counter-clockwise.
+/// Drops the coordinate in which the polygon is thinnest; a polygon seen from its front runs
+/// counter-clockwise.
 fn project(points: &[Vec3]) -> Vec<DVec2> {
     let origin = points.first().copied().unwrap_or_default().as_dvec3();
     let from = |point: &Vec3| point.as_dvec3() - origin;

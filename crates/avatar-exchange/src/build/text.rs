@@ -5,15 +5,15 @@ use crate::scene::ImportError;
 use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 
-/// The text of a file: what its byte-order mark says (UTF-8 or UTF-16), else UTF-8, else Windows-1252, of which Latin-1
-/// is a part. Never fails: sequences that the encoding lacks are replaced.
+/// The text of a file: what its byte-order mark says (UTF-8 or UTF-16), else UTF-8, else Windows-1252, of
+/// which Latin-1 is a part. Never fails: sequences that the encoding lacks are replaced.
 #[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     decode_as(bytes, None)
 }
 
-/// As [`decode`], for a format that can say its encoding. Valid UTF-8 is taken as such whatever the file says, since
-/// editors change the bytes and leave the statement.
+/// As [`decode`], for a format that can say its encoding. Valid UTF-8 is taken as such whatever the file
+/// says, since editors change the bytes and leave the statement.
 pub(crate) fn decode_as<'a>(bytes: &'a [u8], stated: Option<&'static Encoding>) -> Cow<'a, str> {
     if let Some((encoding, mark)) = Encoding::for_bom(bytes) {
         return encoding.decode_without_bom_handling(&bytes[mark..]).0;

@@ -6,8 +6,8 @@ use percent_encoding::percent_decode_str;
 use std::collections::HashMap;
 
 impl<'a> Reader<'a> {
-    /// Reads the materials of the library. Returns their numbers by element. What is odd about a material is noted,
-    /// since a picture without it is better than none.
+    /// Reads the materials of the library. Returns their numbers by element. What is odd about a material is
+    /// noted, since a picture without it is better than none.
     pub(super) fn read_materials(&mut self, resolve: &mut Resolve<'_>) -> HashMap<usize, usize> {
         let mut numbers = HashMap::new();
         let mut images = HashMap::new();
@@ -62,8 +62,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The image of a `<texture>`: through a sampler and a surface in 1.4, a sampler in 1.5, or directly, which some
-    /// exporters write.
+    /// The image of a `<texture>`: through a sampler and a surface in 1.4, a sampler in 1.5, or directly,
+    /// which some exporters write.
     fn texture(
         &mut self,
         profile: At<'a>,
@@ -106,8 +106,8 @@ fn color(at: At<'_>) -> Option<[f32; 4]> {
     color.iter().all(|x| x.is_finite()).then_some(color)
 }
 
-/// By `transparent` and `transparency`, COLLADA 1.4.1, chapter 7. A result of 0 is taken for 1: exporters that mixed up
-/// the two directions are common, invisible surfaces are not.
+/// By `transparent` and `transparency`, COLLADA 1.4.1, chapter 7. A result of 0 is taken for 1: exporters
+/// that mixed up the two directions are common, invisible surfaces are not.
 fn opacity(model: At<'_>) -> f32 {
     let transparency =
         model.path(&["transparency", "float"]).and_then(|at| at.text().parse().ok()).unwrap_or(1.0);

@@ -5,9 +5,9 @@
 //!                                  └────animation──▶ clips
 //! ```
 //!
-//! The tree is read here rather than by the crate `dae-parser`: that one wants every file valid against the schema of
-//! 1.4 and knows neither `polygons` nor 1.5, and so refuses a third of the files that real exporters wrote.
-//! Whatever a file says, reading ends with a scene or an error, in bounded time and memory.
+//! The tree is read here rather than by the crate `dae-parser`: that one wants every file valid against the
+//! schema of 1.4 and knows neither `polygons` nor 1.5, and so refuses a third of the files that real
+//! exporters wrote. Whatever a file says, reading ends with a scene or an error, in bounded time and memory.
 
 mod animation;
 mod controller;
@@ -29,15 +29,17 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use xml::{At, Tree};
 
-/// Reads a `.dae` file: UTF-8, UTF-16 or Latin-1. `file` is its name for messages; `resolve` brings textures. One
-/// that it does not bring is an image without bytes, with a note.
+/// Reads a `.dae` file: UTF-8, UTF-16 or Latin-1. `file` is its name for messages; `resolve` brings textures.
+/// One that it does not bring is an image without bytes, with a note.
 ///
-/// Where the file has another unit than the metre or another axis than +Y up, a root node is added that converts it.
-/// Animations are one clip, or those that the file's `library_animation_clips` tells.
+/// Where the file has another unit than the metre or another axis than +Y up, a root node is added that
+/// converts it. Animations are one clip, or those that the file's `library_animation_clips` tells.
 ///
 /// ```
 /// let dae = br##"<COLLADA version="1.4.1">
-///     <library_visual_scenes><visual_scene id="s"><node id="hip"><translate>0 1 0</translate></node></visual_scene></library_visual_scenes>
+///     <library_visual_scenes><visual_scene id="s">
+///         <node id="hip"><translate>0 1 0</translate></node>
+///     </visual_scene></library_visual_scenes>
 /// </COLLADA>"##;
 /// let scene = avatar_exchange::collada::read("hip.dae", dae, &mut |_| Err("no other files".to_owned()))?;
 /// assert_eq!(scene.worlds(&scene.rest())[0].translation.y, 1.0);

@@ -124,8 +124,8 @@ impl<'a> Nodes<'a> {
         }
     }
 
-    /// The node that a skin calls a joint: below one of the skeletons where possible, by `sid`, then by id, then by
-    /// name, which is what some exporters mean.
+    /// The node that a skin calls a joint: below one of the skeletons where possible, by `sid`, then by id,
+    /// then by name, which is what some exporters mean.
     pub(super) fn joint(
         &self,
         name: &str,

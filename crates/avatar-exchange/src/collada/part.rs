@@ -31,7 +31,8 @@ impl<'a> Reader<'a> {
         Ok(weights)
     }
 
-    /// The node itself, or one more below it: weights belong to nodes, and what else hangs there has other shapes.
+    /// The node itself, or one more below it: weights belong to nodes, and what else hangs there has other
+    /// shapes.
     fn node_for(
         &mut self,
         node: usize,

@@ -82,8 +82,9 @@ fn look_at(eye: DVec3, interest: DVec3, up: DVec3) -> DMat4 {
     }
 }
 
-/// RenderMan's skew: points move along `along` in such a way that `turned` turns toward it by the angle. With `n`
-/// the direction square to `along` in which `turned` leans by φ, points move by (tan(φ + angle) − tan φ)·(p·n).
+/// RenderMan's skew: points move along `along` in such a way that `turned` turns toward it by the angle. With
+/// `n` the direction square to `along` in which `turned` leans by φ, points move by (tan(φ + angle) − tan
+/// φ)·(p·n).
 fn skew(angle: f64, turned: DVec3, along: DVec3) -> DMat4 {
     let (Some(turned), Some(along)) = (turned.try_normalize(), along.try_normalize()) else {
         return DMat4::IDENTITY;

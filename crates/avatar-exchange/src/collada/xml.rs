@@ -212,7 +212,8 @@ impl<'a> At<'a> {
         found.ok_or_else(|| self.error(format!("the '#id' of an element in '{key}'"), format!("'{url}'")))
     }
 
-    /// Numbers between blanks, with a point or, as exporters on systems with decimal commas write them, a comma.
+    /// Numbers between blanks, with a point or, as exporters on systems with decimal commas write them, a
+    /// comma.
     pub(super) fn numbers<T: std::str::FromStr>(self) -> Result<Vec<T>, ImportError> {
         let parse = |word: &str| {
             word.parse().or_else(|_| word.replacen(',', ".", 1).parse()).map_err(|_| {

@@ -8,8 +8,8 @@
 //! `wasm32-unknown-unknown`; leave it out there and convert files beforehand.
 //!
 //! What the library evaluates and this module takes from it: pre- and post-rotations, pivots, orders of Euler
-//! angles, ways of inheriting scale, geometric transforms, layers of animation, curves. Motion is sampled at 30 Hz
-//! where straight lines between keys do not do, and each take begins at 0.
+//! angles, ways of inheriting scale, geometric transforms, layers of animation, curves. Motion is sampled at
+//! 30 Hz where straight lines between keys do not do, and each take begins at 0.
 
 mod clips;
 mod material;
@@ -32,11 +32,11 @@ const MAX_MEMORY_BYTES: usize = 2 << 30;
 /// How often the library tells where it is: what errors name as their place.
 const PROGRESS_BYTES: u64 = 1024;
 
-/// Reads an FBX file. `file` is its name for messages; `resolve` brings textures that are not embedded. One that it
-/// does not bring is an image without bytes, with a note.
+/// Reads an FBX file. `file` is its name for messages; `resolve` brings textures that are not embedded. One
+/// that it does not bring is an image without bytes, with a note.
 ///
-/// The first node is the root that every FBX file has without saying so. Of a shape's in-betweens, each is a shape
-/// of its own: that of full weight has the name of its channel, one at half "name@50"; see
+/// The first node is the root that every FBX file has without saying so. Of a shape's in-betweens, each is a
+/// shape of its own: that of full weight has the name of its channel, one at half "name@50"; see
 /// [`RawScene::drivers`].
 ///
 /// ```
@@ -45,7 +45,8 @@ const PROGRESS_BYTES: u64 = 1024;
 /// ```
 ///
 /// # Errors
-/// Whatever is no FBX, what a scene cannot hold, and files that ask for far more memory than their size explains.
+/// Whatever is no FBX, what a scene cannot hold, and files that ask for far more memory than their size
+/// explains.
 pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
     let raw = read_raw(file, bytes, resolve)?;
     Scene::from_raw(raw).map_err(|error| error.in_file(file))

@@ -2,8 +2,8 @@
 
 use gltf::json::accessor::ComponentType;
 
-/// One component as f32. Normalised integers are divided by their largest value and do not fall below −1; others
-/// are taken as they are. `bytes` has the component's size.
+/// One component as f32. Normalised integers are divided by their largest value and do not fall below −1;
+/// others are taken as they are. `bytes` has the component's size.
 pub(super) fn float(kind: ComponentType, normalized: bool, bytes: &[u8]) -> f32 {
     let (value, largest) = match (kind, bytes) {
         (ComponentType::I8, &[a]) => (f32::from(i8::from_le_bytes([a])), f32::from(i8::MAX)),

@@ -12,8 +12,8 @@ pub(super) fn parse(text: &[u8]) -> Result<(Root, usize), ImportError> {
         if let Some(error) = other_version(&value) {
             return Err(error);
         }
-        // A target without a node is valid and means nothing (section 3.11), as is a scene without nodes (3.5.1), but the
-        // structures insist on both.
+        // A target without a node is valid and means nothing (section 3.11), as is a scene without nodes
+        // (3.5.1), but the structures insist on both.
         let dropped = drop_channels_without_node(&mut value);
         if add_nodes_to_scenes(&mut value) + dropped > 0 {
             let text = serde_json::to_vec(&value).unwrap_or_default();

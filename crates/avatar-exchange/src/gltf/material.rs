@@ -22,7 +22,8 @@ impl<'u> Use<'u> {
 }
 
 impl Document<'_> {
-    /// Encoded pictures. One that cannot be brought is empty, with a note: a face without a texture is still a face.
+    /// Encoded pictures. One that cannot be brought is empty, with a note: a face without a texture is still
+    /// a face.
     pub(super) fn read_images(&mut self, scene: &mut RawScene) -> Result<(), ImportError> {
         for (number, image) in std::mem::take(&mut self.root.images).into_iter().enumerate() {
             let place = format!("image {number}");

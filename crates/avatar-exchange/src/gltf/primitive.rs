@@ -88,7 +88,8 @@ impl Document<'_> {
         Ok(())
     }
 
-    /// For each node whether the default scene has it: the one that the file says, or else its first; all where there is none.
+    /// For each node whether the default scene has it: the one that the file says, or else its first; all
+    /// where there is none.
     fn shown(&mut self, nodes: &[json::Node]) -> Result<Vec<bool>, ImportError> {
         let number = self.root.scene.map_or(0, |scene| scene.value());
         let Some(scene) = self.root.scenes.get(number) else {
@@ -228,7 +229,8 @@ impl Document<'_> {
         Ok(Some(values))
     }
 
-    /// All sets of joints and weights of a primitive, reduced to four bones a vertex; `None` without a first set.
+    /// All sets of joints and weights of a primitive, reduced to four bones a vertex; `None` without a first
+    /// set.
     fn skinning(
         &mut self,
         place: &str,

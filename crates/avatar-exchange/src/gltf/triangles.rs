@@ -2,8 +2,8 @@
 
 use gltf::json::mesh::Mode;
 
-/// Triangles from the vertices' numbers in drawing order, and how many of these numbers are left over; `None` for
-/// topologies of points and lines.
+/// Triangles from the vertices' numbers in drawing order, and how many of these numbers are left over; `None`
+/// for topologies of points and lines.
 pub(super) fn of(mode: Mode, corners: &[u32]) -> Option<(Vec<[u32; 3]>, usize)> {
     let triangles = match mode {
         Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => return None,

@@ -1,8 +1,8 @@
 //! Meshes and animations of id Tech 4: `.md5mesh` and `.md5anim`, version 10.
 //!
-//! The format counts z upward and its triangles run clockwise. Numbers stay those of the file, below a root node that
-//! turns z to y; triangles are turned around. Texture coordinates begin at the top left already. Normals are
-//! computed, since there are none in the file, and a shader is a name only.
+//! The format counts z upward and its triangles run clockwise. Numbers stay those of the file, below a root
+//! node that turns z to y; triangles are turned around. Texture coordinates begin at the top left already.
+//! Normals are computed, since there are none in the file, and a shader is a name only.
 //!
 //! ```
 //! use avatar_exchange::{TextFile, md5::read};

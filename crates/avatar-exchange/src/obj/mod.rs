@@ -1,10 +1,10 @@
 //! Wavefront OBJ: meshes, materials, shapes and sequences of files.
 //!
-//! Groups, objects and materials become parts of one node. Polygons become triangles, concave ones, too. Normals that a file lacks
-//! are computed: smooth, or as its smoothing groups say.
+//! Groups, objects and materials become parts of one node. Polygons become triangles, concave ones, too.
+//! Normals that a file lacks are computed: smooth, or as its smoothing groups say.
 //!
-//! The lines are read here rather than by a library, since errors name their line, shapes need the file's own order of
-//! vertices and smoothing groups matter, which the common libraries drop.
+//! The lines are read here rather than by a library, since errors name their line, shapes need the file's own
+//! order of vertices and smoothing groups matter, which the common libraries drop.
 //!
 //! ```
 //! let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng wall\nf 1 2 3 4\n";
@@ -70,8 +70,8 @@ pub struct ObjPart {
     pub name: String,
     /// Among the file's materials.
     pub material: Option<usize>,
-    /// A vertex for each use of a position with other texture coordinates or another normal; those of no face are left
-    /// out.
+    /// A vertex for each use of a position with other texture coordinates or another normal; those of no face
+    /// are left out.
     pub mesh: Mesh,
     /// For each vertex, never falling: its place among [`ObjFile::positions`].
     pub sources: Vec<u32>,
@@ -134,7 +134,8 @@ impl ObjFile {
         Ok(())
     }
 
-    /// A scene of one node with all parts. Shapes without normals of their own get those of [`SmoothNormals`].
+    /// A scene of one node with all parts. Shapes without normals of their own get those of
+    /// [`SmoothNormals`].
     pub fn into_raw(mut self) -> RawScene {
         self.add_shape_normals();
         let shapes = self.parts.iter().map(|part| part.mesh.shapes.len()).max().unwrap_or(0);

@@ -6,7 +6,8 @@ use crate::build::text::{at_line, decode, float, shown};
 use crate::scene::{AlphaMode, Finding, ImportError, Material, Note, Resolve, SceneImage};
 use std::collections::HashMap;
 
-/// Options of texture statements and how many words follow them; `-o`, `-s` and `-t` take up to three numbers.
+/// Options of texture statements and how many words follow them; `-o`, `-s` and `-t` take up to three
+/// numbers.
 const OPTIONS: [(&str, usize); 9] = [
     ("-blendu", 1),
     ("-blendv", 1),
@@ -141,7 +142,8 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
                 draft.has_opacity = true;
             }
             "Tr" if !draft.has_opacity => opacity(material, 1.0 - one("a transparency")?),
-            // Of the same width: B. Karis, "Specular BRDF Reference" (2013), α² = 2 / (n + 2) with α the roughness squared.
+            // Of the same width: B. Karis, "Specular BRDF Reference" (2013), α² = 2 / (n + 2) with α the
+            // roughness squared.
             "Ns" => material.roughness = (2.0 / (one("an exponent")?.max(0.0) + 2.0)).sqrt().sqrt(),
             "Pr" => material.roughness = one("a roughness")?.clamp(0.0, 1.0),
             "Pm" => material.metallic = one("a metalness")?.clamp(0.0, 1.0),

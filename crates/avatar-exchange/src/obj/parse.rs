@@ -257,8 +257,8 @@ fn face<'a>(
     Ok(())
 }
 
-/// A position in a list: from 1 on, or back from its present end. It may lie beyond that, since some files list
-/// faces first.
+/// A position in a list: from 1 on, or back from its present end. It may lie beyond that, since some files
+/// list faces first.
 fn index(line: usize, what: &str, word: &str, length: usize) -> Result<u32, ImportError> {
     let expected = || format!("the number of {what}, from 1 on, or from -1 back to -{length}");
     let number: i64 = word.parse().map_err(|_| at_line(line, expected(), shown(word)))?;

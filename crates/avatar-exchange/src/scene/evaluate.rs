@@ -13,8 +13,8 @@ pub struct ScenePose {
     pub weights: Vec<Vec<f32>>,
 }
 
-/// What evaluation needs of a scene: nodes, clips and palette, without meshes, materials and pictures. Made by
-/// [`Scene::into_graph`], for programs that hold the meshes elsewhere; its poses are those of the scene.
+/// What evaluation needs of a scene: nodes, clips and palette, without meshes, materials and pictures. Made
+/// by [`Scene::into_graph`], for programs that hold the meshes elsewhere; its poses are those of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneGraph {
     nodes: Vec<Node>,
@@ -48,8 +48,8 @@ impl Scene {
         self.view().rest()
     }
 
-    /// The pose of a clip at a time in seconds; what the clip does not move is at rest. Before the first key and
-    /// after the last one, the nearest key holds.
+    /// The pose of a clip at a time in seconds; what the clip does not move is at rest. Before the first key
+    /// and after the last one, the nearest key holds.
     ///
     /// # Errors
     /// `clip` is out of range.
@@ -65,20 +65,21 @@ impl Scene {
         self.view().apply(clip, time_secs, pose)
     }
 
-    /// `world_from_node` for each node, in the nodes' order, computed in f64. Locals that the pose lacks are taken
-    /// from rest.
+    /// `world_from_node` for each node, in the nodes' order, computed in f64. Locals that the pose lacks are
+    /// taken from rest.
     pub fn worlds(&self, pose: &ScenePose) -> Vec<DAffine3> {
         self.view().worlds(pose)
     }
 
-    /// The bone matrices `world_from_mesh` for all parts, one for each entry of the palette. A skinned part is
-    /// moved by its joints alone, not by its node (glTF 2.0, section 3.7.3.3).
+    /// The bone matrices `world_from_mesh` for all parts, one for each entry of the palette. A skinned part
+    /// is moved by its joints alone, not by its node (glTF 2.0, section 3.7.3.3).
     pub fn bones(&self, pose: &ScenePose) -> Vec<Affine3A> {
         self.view().bones(pose)
     }
 
-    /// What [`avatar_mesh::deform`] needs of [`Scene::bones`] for a part: one matrix for each joint of its skin, or the
-    /// one of a rigid part. Empty where `part` is out of range, or the bones are another scene's.
+    /// What [`avatar_mesh::deform`] needs of [`Scene::bones`] for a part: one matrix for each joint of its
+    /// skin, or the one of a rigid part. Empty where `part` is out of range, or the bones are another
+    /// scene's.
     pub fn bones_of<'a>(&self, part: usize, bones: &'a [Affine3A]) -> &'a [Affine3A] {
         let Some(part) = self.parts.get(part) else { return &[] };
         let palette = self.palette();

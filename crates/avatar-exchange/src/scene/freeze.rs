@@ -7,8 +7,8 @@ use avatar_mesh::drivers::ShapeDrivers;
 use glam::Affine3A;
 use std::ops::Deref;
 
-/// A scene that was checked: every position in it leads somewhere, nodes form a forest, meshes are valid. The fields of
-/// [`RawScene`] can be read directly, and mean the same: `scene.nodes`.
+/// A scene that was checked: every position in it leads somewhere, nodes form a forest, meshes are valid. The
+/// fields of [`RawScene`] can be read directly, and mean the same: `scene.nodes`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     raw: RawScene,
@@ -16,8 +16,8 @@ pub struct Scene {
     palette: Palette,
 }
 
-/// The matrices that deformation needs: one for each joint of each skin in the order of skins, then one for each
-/// node that carries a rigid part, by node.
+/// The matrices that deformation needs: one for each joint of each skin in the order of skins, then one for
+/// each node that carries a rigid part, by node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Palette {
     /// The matrices' sources.

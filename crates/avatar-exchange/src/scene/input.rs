@@ -1,5 +1,5 @@
-/// Brings a file that another one refers to: takes a relative path with `/` between folders, never absolute and never
-/// leading upwards, and returns the file's bytes, or what went wrong.
+/// Brings a file that another one refers to: takes a relative path with `/` between folders, never absolute
+/// and never leading upwards, and returns the file's bytes, or what went wrong.
 pub type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
 /// A file with its name.

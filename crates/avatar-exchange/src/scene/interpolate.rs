@@ -3,12 +3,12 @@
 use super::raw::{Channel, ChannelTarget, Interpolation};
 use glam::DQuat;
 
-/// Below this sine of the angle between two rotations, a straight line replaces the arc: it differs by less than
-/// rounding, and the arc's quotient would be 0/0.
+/// Below this sine of the angle between two rotations, a straight line replaces the arc: it differs by less
+/// than rounding, and the arc's quotient would be 0/0.
 const MIN_SINE: f64 = 1e-9;
 
-/// The value of a checked channel at a time, into as many numbers as one value has. A time outside of the keys is
-/// clamped to them; NaN counts as the time of the first key.
+/// The value of a checked channel at a time, into as many numbers as one value has. A time outside of the
+/// keys is clamped to them; NaN counts as the time of the first key.
 pub(crate) fn sample(channel: &Channel, time_secs: f64, out: &mut [f32]) {
     let times = &channel.times;
     let width = out.len();
@@ -48,8 +48,8 @@ fn copy(value: &[f32], out: &mut [f32]) {
     }
 }
 
-/// `p(s) = (2s³−3s²+1) v_a + Δ (s³−2s²+s) b_a + (3s²−2s³) v_b + Δ (s³−s²) a_b` with the out-tangent `b_a` of the
-/// earlier key, the in-tangent `a_b` of the later one and Δ seconds between them.
+/// `p(s) = (2s³−3s²+1) v_a + Δ (s³−2s²+s) b_a + (3s²−2s³) v_b + Δ (s³−s²) a_b` with the out-tangent `b_a` of
+/// the earlier key, the in-tangent `a_b` of the later one and Δ seconds between them.
 fn hermite(s: f64, span: f64, v_a: &[f32], b_a: &[f32], v_b: &[f32], a_b: &[f32], out: &mut [f32]) {
     let (s2, s3) = (s * s, s * s * s);
     let [va, ba] = [2.0 * s3 - 3.0 * s2 + 1.0, span * (s3 - 2.0 * s2 + s)];

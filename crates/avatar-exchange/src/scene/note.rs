@@ -9,7 +9,8 @@ pub struct Note {
     pub finding: Finding,
 }
 
-/// How a scene differs from its file. The texts are whole predicates or sentences for people; programs match the kind.
+/// How a scene differs from its file. The texts are whole predicates or sentences for people; programs match
+/// the kind.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Finding {

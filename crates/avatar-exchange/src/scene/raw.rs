@@ -38,8 +38,9 @@ pub struct Node {
     pub weights: Vec<f32>,
 }
 
-/// How drivers blend the shapes of the parts at a node, for [`avatar_mesh::drivers::ShapeDrivers::new`]. Weights of
-/// nodes and clips are those of shapes, so that nothing needs these to show a pose of the file: they are for sliders.
+/// How drivers blend the shapes of the parts at a node, for [`avatar_mesh::drivers::ShapeDrivers::new`].
+/// Weights of nodes and clips are those of shapes, so that nothing needs these to show a pose of the file:
+/// they are for sliders.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NodeDrivers {
     /// Position of the node.
@@ -87,7 +88,8 @@ impl Default for Transform {
 }
 
 impl Transform {
-    /// A product of translation, rotation and scale where the matrix is one to within rounding, else the matrix.
+    /// A product of translation, rotation and scale where the matrix is one to within rounding, else the
+    /// matrix.
     pub fn from_matrix(parent_from_node: DMat4) -> Self {
         let affine = DAffine3::from_mat4(parent_from_node);
         let matrix = Self::Matrix(narrow(affine));
@@ -210,8 +212,8 @@ pub struct Channel {
     pub interpolation: Interpolation,
     /// Times of keys in seconds, never falling; at least one.
     pub times: Vec<f64>,
-    /// For each key, [`ChannelTarget::width`] numbers (for weights: as many as the node has); three times as many
-    /// with [`Interpolation::CubicSpline`]: in-tangent, value, out-tangent.
+    /// For each key, [`ChannelTarget::width`] numbers (for weights: as many as the node has); three times as
+    /// many with [`Interpolation::CubicSpline`]: in-tangent, value, out-tangent.
     pub values: Vec<f32>,
 }
 

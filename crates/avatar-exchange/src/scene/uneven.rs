@@ -1,15 +1,15 @@
 use avatar_mesh::{DeformError, Deformed, Mesh, deform};
 use glam::{Affine3A, DMat3};
 
-/// How far axes may be from equal lengths and right angles before normals need a matrix of their own: relative, and
-/// well below what is seen.
+/// How far axes may be from equal lengths and right angles before normals need a matrix of their own:
+/// relative, and well below what is seen.
 const MAX_UNEVENNESS: f32 = 1e-4;
 
 /// As [`avatar_mesh::deform`], and right for bones that scale unevenly or shear, which nodes of files may do.
 ///
 /// Positions are the same. Normals are turned by the inverse transpose of the blended matrix, computed as its
-/// cofactors times the sign of the determinant, which exists for flat matrices, too; `avatar_mesh::deform` and
-/// the GPU turn them by the matrix itself, which is the same for rotations and even scales, where this
+/// cofactors times the sign of the determinant, which exists for flat matrices, too; `avatar_mesh::deform`
+/// and the GPU turn them by the matrix itself, which is the same for rotations and even scales, where this
 /// function costs nothing more. Elsewhere it allocates room for one more result.
 ///
 /// # Errors

@@ -14,7 +14,8 @@ pub struct ShapeWeights {
 }
 
 impl ShapeWeights {
-    /// Sets them in a pose of the scene; shapes that no expression binds, and those that the pose lacks, stay as they are.
+    /// Sets them in a pose of the scene; shapes that no expression binds, and those that the pose lacks, stay
+    /// as they are.
     pub fn apply(&self, pose: &mut ScenePose) {
         for (&(node, shape), &weight) in &self.by_shape {
             if let Some(slot) = pose.weights.get_mut(node).and_then(|weights| weights.get_mut(shape)) {
@@ -46,23 +47,26 @@ impl Override {
     }
 }
 
-/// Weights of shapes from values of expressions by name, as VRM 1.0 says (`expressions.md`, "Procedural override"):
+/// Weights of shapes from values of expressions by name, as VRM 1.0 says (`expressions.md`, "Procedural
+/// override"):
 ///
 /// ```text
 /// output = clamp(value), or 1 where a binary one is above 0.5, else 0
 /// rate   = Σ over expressions, 1 for a block with output > 0, the output for a blend
-/// factor = 1 − clamp(rate)                 for blinks, looks and mouths; a binary one has 0 where the rate is above 0
+/// factor = 1 − clamp(rate)                 for blinks, looks and mouths; a binary one has 0 where the rate is
+///                                          above 0
 /// weight = Σ output · factor · weight of the bind
 /// ```
 ///
-/// An expression does not override others of its own kind. Names that the avatar lacks are ignored, expressions without value
-/// have 0, and of two values for a name the later one counts.
+/// An expression does not override others of its own kind. Names that the avatar lacks are ignored,
+/// expressions without value have 0, and of two values for a name the later one counts.
 ///
 /// ```
 /// use avatar_exchange::vrm::{Expression, MorphBind, Override, Vrm, expression_weights};
 ///
 /// let bind = |shape| vec![MorphBind { node: 0, shape, weight: 1.0 }];
-/// let happy = Expression { name: "happy".into(), override_blink: Override::Blend, binds: bind(0), ..Default::default() };
+/// let override_blink = Override::Blend;
+/// let happy = Expression { name: "happy".into(), override_blink, binds: bind(0), ..Default::default() };
 /// let blink = Expression { name: "blink".into(), is_preset: true, binds: bind(1), ..Default::default() };
 /// let vrm = Vrm { expressions: vec![happy, blink], ..Default::default() };
 /// let weights = expression_weights(&vrm, &[("happy", 0.75), ("blink", 1.0)]);

@@ -89,8 +89,8 @@ pub struct EyeTurn {
 }
 
 impl Gaze {
-    /// As a rotation in the axes of the model: pitch about x, then yaw about y. An eye whose rest pose is turned by `r` in the
-    /// model turns by `r⁻¹ · rotation · r` after its own rotation at rest.
+    /// As a rotation in the axes of the model: pitch about x, then yaw about y. An eye whose rest pose is
+    /// turned by `r` in the model turns by `r⁻¹ · rotation · r` after its own rotation at rest.
     pub fn rotation(self) -> Quat {
         let (yaw, pitch) = (self.yaw_deg.to_radians(), self.pitch_deg.to_radians());
         Quat::from_euler(EulerRot::YXZ, yaw, pitch, 0.0)
@@ -98,8 +98,9 @@ impl Gaze {
 }
 
 impl LookAt {
-    /// Where a target in world space is as seen by the character: yaw = atan2(x, z), pitch = atan2(−y, √(x² + z²)) in the space
-    /// that follows the head and has the axes of the model at rest. `head_at_rest` and `head` are `world_from_node` of the head.
+    /// Where a target in world space is as seen by the character: yaw = atan2(x, z), pitch = atan2(−y, √(x² +
+    /// z²)) in the space that follows the head and has the axes of the model at rest. `head_at_rest` and
+    /// `head` are `world_from_node` of the head.
     pub fn gaze(&self, head_at_rest: &DAffine3, head: &DAffine3, target: DVec3) -> Gaze {
         let eyes = head.transform_point3(self.offset_from_head.as_dvec3());
         let (_, rest, _) = head_at_rest.to_scale_rotation_translation();

@@ -102,7 +102,8 @@ impl Buffer {
         accessor
     }
 
-    /// Corners of triangles, in 16 bits where these suffice: the largest number of a type is not for vertices.
+    /// Corners of triangles, in 16 bits where these suffice: the largest number of a type is not for
+    /// vertices.
     pub(super) fn corners(&mut self, corners: &[u32]) -> usize {
         let is_small = corners.iter().all(|corner| *corner < u32::from(u16::MAX));
         let (component, bytes): (_, Vec<u8>) = if is_small {

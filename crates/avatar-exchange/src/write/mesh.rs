@@ -99,7 +99,8 @@ fn with_handedness(tangent: Vec4) -> Vec4 {
 
 type Influences = (Vec<[u16; 4]>, Vec<[f32; 4]>);
 
-/// Joints of the skin and weights, as the standard wants them: none twice, the first one where there is no weight.
+/// Joints of the skin and weights, as the standard wants them: none twice, the first one where there is no
+/// weight.
 fn influences(part: &ScenePart, number: usize, skinning: &Skinning) -> Result<Influences, ExportError> {
     let mut all = (Vec::with_capacity(skinning.bones.len()), Vec::with_capacity(skinning.weights.len()));
     for (vertex, (bones, weights)) in skinning.bones.iter().zip(&skinning.weights).enumerate() {

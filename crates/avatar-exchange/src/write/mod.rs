@@ -1,7 +1,7 @@
 //! A scene as GLB.
 //!
 //! ```text
-//!  Scene ──plan──▶ which nodes, which meshes ──▶ primitives, materials, animations ──buffer──▶ JSON, BIN ──▶ GLB
+//!  Scene ──plan──▶ nodes, meshes ──▶ primitives, materials, animations ──buffer──▶ JSON, BIN ──▶ GLB
 //! ```
 
 mod animation;
@@ -48,23 +48,27 @@ pub enum ExportError {
 
 /// Writes a scene as one GLB: glTF 2.0 with all its data inside. The same scene gives the same bytes.
 ///
-/// Reading the bytes gives the scene again, to the bit, where glTF has a word for it. Elsewhere the file deforms and
-/// looks the same, but
+/// Reading the bytes gives the scene again, to the bit, where glTF has a word for it. Elsewhere the file
+/// deforms and looks the same, but
 ///
-/// * parts of one node with different skins or shape names get nodes of their own below it; so does a joint that is in
-///   a skin twice; and trees whose nodes share a skin hang from one new root;
+/// * parts of one node with different skins or shape names get nodes of their own below it; so does a joint
+///   that is in a skin twice; and trees whose nodes share a skin hang from one new root;
 /// * a mesh has one name, that of its node, and numbers its primitives without gaps;
-/// * bones that are twice at a vertex are added up, those without weight become the first; weights whose sum is off by
-///   more than glTF's validator grants are divided by it; normals, tangents and rotations are given unit length;
+/// * bones that are twice at a vertex are added up, those without weight become the first; weights whose sum
+///   is off by more than glTF's validator grants are divided by it; normals, tangents and rotations are given
+///   unit length;
 /// * a part without triangles gets one without area;
-/// * of channels for the same property the last stays; times that are equal move apart by the least step; a clip that
-///   begins before 0 is moved to begin there; one whose channels move nothing that the file has is left out;
-/// * numbers of materials outside of glTF's ranges are clamped; pictures without bytes are left out, with their uses;
-/// * media types follow the bytes where these are known. Other pictures than PNG and JPEG are embedded all the same,
-///   though not all programs show them;
+/// * of channels for the same property the last stays; times that are equal move apart by the least step; a
+///   clip that begins before 0 is moved to begin there; one whose channels move nothing that the file has is
+///   left out;
+/// * numbers of materials outside of glTF's ranges are clamped; pictures without bytes are left out, with
+///   their uses;
+/// * media types follow the bytes where these are known. Other pictures than PNG and JPEG are embedded all
+///   the same, though not all programs show them;
 /// * notes, and the raw format's blend indices, are not written.
 ///
-/// A matrix with shear stays a matrix, as glTF's own tools write it, though the standard wants it decomposable.
+/// A matrix with shear stays a matrix, as glTF's own tools write it, though the standard wants it
+/// decomposable.
 ///
 /// # Errors
 /// Negative bone weights, and what does not fit 4 GiB.

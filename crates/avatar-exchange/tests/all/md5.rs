@@ -6,8 +6,8 @@ use avatar_exchange::{ImportError, Scene, TextFile};
 use avatar_mesh::deform;
 use glam::{DVec3, Vec2, Vec3};
 
-/// An arm that points along x at bind pose, from two joints: the second one is turned a quarter about z, so that its x is the
-/// model's y.
+/// An arm that points along x at bind pose, from two joints: the second one is turned a quarter about z, so
+/// that its x is the model's y.
 const MESH: &str = r#"MD5Version 10
 commandline "mesh arm.ma // not a comment"
 
@@ -102,7 +102,8 @@ fn close(found: &[Vec3], expected: &[[f32; 3]]) {
 fn vertices_come_from_weights() {
     let scene = read_texts(MESH, &[]).expect("a good file");
     let mesh = &scene.parts[0].mesh;
-    // The hand takes (x, y) to (4 − y, x): vertex 2 lies between (2, 2) and (2, 2), vertex 3 at (6, 3) by all weights.
+    // The hand takes (x, y) to (4 − y, x): vertex 2 lies between (2, 2) and (2, 2), vertex 3 at (6, 3) by all
+    // weights.
     close(&mesh.positions, &[[0.0, 0.0, 10.0], [6.0, 0.0, 10.0], [2.0, 2.0, 10.0], [6.0, 3.0, 10.0]]);
     assert_eq!(mesh.uvs[0], Vec2::new(0.0, 0.25));
     // Turned around: up.
@@ -135,7 +136,8 @@ fn animations_become_clips() {
         &posed(&scene, 1, 0.0),
         &[[0.0, 12.0, 0.0], [6.0, 12.0, 0.0], [2.0, 12.0, -2.0], [6.0, 12.0, -3.0]],
     );
-    // The hand at (4, 1), not turned: its (0, −2) is at (4, −1), its (2, 2) at (6, 3); vertex 3 was at its (3, −2), now (7, −1).
+    // The hand at (4, 1), not turned: its (0, −2) is at (4, −1), its (2, 2) at (6, 3); vertex 3 was at its
+    // (3, −2), now (7, −1).
     let share = 0.4 / 0.95;
     let last = [6.0 + share, 12.0, -(3.0 - 4.0 * share)];
     close(&posed(&scene, 0, 0.25), &[[0.0, 12.0, 0.0], [4.0, 12.0, 1.0], [4.0, 12.0, -2.5], last]);

@@ -29,7 +29,8 @@ fn offsets_reach_every_part() {
     assert_eq!(moved(0), [(1, Vec3::Z * 0.5)]);
     assert_eq!(moved(1), [(0, Vec3::Z * 0.5), (2, Vec3::Z * -0.25)]);
     assert_eq!(shapes[0][1].moved_vertices() + shapes[1][1].moved_vertices(), 0);
-    // The left triangle becomes that of 0, (1, 0, ½) and y; its normals follow, and stay the same on both sides of the cut.
+    // The left triangle becomes that of 0, (1, 0, ½) and y; its normals follow, and stay the same on both
+    // sides of the cut.
     let mut pose = scene.rest();
     pose.weights[0] = vec![1.0, 0.0];
     let mesh = &scene.parts[0].mesh;

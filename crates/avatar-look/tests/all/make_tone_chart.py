@@ -9,7 +9,8 @@ generates its table (a sigmoid through a pivot whose scales follow from its end 
 
 import math
 
-# The 24 patches of the ColorChecker (sRGB, D65, averages published by BabelColor), and the corners of the cube.
+# The 24 patches of the ColorChecker (sRGB, D65, averages published by BabelColor), and the corners of the
+# cube.
 PATCHES = [
     (115, 82, 68), (194, 150, 130), (98, 122, 157), (87, 108, 67), (133, 128, 177), (103, 189, 170),
     (214, 126, 44), (80, 91, 166), (193, 90, 99), (94, 60, 108), (157, 188, 64), (224, 163, 46),

@@ -39,8 +39,8 @@ impl<'t, 'a> Entry<'t, 'a> {
         self.error(expected, describe(self.value.get_ref()))
     }
 
-    /// An error at the key: a name that is none of `valid`, of which the nearest is suggested. `what` stands before their
-    /// list: "one of the keys".
+    /// An error at the key: a name that is none of `valid`, of which the nearest is suggested. `what` stands
+    /// before their list: "one of the keys".
     pub fn unknown_name<'n>(
         &self,
         name: &str,

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 /// One track of a clip as the motion of a control.
 ///
-/// Keys and cubics may lie beyond the control's range. There the motion rests at the range's end, so that all that is
-/// made of it stays in range: fades, layers, the way to rest. Only what a transition function overshoots on purpose goes
-/// through, as in a pose.
+/// Keys and cubics may lie beyond the control's range. There the motion rests at the range's end, so that all
+/// that is made of it stays in range: fades, layers, the way to rest. Only what a transition function
+/// overshoots on purpose goes through, as in a pose.
 #[derive(Clone, Debug)]
 pub(crate) struct ClipPath {
     clip: Arc<Clip>,
@@ -75,8 +75,9 @@ impl ClipPath {
     }
 }
 
-/// Whether nothing is left to be braked at the end of a track: it jumps to its last value (two keys at one time), or it rests. Both are
-/// decided up to rounding: a span ends at `a + (b − a)`, which is `b` to an ulp only, and with slopes that cancel to about as much.
+/// Whether nothing is left to be braked at the end of a track: it jumps to its last value (two keys at one
+/// time), or it rests. Both are decided up to rounding: a span ends at `a + (b − a)`, which is `b` to an ulp
+/// only, and with slopes that cancel to about as much.
 fn jumps_or_rests(last: Jet, end: f64, secs: f64, width: f64) -> bool {
     let none = 1e-9 * width;
     (last.value - end).abs() > none

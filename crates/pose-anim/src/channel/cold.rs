@@ -4,8 +4,8 @@ use super::path::Path;
 use super::{Channel, MoveSpec};
 use crate::range::Range;
 
-/// How many fades may run one inside the other. Five presses within one move that all would leave the range are more
-/// than fingers do; what goes beyond is folded (see [`Channel`]).
+/// How many fades may run one inside the other. Five presses within one move that all would leave the range
+/// are more than fingers do; what goes beyond is folded (see [`Channel`]).
 pub(crate) const MAX_FADES: usize = 4;
 
 /// What a channel needs only around interruptions.

@@ -66,9 +66,8 @@ impl Channel {
         self.fades -= over as u8 + 1;
     }
 
-    /// Where a clip that repeats itself runs alone, keeps its time within one repetition: beyond, every sum would
-    /// lose digits, and a day of ticks microseconds. An
-    /// infinite time ends at its start.
+    /// Where a clip that repeats itself runs alone, keeps its time within one repetition: beyond, every sum
+    /// would lose digits, and a day of ticks microseconds. An infinite time ends at its start.
     pub(super) fn drop_repetitions(&mut self, cold: &Cold) {
         if self.fades > 0 || self.waits || !self.other_base {
             return;

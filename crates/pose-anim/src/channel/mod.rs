@@ -20,24 +20,28 @@ pub(crate) use move_spec::MoveSpec;
 
 /// The motion of one control.
 ///
-/// A move is a closed function of the age of its parts, so that its state at a time does not depend on the steps that
-/// led there. Its innermost part is a path of its own, mostly a quintic. Where the quintic from the present state to the new
-/// target would leave the range, the running motion goes on and is faded out instead:
+/// A move is a closed function of the age of its parts, so that its state at a time does not depend on the
+/// steps that led there. Its innermost part is a path of its own, mostly a quintic. Where the quintic from
+/// the present state to the new target would leave the range, the running motion goes on and is faded out
+/// instead:
 ///
 /// ```text
 /// x(t) = (1 − r(t)) · x_old(t) + r(t) · target        r: minimum-jerk step
 /// ```
 ///
-/// At the start `r = r' = r'' = 0`, so value, velocity and acceleration go on; at the end `r = 1, r' = r'' = 0`, so the
-/// target is reached at rest; and a convex combination of values in a range is in the range. The target may itself move.
+/// At the start `r = r' = r'' = 0`, so value, velocity and acceleration go on; at the end `r = 1, r' = r'' =
+/// 0`, so the target is reached at rest; and a convex combination of values in a range is in the range. The
+/// target may itself move.
 ///
-/// `x_old` may itself be such a fade. When [`MAX_FADES`] are running and another one is needed, the two innermost parts
-/// (the path and the first fade) are *folded*: a single quintic takes over from their present state. Where it comes to
-/// rest does not matter, because it is about to fade out anyway; so place and time are free, and there always is a quintic that
-/// stays in range: see [`brake`]. Whatever it changes in the further course is weighed down by the product of
-/// all fades around it. That keeps C², the range, the arrival time and a fixed size, for any number of presses.
+/// `x_old` may itself be such a fade. When [`MAX_FADES`] are running and another one is needed, the two
+/// innermost parts (the path and the first fade) are *folded*: a single quintic takes over from their present
+/// state. Where it comes to rest does not matter, because it is about to fade out anyway; so place and time
+/// are free, and there always is a quintic that stays in range: see [`brake`]. Whatever it changes in the
+/// further course is weighed down by the product of all fades around it. That keeps C², the range, the
+/// arrival time and a fixed size, for any number of presses.
 ///
-/// What most moves do not need lies apart, in [`Cold`]: ten thousand faces are read from memory in every tick.
+/// What most moves do not need lies apart, in [`Cold`]: ten thousand faces are read from memory in every
+/// tick.
 #[derive(Clone, Debug)]
 pub(crate) struct Channel {
     range: Range,
@@ -54,7 +58,8 @@ pub(crate) struct Channel {
     /// Whether a move waits for its delay to pass.
     waits: bool,
     sleeps: bool,
-    /// Whether a direct move has begun at this very moment (`elapsed_secs` = 0), so that another one replaces it.
+    /// Whether a direct move has begun at this very moment (`elapsed_secs` = 0), so that another one replaces
+    /// it.
     fresh: bool,
 }
 
@@ -149,8 +154,8 @@ impl Channel {
         self.state(cold)
     }
 
-    /// Where the control is heading: the target of a move, also of one that waits for its delay to pass. A control that a
-    /// clip moves heads for no value of its own: then this is the value that it has now.
+    /// Where the control is heading: the target of a move, also of one that waits for its delay to pass. A
+    /// control that a clip moves heads for no value of its own: then this is the value that it has now.
     pub(crate) fn target(&self, cold: &Cold) -> f64 {
         match self.outermost(cold) {
             _ if self.waits => cold.waiting.spec.target,
@@ -176,14 +181,14 @@ impl Channel {
         }
     }
 
-    /// State at this moment. Only transition functions that overshoot on purpose take it out of the range, beyond
-    /// rounding.
+    /// State at this moment. Only transition functions that overshoot on purpose take it out of the range,
+    /// beyond rounding.
     pub(crate) fn state(&self, cold: &Cold) -> Jet {
         self.state_after(0.0, cold)
     }
 
-    /// Heads for a spec from the present state after a delay, until when everything goes on as it is. A move that still
-    /// waits is dropped.
+    /// Heads for a spec from the present state after a delay, until when everything goes on as it is. A move
+    /// that still waits is dropped.
     pub(crate) fn press(&mut self, spec: MoveSpec, delay_secs: f64, cold: &mut Cold) {
         self.sleeps = false;
         if delay_secs > 0.0 {
@@ -249,8 +254,9 @@ impl Channel {
         self.fade_into(Path::rest(spec.target), duration_secs, cold);
     }
 
-    /// Forgets a direct move that has begun at this very moment: what begins now takes over from the motion before it. The fades
-    /// of that one are still there, because a direct move leaves [`Cold`] alone until time passes.
+    /// Forgets a direct move that has begun at this very moment: what begins now takes over from the motion
+    /// before it. The fades of that one are still there, because a direct move leaves [`Cold`] alone until
+    /// time passes.
     fn take_back(&mut self, cold: &Cold) {
         if self.fresh && self.elapsed_secs == 0.0 {
             *self = Self { waits: false, sleeps: false, fresh: false, ..cold.before.clone() };

@@ -50,8 +50,8 @@ impl Path {
     }
 }
 
-/// `from + (target − from) · f(s)`, which in its last part is led to rest: transition functions may arrive at speed (linear) or
-/// jump at their end (step), but a face arrives at rest.
+/// `from + (target − from) · f(s)`, which in its last part is led to rest: transition functions may arrive at
+/// speed (linear) or jump at their end (step), but a face arrives at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Eased {
     pub(crate) from: f64,
@@ -69,8 +69,9 @@ impl Eased {
             return Jet::rest(self.target);
         }
         let rate = 1.0 / self.duration_secs;
-        // An infinite slope at the very start or end would meet a weight of 0 there, or one of a few ulps. The weights are of third
-        // order in time, so a billionth of a millisecond further in, the product is next to nothing.
+        // An infinite slope at the very start or end would meet a weight of 0 there, or one of a few ulps.
+        // The weights are of third order in time, so a billionth of a millisecond further in, the product is
+        // next to nothing.
         let curve = self.easing.at((age_secs * rate).clamp(1e-12, 1.0 - 1e-12));
         let rise = self.target - self.from;
         let along = Jet {
@@ -83,8 +84,9 @@ impl Eased {
         if left_secs >= landing_secs {
             return along;
         }
-        // The step backward in time, `1 − r(s) = r(1 − s)`: near its end, `1 − r(s)` would be made of rounding errors only, and some
-        // functions (the circle) have derivatives there that make something of them.
+        // The step backward in time, `1 − r(s) = r(1 − s)`: near its end, `1 − r(s)` would be made of
+        // rounding errors only, and some functions (the circle) have derivatives there that make something of
+        // them.
         let back = Jet::step(left_secs, landing_secs);
         let weight = Jet { velocity: -back.velocity, ..back };
         Jet::rest(self.target) + weight * (along - Jet::rest(self.target))
@@ -95,8 +97,9 @@ impl Eased {
 mod tests {
     use super::*;
 
-    /// Transition functions with infinite derivatives at an end meet a weight of nothing there, and not one of rounding errors: just after
-    /// the start the move has no weight yet (the fade into it takes care of that), and just before its end nothing moves any more.
+    /// Transition functions with infinite derivatives at an end meet a weight of nothing there, and not one
+    /// of rounding errors: just after the start the move has no weight yet (the fade into it takes care of
+    /// that), and just before its end nothing moves any more.
     #[test]
     fn landings_are_free_of_rounding() {
         for name in ["circ-in", "ease-in", "quint-in", "expo-in", "linear", "step"] {

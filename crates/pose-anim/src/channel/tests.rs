@@ -39,8 +39,8 @@ fn assert_same(before: Jet, after: Jet, what: &str) {
     assert!(within(before.acceleration, after.acceleration), "{what}: {before:?} {after:?}");
 }
 
-/// Far more presses than can be nested, of everything that can be inside a nest: nothing jumps at any of them, the nest is folded
-/// over and over, and every fold finds a way within the range.
+/// Far more presses than can be nested, of everything that can be inside a nest: nothing jumps at any of
+/// them, the nest is folded over and over, and every fold finds a way within the range.
 #[test]
 fn folds_keep_value_velocity_and_acceleration() {
     let (folds, fallbacks) = (FOLDS.get(), FALLBACKS.get());
@@ -130,8 +130,9 @@ fn a_clip_is_let_go_of_when_it_has_no_part_any_more() {
     }
 }
 
-/// Keys beyond the range and cubics that bulge out of it stay in range inside the channel, and so does all that becomes of
-/// them; a transition function that overshoots on purpose goes through to where the player decides.
+/// Keys beyond the range and cubics that bulge out of it stay in range inside the channel, and so does all
+/// that becomes of them; a transition function that overshoots on purpose goes through to where the player
+/// decides.
 #[test]
 fn clips_stay_in_range_unless_they_overshoot_on_purpose() {
     let steep = crate::Transition::Hermite { leaving: 60.0, arriving: -60.0 };

@@ -2,8 +2,8 @@ use super::{Clip, Key, LATEST_SECS, Track, Transition, Wrap};
 use crate::{ClipError, Easing};
 
 impl Track {
-    /// Makes the in-between at a time a key of its own, without changing the curve: exactly up to rounding, for every kind of
-    /// transition. Returns the key's index; where there is a key already, its index.
+    /// Makes the in-between at a time a key of its own, without changing the curve: exactly up to rounding,
+    /// for every kind of transition. Returns the key's index; where there is a key already, its index.
     ///
     /// # Errors
     /// A time below 0 or above 10⁶ s, or NaN.
@@ -205,8 +205,8 @@ impl Clip {
         self.tracks.iter_mut().for_each(|track| track.reverse(duration_secs));
     }
 
-    /// Puts another clip after the end of this one. Where their values differ, they jump; a control of which only the
-    /// second clip has a track has its first value from the start.
+    /// Puts another clip after the end of this one. Where their values differ, they jump; a control of which
+    /// only the second clip has a track has its first value from the start.
     ///
     /// # Errors
     /// Together they are longer than 10⁶ s; then nothing changes.
@@ -228,8 +228,8 @@ impl Clip {
         Ok(())
     }
 
-    /// The same motion from a time on: played from its start it does what this clip does from there, through all repetitions. A clip
-    /// that goes to and fro becomes one that repeats the way there and back.
+    /// The same motion from a time on: played from its start it does what this clip does from there, through
+    /// all repetitions. A clip that goes to and fro becomes one that repeats the way there and back.
     ///
     /// # Errors
     /// A time below 0 or above 10⁶ s, or NaN; a way there and back that is longer than 10⁶ s.

@@ -16,9 +16,10 @@ pub(crate) const LATEST_SECS: f64 = 1e6;
 pub enum Transition {
     /// `v_a + (v_b − v_a) · f(u)`, `u` the share of the span's time.
     Ease(Easing),
-    /// A piece of an eased span, from the share `from` to the share `to` of its time, where the whole would rise by `rise`:
-    /// what baking a key into such a span leaves on either side. It goes through its keys wherever they are moved:
-    /// `v_a + (v_b − v_a)·u + rise · (f(s) − f(from) − u·(f(to) − f(from)))`, `s = from + u·(to − from)`.
+    /// A piece of an eased span, from the share `from` to the share `to` of its time, where the whole would
+    /// rise by `rise`: what baking a key into such a span leaves on either side. It goes through its keys
+    /// wherever they are moved: `v_a + (v_b − v_a)·u + rise · (f(s) − f(from) − u·(f(to) − f(from)))`, `s =
+    /// from + u·(to − from)`.
     Part {
         /// The function of the whole.
         easing: Easing,
@@ -92,7 +93,8 @@ impl Key {
     }
 }
 
-/// The keys of one control, in order of time. Two keys may have one time: there the value jumps to the second.
+/// The keys of one control, in order of time. Two keys may have one time: there the value jumps to the
+/// second.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     control: usize,
@@ -209,11 +211,12 @@ impl Key {
 
 /// What follows the end of a clip.
 ///
-/// The seams are as smooth as the clip makes them. A loop goes on from its last values to its first ones, so where they differ the value
-/// jumps, and where they arrive and leave with different rates there is a corner. Ping-pong turns every rate round, so what arrives
-/// at speed (a straight span) turns in a corner. A track that ends before the clip does rests from its last key to the
-/// end of the repetition, at once, however fast it was. Equal first and last keys and spans that rest at both ends
-/// ([`Easing::MinimumJerk`]) make a seam that cannot be felt. Starting, stopping and interrupting is smooth whatever the seams are.
+/// The seams are as smooth as the clip makes them. A loop goes on from its last values to its first ones, so
+/// where they differ the value jumps, and where they arrive and leave with different rates there is a corner.
+/// Ping-pong turns every rate round, so what arrives at speed (a straight span) turns in a corner. A track
+/// that ends before the clip does rests from its last key to the end of the repetition, at once, however fast
+/// it was. Equal first and last keys and spans that rest at both ends ([`Easing::MinimumJerk`]) make a seam
+/// that cannot be felt. Starting, stopping and interrupting is smooth whatever the seams are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
     /// The last values stay. (In a player they come to rest smoothly, each from where its own track ends.)
@@ -276,7 +279,8 @@ impl Clip {
         Some(self.track_at(self.track(control)?, time_secs))
     }
 
-    /// Writes the values at a time into a slice of one value per control; those without a track stay as they are.
+    /// Writes the values at a time into a slice of one value per control; those without a track stay as they
+    /// are.
     pub fn sample(&self, time_secs: f64, values: &mut [f32]) {
         for track in &self.tracks {
             if let Some(value) = values.get_mut(track.control) {

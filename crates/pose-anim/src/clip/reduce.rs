@@ -19,8 +19,8 @@ pub struct Reduction {
 }
 
 impl Clip {
-    /// The size of the clip in a compact form: for each key its time and value as 32-bit numbers, a byte for the kind of transition,
-    /// and the transition's own numbers at 32 bits each.
+    /// The size of the clip in a compact form: for each key its time and value as 32-bit numbers, a byte for
+    /// the kind of transition, and the transition's own numbers at 32 bits each.
     pub fn byte_len(&self) -> usize {
         let numbers = |key: &Key| match key.transition {
             Transition::Ease(Easing::Bezier(_)) => 4,
@@ -31,14 +31,16 @@ impl Clip {
         self.tracks.iter().flat_map(Track::keys).map(|key| 9 + 4 * numbers(key)).sum()
     }
 
-    /// The same clip with as few keys as a greedy search finds, so that no control strays further than `bound(control)` at any time.
+    /// The same clip with as few keys as a greedy search finds, so that no control strays further than
+    /// `bound(control)` at any time.
     ///
-    /// From each key that is kept, the farthest later one is sought such that one span between them fits: a straight line, or else the
-    /// cubic through both whose slopes fit best in the least-squares sense (as in Schneider 1990, *An Algorithm for Automatically
-    /// Fitting Digitized Curves*, but over time, where the fit is linear). Spans with transition
-    /// functions stay what they are (they say much with little), and so do jumps. The bound holds between the keys as well: it is checked
-    /// at the extrema of the difference. No new span leaves the values between the track's lowest and its highest one, so
-    /// a clip that stays in the ranges of its controls still does.
+    /// From each key that is kept, the farthest later one is sought such that one span between them fits: a
+    /// straight line, or else the cubic through both whose slopes fit best in the least-squares sense (as in
+    /// Schneider 1990, *An Algorithm for Automatically Fitting Digitized Curves*, but over time, where the
+    /// fit is linear). Spans with transition functions stay what they are (they say much with little), and so
+    /// do jumps. The bound holds between the keys as well: it is checked at the extrema of the difference. No
+    /// new span leaves the values between the track's lowest and its highest one, so a clip that stays in the
+    /// ranges of its controls still does.
     ///
     /// # Errors
     /// A bound that is negative or NaN.
@@ -123,7 +125,8 @@ fn limits(keys: &[Key]) -> Range {
     })
 }
 
-/// One span from the first to the last of these keys that stays within the bound and the limits, with how far it strays.
+/// One span from the first to the last of these keys that stays within the bound and the limits, with how far
+/// it strays.
 fn fit(keys: &[Key], bound: f64, limits: Range) -> Option<(Transition, f64)> {
     let cubic = |pair: &[Key]| match pair[0].transition {
         Transition::Ease(Easing::Linear) | Transition::Hermite { .. } => {

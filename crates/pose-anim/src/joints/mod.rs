@@ -19,32 +19,37 @@ pub struct JointTarget {
     pub translation: Vec3,
 }
 
-/// Moves one joint's whole rotation and translation, for rigs that are posed by joints rather than by controls.
+/// Moves one joint's whole rotation and translation, for rigs that are posed by joints rather than by
+/// controls.
 ///
-/// The same promises as [`crate::Player`]'s: rotation, angular velocity and angular acceleration are continuous at every press,
-/// and so are the translation and its derivatives; both arrive exactly and at rest; time may be cut in any way.
+/// The same promises as [`crate::Player`]'s: rotation, angular velocity and angular acceleration are
+/// continuous at every press, and so are the translation and its derivatives; both arrive exactly and at
+/// rest; time may be cut in any way.
 ///
-/// A rotation has two quaternions, `q` and `−q`. The one that goes on without a jump is taken, all the way. So a joint arrives at the given
-/// quaternion or its negative, to the last bit; [`Self::local`] is the same for both. While it moves, the quaternion has length 1; at
-/// the end it has the length that was given, which is 1 up to the rounding of its single precision.
+/// A rotation has two quaternions, `q` and `−q`. The one that goes on without a jump is taken, all the way.
+/// So a joint arrives at the given quaternion or its negative, to the last bit; [`Self::local`] is the same
+/// for both. While it moves, the quaternion has length 1; at the end it has the length that was given, which
+/// is 1 up to the rounding of its single precision.
 ///
-/// The rotation is written relative to its target as a rotation vector, `q(t) = exp(ρ(t)/2) · q_target`. At a press, ρ and its first two
-/// derivatives follow from those of the running motion, taking the short way round, and each of its components goes to 0 by the
-/// move of least jerk. From rest this is the great arc, run through by minimum jerk.
+/// The rotation is written relative to its target as a rotation vector, `q(t) = exp(ρ(t)/2) · q_target`. At a
+/// press, ρ and its first two derivatives follow from those of the running motion, taking the short way
+/// round, and each of its components goes to 0 by the move of least jerk. From rest this is the great arc,
+/// run through by minimum jerk.
 ///
 /// # Overshoot
 ///
-/// A move that is much slower than the one that it interrupts would fly far past its target first. A control has a
-/// range that forbids it; a joint has none. So it keeps the time scale in which its speed arose, and a move that is
-/// more than 1.5 times slower than that first brakes the old speed within the old time, `b(t)`, and fades into the
-/// target meanwhile: `x(t) = (1 − r(t)) · b(t) + r(t) · target`, as controls do. Many presses in quick succession
-/// keep the time scale of the first of them.
+/// A move that is much slower than the one that it interrupts would fly far past its target first. A control
+/// has a range that forbids it; a joint has none. So it keeps the time scale in which its speed arose, and a
+/// move that is more than 1.5 times slower than that first brakes the old speed within the old time, `b(t)`,
+/// and fades into the target meanwhile: `x(t) = (1 − r(t)) · b(t) + r(t) · target`, as controls do. Many
+/// presses in quick succession keep the time scale of the first of them.
 ///
 /// There is a bound for any number of presses at any moments. Take all targets since the joint last rested,
-/// and the place where it rested. A coordinate of the translation leaves their span by no more than half its width,
-/// on either side. A component of the rotation vector, which is 0 at the target, stays within 1.5 times the largest
-/// angle that a target was away when it was pressed, which is π at most. For a direct move is taken only where it
-/// stays in that range, `b(t)` stays in it, and a mean of two places in a range is in the range.
+/// and the place where it rested. A coordinate of the translation leaves their span by no more than half its
+/// width, on either side. A component of the rotation vector, which is 0 at the target, stays within 1.5
+/// times the largest angle that a target was away when it was pressed, which is π at most. For a direct move
+/// is taken only where it stays in that range, `b(t)` stays in it, and a mean of two places in a range is in
+/// the range.
 #[derive(Clone, Debug)]
 pub struct JointPlayer {
     elapsed_secs: f64,
@@ -80,7 +85,8 @@ enum Way {
 }
 
 impl Way {
-    /// From `state` to `end`, both in the range, in `duration_secs`; `old_secs` is the time scale of the state's speed.
+    /// From `state` to `end`, both in the range, in `duration_secs`; `old_secs` is the time scale of the
+    /// state's speed.
     fn new(state: Jet, end: f64, duration_secs: f64, old_secs: f64, range: Range) -> Self {
         let direct = Quintic::new(state, end, duration_secs);
         if duration_secs <= DIRECT * old_secs && direct.stays_within(range.min, range.max) {
@@ -111,8 +117,8 @@ impl Way {
 }
 
 impl JointPlayer {
-    /// At rest. A rotation without length or with numbers that are not finite counts as none; a component of the translation that
-    /// is not finite as 0.
+    /// At rest. A rotation without length or with numbers that are not finite counts as none; a component of
+    /// the translation that is not finite as 0.
     pub fn new(at: JointTarget) -> Self {
         let (target, end) = unit(at.rotation).unwrap_or((DQuat::IDENTITY, Quat::IDENTITY));
         let place = at.translation.to_array().map(|at| if at.is_finite() { at.into() } else { 0.0 });
@@ -131,8 +137,9 @@ impl JointPlayer {
 
     /// Heads for a target, from now on, to arrive after `duration_secs` (0.001 to 3600; NaN counts as 0.001).
     ///
-    /// What is no target is passed over: a rotation without length or with numbers that are not finite, a component of the translation that
-    /// is not finite. There the former target stays, to be reached in the new time.
+    /// What is no target is passed over: a rotation without length or with numbers that are not finite, a
+    /// component of the translation that is not finite. There the former target stays, to be reached in the
+    /// new time.
     pub fn press(&mut self, target: JointTarget, duration_secs: f64) {
         let duration_secs = if duration_secs.is_nan() { 0.001 } else { duration_secs.clamp(0.001, 3600.0) };
         let rotation = self.rotation_jets();
@@ -195,8 +202,8 @@ impl JointPlayer {
         DVec3::from_array(self.translation_jets().map(|jet| jet.value))
     }
 
-    /// Angular velocity and acceleration, as vectors in the frame of the joint's parent, in radians per second and per second
-    /// squared.
+    /// Angular velocity and acceleration, as vectors in the frame of the joint's parent, in radians per
+    /// second and per second squared.
     pub fn angular_rates(&self) -> (DVec3, DVec3) {
         let jets = self.rotation_jets();
         let quat = |part: fn(&Jet) -> f64| {
@@ -245,8 +252,8 @@ impl JointPlayer {
     }
 }
 
-/// A rotation at length 1 in double precision, and as it is at rest: as it was given, if it has that length up to the rounding of its
-/// single precision. `None` if it is none.
+/// A rotation at length 1 in double precision, and as it is at rest: as it was given, if it has that length
+/// up to the rounding of its single precision. `None` if it is none.
 fn unit(rotation: Quat) -> Option<(DQuat, Quat)> {
     let precise = rotation.as_dquat();
     let length = precise.length();

@@ -5,7 +5,8 @@ use proptest::prelude::*;
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
-    /// However presses follow each other, the rotation vector keeps the bound of [`JointPlayer`], and every brake finds a way.
+    /// However presses follow each other, the rotation vector keeps the bound of [`JointPlayer`], and every
+    /// brake finds a way.
     #[test]
     fn rotations_keep_their_bound(
         first in 0.02f64..0.2,

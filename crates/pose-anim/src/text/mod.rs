@@ -1,4 +1,5 @@
-//! `controls.toml`, `poses.toml` and `clips.toml`: how they are read and written, and those of the default face.
+//! `controls.toml`, `poses.toml` and `clips.toml`: how they are read and written, and those of the default
+//! face.
 
 mod entries;
 mod controls;

@@ -13,14 +13,14 @@ impl PoseSet {
     /// Reads a `poses.toml`; its format is described at the top of [`DEFAULT_POSES_TOML`].
     ///
     /// # Errors
-    /// The first thing in the text that is not as it has to be, with its place: also a control that the table does
-    /// not have, a value out of its range, a name or key that occurs twice.
+    /// The first thing in the text that is not as it has to be, with its place: also a control that the table
+    /// does not have, a value out of its range, a name or key that occurs twice.
     pub fn from_toml(text: &str, controls: &ControlTable) -> Result<Self, TomlError> {
         read(text, controls)
     }
 
-    /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without those that
-    /// it lacks, and within its ranges.
+    /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without
+    /// those that it lacks, and within its ranges.
     pub fn default_face(controls: &ControlTable) -> Self {
         let face = ControlTable::default_face();
         // The text is part of the crate and a test reads it, so the error cannot happen.

@@ -19,8 +19,9 @@ const AXES: [(&str, Vec3); 6] = [
 ];
 
 impl ControlTable {
-    /// A text that [`ControlTable::from_toml`] reads as these controls and couplings; an axis that is none of the frame's own may come
-    /// back changed in its last digit. Names have to be fit for files: not empty, numbers within 1e9.
+    /// A text that [`ControlTable::from_toml`] reads as these controls and couplings; an axis that is none of
+    /// the frame's own may come back changed in its last digit. Names have to be fit for files: not empty,
+    /// numbers within 1e9.
     ///
     /// ```
     /// use pose_anim::ControlTable;
@@ -43,7 +44,8 @@ impl ControlTable {
 }
 
 impl PoseSet {
-    /// A text that [`PoseSet::from_toml`] reads as these poses, if their values are in the ranges of the controls.
+    /// A text that [`PoseSet::from_toml`] reads as these poses, if their values are in the ranges of the
+    /// controls.
     ///
     /// ```
     /// use pose_anim::{ControlTable, PoseSet};
@@ -61,12 +63,14 @@ impl PoseSet {
 }
 
 impl ClipSet {
-    /// A text that [`ClipSet::from_toml`] reads as these clips, if their values are numbers of 32 bits in the ranges of the controls.
+    /// A text that [`ClipSet::from_toml`] reads as these clips, if their values are numbers of 32 bits in the
+    /// ranges of the controls.
     ///
     /// ```
     /// use pose_anim::{Clip, ClipSet, ControlTable, Easing, Key, Track};
     /// let face = ControlTable::default_face();
-    /// let nod = Track::new(1, vec![Key::new(0.0, 2.0, Easing::MinimumJerk), Key::new(0.25, 8.5, Easing::Linear)])?;
+    /// let keys = vec![Key::new(0.0, 2.0, Easing::MinimumJerk), Key::new(0.25, 8.5, Easing::Linear)];
+/// let nod = Track::new(1, keys)?;
     /// let clips = ClipSet { clips: vec![Clip::new("nod", vec![nod])?] };
     /// assert_eq!(ClipSet::from_toml(&clips.to_toml(&face), &face)?, clips);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -4,9 +4,9 @@ use crate::easings;
 use crate::generate::{Random, pose, table};
 use pose_anim::{Easing, Jet, Player, Pose};
 
-/// Partial, weighted, delayed, eased presses, direct or as fades: of the last one that names a control, the arrival is the
-/// press + its delay + its duration (or, if it has none, the control's own for the distance) · its factor. Not before, and then bit for
-/// bit and at rest.
+/// Partial, weighted, delayed, eased presses, direct or as fades: of the last one that names a control, the
+/// arrival is the press + its delay + its duration (or, if it has none, the control's own for the distance) ·
+/// its factor. Not before, and then bit for bit and at rest.
 #[test]
 fn controls_arrive_when_their_pose_says() {
     let table = table();

@@ -115,7 +115,8 @@ impl Stage {
         secs
     }
 
-    /// The controls, then the joint's translation, then its rotation in place of a value with its angular rates.
+    /// The controls, then the joint's translation, then its rotation in place of a value with its angular
+    /// rates.
     pub(crate) fn states(&self) -> Vec<Jet> {
         let jet = |value, velocity, acceleration| Jet { value, velocity, acceleration };
         let mut states: Vec<_> =
@@ -171,7 +172,8 @@ pub(crate) fn clip(random: &mut Random, table: &ControlTable) -> Clip {
         let keys = match (random.below(4), wrap) {
             (0, _) => continue,
             (1, Wrap::Once) => {
-                // Monotone, so that it stays in range; it arrives with a slope, but not at the end of the range.
+                // Monotone, so that it stays in range; it arrives with a slope, but not at the end of the
+                // range.
                 let end = 0.9 * end + 0.1 * f64::from(0.5 * (control.min + control.max));
                 let arriving = 1.5 * (end - start) / end_secs;
                 let transition = Transition::Hermite { leaving: 0.3 * arriving, arriving };
@@ -215,7 +217,8 @@ pub(crate) fn pose(random: &mut Random, table: &ControlTable, transitions: &[Eas
     pose
 }
 
-/// One to eight events, sorted. A third of the scripts leaves the layers alone, so that the base shows as it is.
+/// One to eight events, sorted. A third of the scripts leaves the layers alone, so that the base shows as it
+/// is.
 pub(crate) fn script(random: &mut Random, table: &ControlTable, transitions: &[Easing]) -> Vec<Event> {
     let count = 1 + random.below(8);
     // Half of the scripts are hectic: everything within a tenth of a second.

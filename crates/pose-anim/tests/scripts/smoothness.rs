@@ -12,9 +12,10 @@ const STEP_SECS: f64 = 1e-4;
 
 /// The velocity integrates to the value and the acceleration to the velocity, through all interruptions.
 ///
-/// With `j` the changes of the acceleration in the steps around, which are `dt` times the local jerk: the acceleration changes
-/// by no more than about `j`, and the trapezoid rule errs by about `dt · j / 12` in the velocity and `dt² · j / 12` in the value. A jump of
-/// acceleration or velocity in one step has no such neighbours. All is in units of the control's range.
+/// With `j` the changes of the acceleration in the steps around, which are `dt` times the local jerk: the
+/// acceleration changes by no more than about `j`, and the trapezoid rule errs by about `dt · j / 12` in the
+/// velocity and `dt² · j / 12` in the value. A jump of acceleration or velocity in one step has no such
+/// neighbours. All is in units of the control's range.
 fn failures(states: &[Vec<Jet>], index: usize, width: f64, is_value: bool) -> Vec<String> {
     let series: Vec<[f64; 3]> =
         states.iter().map(|states| parts(&states[index]).map(|part| part / width)).collect();

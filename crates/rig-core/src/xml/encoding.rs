@@ -1,8 +1,8 @@
 use crate::{Place, XmlError, XmlProblem};
 use std::borrow::Cow;
 
-/// Bytes to text: UTF-8 with or without a byte-order mark, UTF-16 with one, and Latin-1 where the declaration says
-/// so (older exporters on German systems write it).
+/// Bytes to text: UTF-8 with or without a byte-order mark, UTF-16 with one, and Latin-1 where the declaration
+/// says so (older exporters on German systems write it).
 pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, XmlError> {
     match bytes {
         [0xEF, 0xBB, 0xBF, rest @ ..] => utf8(rest, 3),

@@ -73,7 +73,8 @@ impl Parser<'_> {
                     finished = false;
                 }
                 Event::End(_) => finished = self.end()?,
-                // Raw text, not `xml10_content()`: dropping the CR of each CRLF would move every place behind it.
+                // Raw text, not `xml10_content()`: dropping the CR of each CRLF would move every place behind
+                // it.
                 Event::Text(piece) => self.piece(&piece, at, finished)?,
                 Event::CData(piece) => self.piece(&piece, at + "<![CDATA[".len(), finished)?,
                 Event::GeneralRef(name) => {

@@ -37,8 +37,8 @@ pub(super) fn write(raw: &RawRig) -> Result<String, RigError> {
     Ok(out)
 }
 
-/// Closes joints (and their lists of children) until `depth` joints are open. The list that stays open at `depth`
-/// takes the next joint.
+/// Closes joints (and their lists of children) until `depth` joints are open. The list that stays open at
+/// `depth` takes the next joint.
 fn close(out: &mut String, open: usize, depth: usize) {
     for level in (depth..open).rev() {
         if level + 1 < open {
@@ -64,8 +64,8 @@ fn start(out: &mut String, joint: &RawJoint, depth: usize) {
     let _ = writeln!(out, "{:indent$}  </Matrix>", "");
 }
 
-/// An attribute's value: a reader turns raw line breaks and tabs into spaces, so they are written as references.
-/// (`escape` itself sees to the carriage return.)
+/// An attribute's value: a reader turns raw line breaks and tabs into spaces, so they are written as
+/// references. (`escape` itself sees to the carriage return.)
 fn escaped(name: &str) -> String {
     quick_xml::escape::escape(name).replace('\n', "&#10;").replace('\t', "&#9;")
 }

@@ -1,4 +1,5 @@
-//! Damaged and lying files: an error with a place or a scene that can be posed, never a panic, in little time.
+//! Damaged and lying files: an error with a place or a scene that can be posed, never a panic, in little
+//! time.
 
 use crate::support::data::shared_data;
 use crate::support::gltf::{Builder, floats, glb, one_primitive, read};
@@ -48,7 +49,8 @@ fn survives(bytes: &[u8], resolve: &mut avatar_exchange::Resolve<'_>) -> bool {
     }
 }
 
-/// A GLB with everything: hierarchy, skin, targets (one sparse), clips of all kinds, a material with an image.
+/// A GLB with everything: hierarchy, skin, targets (one sparse), clips of all kinds, a material with an
+/// image.
 fn small_sample() -> Vec<u8> {
     let mut file = Builder::default();
     let position = file.triangle();

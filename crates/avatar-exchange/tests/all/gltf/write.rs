@@ -85,7 +85,8 @@ fn difference(a: &Scene, b: &Scene, compared: Compared) -> f64 {
     }
     for (of_a, of_b) in poses {
         let bones = (a.bones(&of_a), b.bones(&of_b));
-        // Sums round by their largest terms: in a chain of nodes these may be far larger than where vertices end.
+        // Sums round by their largest terms: in a chain of nodes these may be far larger than where vertices
+        // end.
         let worlds = a.worlds(&of_a).into_iter().flat_map(|world| world.to_cols_array());
         let entries = worlds.map(|x| x as f32).chain(bones.0.iter().flat_map(Affine3A::to_cols_array));
         let of_matrices = entries.fold(1.0f32, |most, x| most.max(x.abs()));

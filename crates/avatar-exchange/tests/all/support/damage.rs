@@ -28,7 +28,8 @@ pub(crate) fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     found
 }
 
-/// Reads bytes of any kind: a scene that can be posed at rest and in its clips, or an error with its place, in time.
+/// Reads bytes of any kind: a scene that can be posed at rest and in its clips, or an error with its place,
+/// in time.
 pub(crate) fn read_any(
     read: impl Fn(&str, &[u8]) -> Result<Scene, ImportError>,
     name: &str,
@@ -65,7 +66,8 @@ pub(crate) fn read_any(
     result
 }
 
-/// Cuts and flips, most of which a reader must refuse, and none of which may harm it. Returns how many it took.
+/// Cuts and flips, most of which a reader must refuse, and none of which may harm it. Returns how many it
+/// took.
 pub(crate) fn damage(read: Read, name: &str, bytes: &[u8], flips: usize) -> usize {
     let mut loaded = 0;
     for end in (0..bytes.len()).step_by(64) {

@@ -3,15 +3,15 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A file or folder of the data beside the workspace (`../shared/data`). Where it is missing, that is said on the terminal,
-/// past the capturing of tests' output, or it is a failure where `MIMIK_REQUIRE_DATA` is set.
+/// A file or folder of the data beside the workspace (`../shared/data`). Where it is missing, that is said on
+/// the terminal, past the capturing of tests' output, or it is a failure where `MIMIK_REQUIRE_DATA` is set.
 pub fn shared_data(path: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(path);
     there(path, std::env::var_os("MIMIK_REQUIRE_DATA").is_some())
 }
 
-/// A folder of the Open Asset Import Library's test models, as Debian packages them: `assimp-testmodels`. Who names a
-/// folder in `MIMIK_ASSIMP_MODELS` wants it read.
+/// A folder of the Open Asset Import Library's test models, as Debian packages them: `assimp-testmodels`. Who
+/// names a folder in `MIMIK_ASSIMP_MODELS` wants it read.
 pub fn models(folder: &str) -> Option<PathBuf> {
     let named = std::env::var_os("MIMIK_ASSIMP_MODELS");
     let must_be_there = named.is_some();

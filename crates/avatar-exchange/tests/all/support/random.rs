@@ -250,8 +250,8 @@ fn channel(r: &mut Random, node: usize, target: ChannelTarget, weights: usize) -
     Channel { node, target, interpolation, times, values }
 }
 
-/// A valid scene with what glTF has no word for, or forbids. The first texture coordinate of a part tells which one it is:
-/// parts that get nodes of their own come last.
+/// A valid scene with what glTF has no word for, or forbids. The first texture coordinate of a part tells
+/// which one it is: parts that get nodes of their own come last.
 pub fn awkward(seed: u64) -> RawScene {
     let mut r = Random(seed ^ 0x5eed);
     let mut scene = scene(seed);

@@ -66,8 +66,8 @@ impl Random {
     }
 }
 
-/// Reads a good file cut after every 64th byte, with flipped bits, and with numbers that lie. Returns how many of the
-/// damaged files were told to be so.
+/// Reads a good file cut after every 64th byte, with flipped bits, and with numbers that lie. Returns how
+/// many of the damaged files were told to be so.
 pub(crate) fn survives_damage(good: &[u8], read: impl Fn(&[u8]) -> Result<Scene, ImportError>) -> usize {
     let start = Instant::now();
     read(good).expect("the undamaged file");
