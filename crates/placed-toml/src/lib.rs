@@ -3,8 +3,8 @@
 //! place of a value that has the right type but a wrong content.
 //!
 //! ```text
-//!  text ──Document::parse──▶ Document ──root──▶ Table ──take, require, finish──▶ Entry ──number, string …──▶ values
-//!                                                └──read_fields(FIELDS)──▶ a struct's numbers, by a table of keys
+//!  text ──Document::parse──▶ Document ──root──▶ Table ──take, require, finish──▶ Entry ──number …──▶ values
+//!                                                └──read_fields(FIELDS)──▶ a struct's numbers, by its keys
 //! ```
 //!
 //! ```

@@ -70,7 +70,7 @@ impl ClipSet {
     /// use pose_anim::{Clip, ClipSet, ControlTable, Easing, Key, Track};
     /// let face = ControlTable::default_face();
     /// let keys = vec![Key::new(0.0, 2.0, Easing::MinimumJerk), Key::new(0.25, 8.5, Easing::Linear)];
-/// let nod = Track::new(1, keys)?;
+    /// let nod = Track::new(1, keys)?;
     /// let clips = ClipSet { clips: vec![Clip::new("nod", vec![nod])?] };
     /// assert_eq!(ClipSet::from_toml(&clips.to_toml(&face), &face)?, clips);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
