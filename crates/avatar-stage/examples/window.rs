@@ -3,24 +3,17 @@
 #![allow(clippy::disallowed_methods, reason = "an example is a program: it has a clock")]
 
 use avatar_stage::avatar_pack::{Pack, Textures};
-use avatar_stage::avatar_render::{
-    AvatarModel, AvatarState, Quality, Renderer, RendererConfig, Style, Targets,
-};
+use avatar_stage::avatar_render::{AvatarModel, AvatarState, Renderer, Shading, Targets};
+use avatar_stage::avatar_render::{Quality, RendererConfig, Style};
 use avatar_stage::{DefaultFace, Performer, SAMPLES, portrait, upload, wgpu};
-use std::error::Error;
-use std::sync::Arc;
-use std::time::Instant;
+use std::{error::Error, sync::Arc, time::Instant};
 use winit::application::ApplicationHandler;
 use winit::event::{KeyEvent, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoop};
 use winit::keyboard::Key;
 use winit::window::{Window, WindowId};
 
-struct App {
-    face: Performer,
-    drawn: Instant,
-    stage: Option<Stage>,
-}
+type Done<T = ()> = Result<T, Box<dyn Error>>;
 
 /// What draws in the window.
 struct Stage {
@@ -36,8 +29,8 @@ struct Stage {
 }
 
 impl Stage {
-    fn open(event_loop: &ActiveEventLoop, pack: &Pack) -> Result<Self, Box<dyn Error>> {
-        let window = Arc::new(event_loop.create_window(Window::default_attributes().with_title("A face"))?);
+    fn open(window: Window, pack: &Pack) -> Done<Self> {
+        let window = Arc::new(window);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let surface = instance.create_surface(Arc::clone(&window))?;
         let options =
@@ -45,7 +38,7 @@ impl Stage {
         let adapter = pollster::block_on(instance.request_adapter(&options))?;
         let (device, queue) = pollster::block_on(adapter.request_device(&Default::default()))?;
         let config = surface.get_default_config(&adapter, 1, 1).ok_or("expected a surface to draw on")?;
-        let shading = Quality::of_adapter(&adapter.get_info()).shading(Style::Natural);
+        let shading: Shading = Quality::of_adapter(&adapter.get_info()).shading(Style::Natural);
         let drawn = RendererConfig { color_format: config.format, samples: SAMPLES, shading };
         let renderer = Renderer::new(&device, &queue, drawn)?;
         let model = upload(&device, &queue, pack, &Textures::load(&DefaultFace))?;
@@ -53,20 +46,17 @@ impl Stage {
         Ok(Self { window, surface, config, device, queue, renderer, targets: None, model, avatar })
     }
 
-    fn resize(&mut self, width: u32, height: u32) -> Result<(), Box<dyn Error>> {
+    fn resize(&mut self, width: u32, height: u32) -> Done {
         (self.config.width, self.config.height) = (width.max(1), height.max(1));
         self.surface.configure(&self.device, &self.config);
         self.targets = Some(Targets::new(&self.device, &self.renderer, width.max(1), height.max(1))?);
         Ok(())
     }
 
-    fn draw(&mut self, face: &Performer) -> Result<(), Box<dyn Error>> {
+    fn draw(&mut self, face: &Performer) -> Done {
         use wgpu::CurrentSurfaceTexture::{Suboptimal, Success};
-        let (Some(targets), Success(frame) | Suboptimal(frame)) =
-            (&self.targets, self.surface.get_current_texture())
-        else {
-            return Ok(()); // not ready: another frame will do
-        };
+        let Some(targets) = &self.targets else { return Ok(()) };
+        let (Success(frame) | Suboptimal(frame)) = self.surface.get_current_texture() else { return Ok(()) };
         self.avatar.set(&self.queue, face.bones(), face.weights())?;
         let scene = portrait(face.pack(), self.config.width as f32 / self.config.height as f32);
         let view = frame.texture.create_view(&Default::default());
@@ -79,8 +69,14 @@ impl Stage {
     }
 }
 
+struct App {
+    face: Performer,
+    drawn: Instant,
+    stage: Option<Stage>,
+}
+
 impl App {
-    fn event(&mut self, event_loop: &ActiveEventLoop, event: WindowEvent) -> Result<(), Box<dyn Error>> {
+    fn event(&mut self, event_loop: &ActiveEventLoop, event: WindowEvent) -> Done {
         let Some(stage) = &mut self.stage else { return Ok(()) };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
@@ -106,10 +102,9 @@ impl App {
 
 impl ApplicationHandler for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        self.stage = Stage::open(event_loop, self.face.pack()).inspect_err(|error| eprintln!("{error}")).ok();
-        if self.stage.is_none() {
-            event_loop.exit();
-        }
+        let window = event_loop.create_window(Window::default_attributes().with_title("A face"));
+        let opened = window.map_err(Into::into).and_then(|window| Stage::open(window, self.face.pack()));
+        self.stage = opened.inspect_err(|error| eprintln!("{error}")).ok();
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
@@ -120,8 +115,7 @@ impl ApplicationHandler for App {
     }
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Done {
     let face = Performer::new(Pack::load(&DefaultFace)?);
-    let mut app = App { face, drawn: Instant::now(), stage: None };
-    Ok(EventLoop::new()?.run_app(&mut app)?)
+    Ok(EventLoop::new()?.run_app(&mut App { face, drawn: Instant::now(), stage: None })?)
 }

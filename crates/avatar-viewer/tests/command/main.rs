@@ -12,3 +12,4 @@ mod import;
 mod look;
 mod record;
 mod snapshots;
+mod stage;
