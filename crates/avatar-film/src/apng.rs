@@ -7,8 +7,8 @@ const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
 
 /// Animated PNG (PNG, third edition): of each frame the rectangle that changed, to the bit.
 ///
-/// The crate `png` compresses; the chunks around it are written here, because it wants to know beforehand how many frames there
-/// will be.
+/// The crate `png` compresses; the chunks around it are written here, because it wants to know beforehand how
+/// many frames there will be.
 pub(crate) struct ApngFilm<W: Write + Seek> {
     sink: W,
     width: usize,

@@ -16,8 +16,8 @@ impl Region {
     }
 }
 
-/// The smallest rectangle outside of which two RGBA pictures agree; one pixel where they are the same, since a frame has to
-/// show something.
+/// The smallest rectangle outside of which two RGBA pictures agree; one pixel where they are the same, since
+/// a frame has to show something.
 pub(crate) fn changed(before: &[u8], after: &[u8], width: usize) -> Region {
     let rows = || before.chunks_exact(width * 4).zip(after.chunks_exact(width * 4));
     let differs = |(a, b): (&[u8], &[u8])| a != b;

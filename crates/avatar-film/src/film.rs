@@ -6,7 +6,8 @@ use crate::{FilmError, Format, Rate};
 use std::fmt;
 use std::io::{Seek, Write};
 
-/// A film that is being written. It is not one before [`Self::finish`]; what was written till then can be thrown away.
+/// A film that is being written. It is not one before [`Self::finish`]; what was written till then can be
+/// thrown away.
 pub struct Film<W: Write + Seek> {
     frame_bytes: usize,
     frames: u64,
@@ -53,7 +54,8 @@ impl<W: Write + Seek> Film<W> {
     /// Shows this frame next.
     ///
     /// # Errors
-    /// Not `width · height · 4` bytes, then the film can go on; an encoder or a sink that fails, then it cannot.
+    /// Not `width · height · 4` bytes, then the film can go on; an encoder or a sink that fails, then it
+    /// cannot.
     pub fn push(&mut self, rgba: &[u8]) -> Result<(), FilmError> {
         if rgba.len() != self.frame_bytes {
             return Err(FilmError::Frame { expected: self.frame_bytes, found: rgba.len() });

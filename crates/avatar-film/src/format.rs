@@ -44,7 +44,8 @@ impl Format {
     /// Whether the format holds frames of this size at this rate.
     ///
     /// # Errors
-    /// No pixels; GIF: a side beyond 65535, or more than 50 frames per second; MP4: more than 3840x2160, either way round.
+    /// No pixels; GIF: a side beyond 65535, or more than 50 frames per second; MP4: more than 3840x2160,
+    /// either way round.
     pub fn check(self, width: u32, height: u32, rate: Rate) -> Result<(), FilmError> {
         let largest = self.largest();
         if width.min(height) == 0 || width.max(height) > largest.0 || width.min(height) > largest.1 {
@@ -70,7 +71,8 @@ impl Format {
     /// The most frames per second, where there is a limit below [`Rate::FASTEST`].
     pub(crate) const fn fastest(self) -> Option<u32> {
         match self {
-            // Delays are hundredths of a second, and programs that show GIFs take less than two of them for ten.
+            // Delays are hundredths of a second, and programs that show GIFs take less than two of them for
+            // ten.
             Self::Gif => Some(50),
             Self::Apng => None,
             #[cfg(feature = "mp4")]

@@ -88,8 +88,8 @@ impl<W: Write> GifFilm<W> {
         Ok(())
     }
 
-    /// Hundredths of a second that the next frame stays: what is missing from the rounded beginning of the frame after it, so
-    /// that rounding never adds up.
+    /// Hundredths of a second that the next frame stays: what is missing from the rounded beginning of the
+    /// frame after it, so that rounding never adds up.
     fn delay(&self) -> u16 {
         let (frames, secs) = (u64::from(self.rate.frames()), u64::from(self.rate.secs()));
         let begin = |frame: u64| (200 * frame * secs + frames) / (2 * frames);

@@ -6,8 +6,10 @@
 //!
 //! # Conventions
 //!
-//! - A frame is `width · height` pixels of four bytes, rows from top to bottom: red, green, blue in sRGB and straight alpha.
-//! - Frame k is shown from `k / rate` on ([`Rate`] is a fraction, so nothing drifts), and a film of n frames lasts `n / rate`.
+//! - A frame is `width · height` pixels of four bytes, rows from top to bottom: red, green, blue in sRGB and
+//!   straight alpha.
+//! - Frame k is shown from `k / rate` on ([`Rate`] is a fraction, so nothing drifts), and a film of n frames
+//!   lasts `n / rate`.
 //! - The same frames give the same bytes.
 //!
 //! # Example
@@ -24,7 +26,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What each format keeps of a frame, and what it costs, is told in `docs/films.md`. This crate knows no files, no clock and no threads.
+//! What each format keeps of a frame, and what it costs, is told in `docs/films.md`. This crate knows no
+//! files, no clock and no threads.
 
 mod apng;
 mod changed;

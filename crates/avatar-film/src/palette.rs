@@ -57,7 +57,8 @@ impl Palette {
     }
 }
 
-/// Of colours that are alike only about the square root of how many there are: else the skin would leave no entries to the eyes.
+/// Of colours that are alike only about the square root of how many there are: else the skin would leave no
+/// entries to the eyes.
 fn evened(pixels: &[Color]) -> Vec<Color> {
     let mut alike: BTreeMap<Color, Vec<Color>> = BTreeMap::new();
     for pixel in pixels {

@@ -1,8 +1,8 @@
 use crate::{FilmError, Format};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError};
 
-/// A picture as the bytes of a PNG, with texts as pairs of a keyword and any Unicode (`iTXt`). The keyword is 1 to 79 Latin
-/// letters; `Title`, `Description` and `Software` are among those that other programs know.
+/// A picture as the bytes of a PNG, with texts as pairs of a keyword and any Unicode (`iTXt`). The keyword is
+/// 1 to 79 Latin letters; `Title`, `Description` and `Software` are among those that other programs know.
 ///
 /// # Errors
 /// Not `width · height · 4` bytes, no pixels, or a keyword that is none.
@@ -41,8 +41,8 @@ pub(crate) fn failed(error: EncodingError) -> FilmError {
     }
 }
 
-/// Name of a frame's file among `frames`, counted from 0: as many digits as the last one needs, at least four, so that names sort
-/// as frames do.
+/// Name of a frame's file among `frames`, counted from 0: as many digits as the last one needs, at least
+/// four, so that names sort as frames do.
 pub fn frame_name(frame: u64, frames: u64) -> String {
     let digits = frames.saturating_sub(1).checked_ilog10().map_or(1, |log| log as usize + 1).max(4);
     format!("{frame:0digits$}.png")

@@ -18,7 +18,8 @@ impl Rate {
     /// So many frames in so many seconds.
     ///
     /// # Errors
-    /// A rate outside of [`Self::SLOWEST`] to [`Self::FASTEST`], or one that is no fraction of two 16-bit numbers.
+    /// A rate outside of [`Self::SLOWEST`] to [`Self::FASTEST`], or one that is no fraction of two 16-bit
+    /// numbers.
     pub fn new(frames: u32, secs: u32) -> Result<Self, RateError> {
         let error = || RateError { found: format!("{frames}/{secs}") };
         let divisor = gcd(frames, secs);

@@ -1,4 +1,5 @@
-//! From sRGB to what video is made of: ITU-R BT.709, luma from 16 to 235 and chroma from 16 to 240, chroma at half the resolution.
+//! From sRGB to what video is made of: ITU-R BT.709, luma from 16 to 235 and chroma from 16 to 240, chroma at
+//! half the resolution.
 
 /// Weights of red, green and blue in luma.
 const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
@@ -6,7 +7,8 @@ const LUMA: [f32; 3] = [0.2126, 0.7152, 0.0722];
 /// Smaller pictures are not encoded.
 const SMALLEST_SIDE: usize = 16;
 
-/// Planes of a picture with even sides of at least 16 pixels; what is missing repeats the last column and row.
+/// Planes of a picture with even sides of at least 16 pixels; what is missing repeats the last column and
+/// row.
 pub(crate) struct Planes {
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -88,7 +90,8 @@ mod tests {
 
     #[test]
     fn colours_have_the_codes_of_the_recommendation() {
-        // 8-bit codes of the bars of 100 %, as BT.709 defines them: white, yellow, cyan, green, magenta, red, blue, black.
+        // 8-bit codes of the bars of 100 %, as BT.709 defines them: white, yellow, cyan, green, magenta, red,
+        // blue, black.
         let bars = [
             ([255, 255, 255], [235, 128, 128]),
             ([255, 255, 0], [219, 16, 138]),

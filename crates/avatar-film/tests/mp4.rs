@@ -107,8 +107,9 @@ fn the_colours_are_tagged() {
     let bytes = film(Format::Mp4, &frames(32, 32, 1, false), 32, 32, Rate::new(25, 1).expect("a rate"));
     let reader = Mp4Reader::read_header(Cursor::new(&bytes), bytes.len() as u64).expect("an MP4");
     let sps = reader.tracks()[&1].sequence_parameter_set().expect("a set");
-    // In the SPS's usability information (H.264, E.1.1): a video of no certain format (5), limited range (0), with a description
-    // of colours (1): BT.709's primaries (1), sRGB's transfer (13), BT.709's matrix (1). It may begin at any bit.
+    // In the SPS's usability information (H.264, E.1.1): a video of no certain format (5), limited range (0),
+    // with a description of colours (1): BT.709's primaries (1), sRGB's transfer (13), BT.709's matrix (1).
+    // It may begin at any bit.
     let wanted = [true, false, true, false, true].into_iter().chain([1u8, 13, 1].into_iter().flat_map(bits));
     let wanted: Vec<bool> = wanted.collect();
     let found: Vec<bool> = sps.iter().copied().flat_map(bits).collect();

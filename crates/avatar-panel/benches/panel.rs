@@ -19,7 +19,8 @@ fn shapes(count: usize) -> ControlTable {
     ControlTable::new(controls.collect()).expect("a good table")
 }
 
-/// Shows the panel of 1280 × 720 points while the first of its controls moves; the number of triangles at the end.
+/// Shows the panel of 1280 × 720 points while the first of its controls moves; the number of triangles at the
+/// end.
 fn frames(bencher: Bencher, controls: &ControlTable, state: PanelState) {
     let poses = PoseSet::default_face(controls);
     let mut values = controls.defaults();

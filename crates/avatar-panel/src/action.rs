@@ -1,10 +1,11 @@
 use crate::{PoseForm, Theme};
 use pose_anim::{Easing, Wrap};
 
-/// What the user wants. The panel changes nothing by itself but its own [`crate::PanelState`]: whoever shows it carries actions out, in
-/// their order, and shows what came of it in the next [`crate::Model`].
+/// What the user wants. The panel changes nothing by itself but its own [`crate::PanelState`]: whoever shows
+/// it carries actions out, in their order, and shows what came of it in the next [`crate::Model`].
 ///
-/// Indices are those of the model that was shown. Times are seconds, values those of the control: degrees, units of the rig or weights.
+/// Indices are those of the model that was shown. Times are seconds, values those of the control: degrees,
+/// units of the rig or weights.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     /// Gives a control a value within its range.
@@ -13,7 +14,8 @@ pub enum Action {
         control: usize,
         /// Its new value.
         value: f32,
-        /// Whether more of the same change is to come: the pointer still holds the slider. A change by keyboard comes as a whole.
+        /// Whether more of the same change is to come: the pointer still holds the slider. A change by
+        /// keyboard comes as a whole.
         dragging: bool,
     },
     /// Takes a control back to its default.
@@ -122,7 +124,8 @@ pub enum Edit {
         /// What follows.
         wrap: Wrap,
     },
-    /// Bakes the in-between at a time into a key; where the control has no track, the present value begins one.
+    /// Bakes the in-between at a time into a key; where the control has no track, the present value begins
+    /// one.
     InsertKey {
         /// Index of the clip.
         clip: usize,

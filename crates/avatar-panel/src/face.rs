@@ -85,7 +85,8 @@ impl Face {
         ui.horizontal(|ui| {
             const RESET: f32 = 72.0;
             let (height, gap) = (ui.spacing().interact_size.y, ui.spacing().item_spacing.x);
-            // What is typed now changes the row in the next frame: wider than the room it was given, it would widen the panel for good.
+            // What is typed now changes the row in the next frame: wider than the room it was given, it would
+            // widen the panel for good.
             let has_cross = !self.query.is_empty();
             let clear = if has_cross { height + gap } else { 0.0 };
             let width = (ui.available_width() - RESET - gap - clear).max(30.0);

@@ -7,9 +7,10 @@
 //!                        PanelState: what is remembered from run to run
 //! ```
 //!
-//! The panel is drawn with [`egui`] into whatever root [`egui::Ui`] it is given. It changes nothing: it shows a [`Model`] and returns
-//! [`Action`]s, which the caller carries out and shows in the next frame's model. So it knows no window, no GPU, no files and
-//! no clock, and can be tested without any of them.
+//! The panel is drawn with [`egui`] into whatever root [`egui::Ui`] it is given. It changes nothing: it shows
+//! a [`Model`] and returns
+//! [`Action`]s, which the caller carries out and shows in the next frame's model. So it knows no window, no
+//! GPU, no files and no clock, and can be tested without any of them.
 //!
 //! # Example
 //!
@@ -43,9 +44,12 @@
 //!
 //! # For who wires it to a window
 //!
-//! - Every frame: fill a model, call [`Panel::show`], carry the actions out in order, draw the face within the returned rectangle.
-//! - The pointer is the panel's while [`egui::Context::egui_wants_pointer_input`], keys are where [`Panel::takes_key`] says so.
-//! - F1 and ? (where [`Model::help_keys`] has them) and Escape open and close the help by themselves: forward them, and do not call [`Panel::toggle_help`] for them, too.
+//! - Every frame: fill a model, call [`Panel::show`], carry the actions out in order, draw the face within
+//!   the returned rectangle.
+//! - The pointer is the panel's while [`egui::Context::egui_wants_pointer_input`], keys are where
+//!   [`Panel::takes_key`] says so.
+//! - F1 and ? (where [`Model::help_keys`] has them) and Escape open and close the help by themselves: forward
+//!   them, and do not call [`Panel::toggle_help`] for them, too.
 //! - Scaling text scales points: [`egui::Context::pixels_per_point`] follows.
 //! - Everything has a name for screen readers; forward AccessKit's events and trees to have them read.
 

@@ -5,14 +5,16 @@ use pose_anim::{Clip, ControlTable, PoseSet};
 pub struct Model<'a> {
     /// The face's controls.
     pub controls: &'a ControlTable,
-    /// One value per control: where the face is heading, so that a slider does not run away from the pointer that holds it.
+    /// One value per control: where the face is heading, so that a slider does not run away from the pointer
+    /// that holds it.
     pub values: &'a [f32],
     /// Controls that move the part of the picture under the pointer.
     pub highlighted: &'a [usize],
 
     /// The poses.
     pub poses: &'a PoseSet,
-    /// A picture of each pose; what is missing is shown as none yet. With no picture at all the poses are a list.
+    /// A picture of each pose; what is missing is shown as none yet. With no picture at all the poses are a
+    /// list.
     pub thumbnails: &'a [Option<egui::TextureId>],
     /// The pose that the face has or heads for.
     pub active_pose: Option<usize>,
@@ -41,7 +43,8 @@ pub struct Model<'a> {
 
     /// All keys of the program in the order of their groups, for the help.
     pub keys: &'a [KeyRow<'a>],
-    /// What opens and closes the help: `F1` and `?` are heard by the panel itself where they are among these, others are the program's.
+    /// What opens and closes the help: `F1` and `?` are heard by the panel itself where they are among these,
+    /// others are the program's.
     pub help_keys: &'a [&'a str],
     /// Names of keys that no pose can have, because the program uses them.
     pub reserved_keys: &'a [&'a str],
@@ -64,7 +67,8 @@ pub struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// A face with its controls and poses, and nothing else: no values (each control shows its default), no clips, no keys.
+    /// A face with its controls and poses, and nothing else: no values (each control shows its default), no
+    /// clips, no keys.
     pub const fn new(controls: &'a ControlTable, poses: &'a PoseSet) -> Self {
         Self {
             controls,

@@ -6,7 +6,8 @@ use egui::{Label, Panel, ProgressBar, RichText, ScrollArea, Ui};
 
 pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
     if model.messages.is_empty() && model.loading.is_none() && model.film.is_none() {
-        // What is shown after this counts what is shown before it: a message must not take the keyboard from a field of text.
+        // What is shown after this counts what is shown before it: a message must not take the keyboard from
+        // a field of text.
         ui.skip_ahead_auto_ids(1);
         return;
     }

@@ -4,7 +4,8 @@ use crate::style::{self, palette};
 use crate::{PanelState, Stats};
 use egui::{Align2, Area, Context, Id, Order, Rect, RichText, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-/// The highest frame time of the graph in milliseconds, and the lines in it: 120, 60 and 30 frames per second.
+/// The highest frame time of the graph in milliseconds, and the lines in it: 120, 60 and 30 frames per
+/// second.
 const GRAPH_MS: f32 = 50.0;
 const LINES_MS: [f32; 3] = [8.333, 16.667, 33.333];
 

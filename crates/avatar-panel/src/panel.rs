@@ -6,7 +6,8 @@ use crate::widgets::{Icon, icon_button};
 use crate::{Action, Model, PanelState, Tab, Theme, help, notices, overlay, style, view};
 use egui::{Align, Align2, Area, Context, Id, Key, Layout, Order, Rect, Ui, vec2};
 
-/// The panel over the picture, and what it has in mind from frame to frame. One panel goes with one [`egui::Context`].
+/// The panel over the picture, and what it has in mind from frame to frame. One panel goes with one
+/// [`egui::Context`].
 #[derive(Clone, Debug, Default)]
 pub struct Panel {
     state: PanelState,
@@ -40,8 +41,8 @@ impl Panel {
         self.state.clone()
     }
 
-    /// Opens or closes the help. Escape, and F1 and ? where [`Model::help_keys`] has them, are seen by [`Self::show`] itself:
-    /// a window that forwards its keys to egui must not call this for them, too.
+    /// Opens or closes the help. Escape, and F1 and ? where [`Model::help_keys`] has them, are seen by
+    /// [`Self::show`] itself: a window that forwards its keys to egui must not call this for them, too.
     pub fn toggle_help(&mut self) {
         self.help = !self.help;
     }
@@ -51,9 +52,9 @@ impl Panel {
         self.state.folded = !self.state.folded;
     }
 
-    /// Whether a key that is pressed now is the panel's, and not the window's: all of them while text is typed or the help is open; those
-    /// that move about and press things while something in the panel has the keyboard; and always those of the help and Tab, which is the
-    /// way into the panel.
+    /// Whether a key that is pressed now is the panel's, and not the window's: all of them while text is
+    /// typed or the help is open; those that move about and press things while something in the panel has the
+    /// keyboard; and always those of the help and Tab, which is the way into the panel.
     pub fn takes_key(&self, ctx: &Context, key: Key) -> bool {
         let moves = [
             Key::ArrowUp,
@@ -71,8 +72,8 @@ impl Panel {
         self.help || ctx.text_edit_focused() || own || (focused && moves.contains(&key))
     }
 
-    /// Shows everything in a window's root and appends what the user wants. Returns the rectangle that is left for the face, in points of
-    /// the context (times [`egui::Context::pixels_per_point`]: pixels).
+    /// Shows everything in a window's root and appends what the user wants. Returns the rectangle that is
+    /// left for the face, in points of the context (times [`egui::Context::pixels_per_point`]: pixels).
     pub fn show(&mut self, ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) -> Rect {
         let ctx = ui.ctx().clone();
         self.prepare(&ctx);

@@ -26,7 +26,8 @@ impl From<&Pose> for PoseForm {
 const DURATIONS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
 
 impl PoseForm {
-    /// The form as a pose can have it: without blanks around the name and key. `own` is the pose that is edited, if it is not a new one.
+    /// The form as a pose can have it: without blanks around the name and key. `own` is the pose that is
+    /// edited, if it is not a new one.
     ///
     /// # Errors
     /// What the user has to change, as a sentence: the rules are those of `poses.toml`.

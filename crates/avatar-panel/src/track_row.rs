@@ -76,8 +76,8 @@ fn name(timeline: &mut Timeline, ui: &Ui, rect: Rect, control: &Control, track: 
     }
 }
 
-/// The values that a row shows from bottom to top: those of its keys, but no less than a part of the control's range, so that a
-/// tremor does not look like a leap.
+/// The values that a row shows from bottom to top: those of its keys, but no less than a part of the
+/// control's range, so that a tremor does not look like a leap.
 fn shown(control: &Control, track: &Track) -> [f64; 2] {
     let values = track.keys().iter().map(|key| key.value);
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));

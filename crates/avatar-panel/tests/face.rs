@@ -16,7 +16,8 @@ fn window<'a>() -> Window<'a> {
     window
 }
 
-/// Where a slider has a share of its range: the centre of egui's round handle stays a radius, height / 2.5, off the ends.
+/// Where a slider has a share of its range: the centre of egui's round handle stays a radius, height / 2.5,
+/// off the ends.
 fn at(slider: Rect, share: f32) -> Pos2 {
     let radius = slider.height() / 2.5;
     pos2(slider.left() + radius + share * (slider.width() - 2.0 * radius), slider.center().y)

@@ -1,4 +1,5 @@
-//! A pack's bytes become a picture: `cargo run -p avatar-stage --example picture -- [FOLDER [POSE [VIEW [FILE]]]]`
+//! A pack's bytes become a picture: `cargo run -p avatar-stage --example picture -- [FOLDER [POSE [VIEW
+//! [FILE]]]]`
 #![allow(clippy::disallowed_methods, reason = "an example is a program: it reads its arguments and files")]
 
 use avatar_stage::avatar_pack::{MemorySource, Pack, Textures};

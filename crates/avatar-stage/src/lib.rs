@@ -1,14 +1,15 @@
 //! From a pack to a moving face in your own wgpu program.
 //!
 //! ```text
-//!  Pack, Textures ──upload──▶ AvatarModel ─────────────────────────────┐
-//!  Pack ──Performer──▶ press, play, look_at; advance(dt) ──▶ bones, weights ├──▶ Renderer::draw ──▶ your texture view
-//!  Pack ──portrait, View::scene──▶ Scene ──────────────────────────────┘
+//!  Pack, Textures ──upload──▶ AvatarModel ────────────────────┐
+//!  Pack ──Performer──▶ press, play, look_at; advance(dt)      ├──▶ Renderer::draw ──▶ your texture view
+//!                      └──▶ bones, weights ──▶ AvatarState ───┤
+//!  Pack ──portrait, View::scene──▶ Scene ─────────────────────┘
 //! ```
 //!
-//! The crates below do the work: [`avatar_pack`] reads faces, [`pose_anim`] moves them, [`avatar_render`] draws them. This
-//! one holds what every program that shows a face needs between them, so that nobody writes it twice. It opens no
-//! window and no file, and has neither clock nor threads.
+//! The crates below do the work: [`avatar_pack`] reads faces, [`pose_anim`] moves them, [`avatar_render`]
+//! draws them. This one holds what every program that shows a face needs between them, so that nobody writes
+//! it twice. It opens no window and no file, and has neither clock nor threads.
 //!
 //! # Example
 //!
@@ -32,7 +33,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`Screen`] draws on the surface of any window; `examples/window.rs` does the same with the program's own device.
+//! [`Screen`] draws on the surface of any window; `examples/window.rs` does the same with the program's own
+//! device.
 
 mod upload;
 
@@ -47,7 +49,8 @@ mod default_face;
 
 /// The crate that reads packs.
 pub use avatar_pack;
-/// The crate that draws, with [`wgpu`](avatar_render::wgpu) and [`glam`](avatar_render::glam) as it was built with them.
+/// The crate that draws, with [`wgpu`](avatar_render::wgpu) and [`glam`](avatar_render::glam) as it was built
+/// with them.
 pub use avatar_render;
 pub use avatar_render::{glam, wgpu};
 #[cfg(feature = "default-face")]

@@ -11,7 +11,8 @@ use std::sync::Arc;
 
 /// Seconds in which a single control goes to its value: as fast as a hand moves a slider.
 const SET_SECS: f64 = 0.12;
-/// Share of the way to a point by which the head turns, and the seconds that it takes: the eyes are there long before.
+/// Share of the way to a point by which the head turns, and the seconds that it takes: the eyes are there
+/// long before.
 const HEAD_SHARE: f32 = 0.45;
 const HEAD_SECS: f64 = 0.9;
 /// Seconds that the eyes take.
@@ -66,12 +67,14 @@ fn hint(nearest: &Option<String>) -> String {
 
 /// A face that acts: a pack, the motion of its controls, and the bones and weights that come of it.
 ///
-/// [`Self::press`], [`Self::set`], [`Self::play`] and [`Self::look_at`] say where the face is to go; [`Self::advance`] lets
-/// time pass, and then [`Self::bones`] and [`Self::weights`] are what
-/// [`AvatarState::set`](avatar_render::AvatarState::set) takes. Each motion takes over smoothly from the one before.
+/// [`Self::press`], [`Self::set`], [`Self::play`] and [`Self::look_at`] say where the face is to go;
+/// [`Self::advance`] lets time pass, and then [`Self::bones`] and [`Self::weights`] are what
+/// [`AvatarState::set`](avatar_render::AvatarState::set) takes. Each motion takes over smoothly from the one
+/// before.
 ///
-/// The pack is shared: `Performer::new(Arc::clone(&pack))` makes one of many faces, `Performer::new(pack)` the only one.
-/// Only making a performer, replacing something of its pack, reading a mixture and starting a clip allocate.
+/// The pack is shared: `Performer::new(Arc::clone(&pack))` makes one of many faces, `Performer::new(pack)`
+/// the only one. Only making a performer, replacing something of its pack, reading a mixture and starting a
+/// clip allocate.
 #[derive(Clone, Debug)]
 pub struct Performer {
     pack: Arc<Pack>,
@@ -122,7 +125,8 @@ impl Performer {
         &self.pack
     }
 
-    /// Heads for a pose of the pack by its name, or for a mixture such as `smile:0.5 wink-left` ([`PoseSet::mix`]).
+    /// Heads for a pose of the pack by its name, or for a mixture such as `smile:0.5 wink-left`
+    /// ([`PoseSet::mix`]).
     ///
     /// [`PoseSet::mix`]: pose_anim::PoseSet::mix
     ///
@@ -156,7 +160,8 @@ impl Performer {
         Ok(())
     }
 
-    /// As [`Self::set`], by the control's index. An index out of range and a value that is not finite change nothing.
+    /// As [`Self::set`], by the control's index. An index out of range and a value that is not finite change
+    /// nothing.
     pub fn set_control(&mut self, control: usize, value: f32) {
         self.press_single([(control, value)].into_iter(), Some(SET_SECS));
     }
@@ -219,9 +224,10 @@ impl Performer {
         self.playing = None;
     }
 
-    /// Looks at a point in world space: the eyes at once, the head a part of the way after them. Call it before each
-    /// [`Self::advance`] while the face is to follow a point that moves; it changes nothing while the face looks there
-    /// already, or for a point that is not finite. Returns whether it changed anything.
+    /// Looks at a point in world space: the eyes at once, the head a part of the way after them. Call it
+    /// before each
+    /// [`Self::advance`] while the face is to follow a point that moves; it changes nothing while the face
+    /// looks there already, or for a point that is not finite. Returns whether it changed anything.
     ///
     /// # Errors
     /// Control values that do not become a face.
@@ -278,8 +284,8 @@ impl Performer {
         Ok(self.state.pose(&self.pack, self.layers.values())?)
     }
 
-    /// Poses the face in another way than by its values alone, until the next [`Self::advance`]: `pose` gets the pack,
-    /// the values of the controls and the state to be posed.
+    /// Poses the face in another way than by its values alone, until the next [`Self::advance`]: `pose` gets
+    /// the pack, the values of the controls and the state to be posed.
     ///
     /// # Errors
     /// What `pose` returns.

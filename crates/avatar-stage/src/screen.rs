@@ -37,7 +37,8 @@ pub enum ScreenError {
     },
 }
 
-/// The surface of a window with everything that draws avatars on it, for programs that have no device of their own.
+/// The surface of a window with everything that draws avatars on it, for programs that have no device of
+/// their own.
 #[derive(Debug)]
 pub struct Screen {
     surface: wgpu::Surface<'static>,

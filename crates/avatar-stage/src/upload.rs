@@ -31,8 +31,8 @@ pub enum UploadError {
     Part(#[from] NoSuchPart),
 }
 
-/// Uploads the pack's meshes, textures and materials, and plants its hair where it has some ([`Pack::hair`]). The model
-/// serves any number of faces.
+/// Uploads the pack's meshes, textures and materials, and plants its hair where it has some ([`Pack::hair`]).
+/// The model serves any number of faces.
 ///
 /// # Errors
 /// Meshes, textures or hair that this device cannot hold.
@@ -100,8 +100,8 @@ pub fn upload_with_hair(
     Ok(model)
 }
 
-/// Plants this hair, or takes it away. An [`avatar_render::AvatarState`] that was made before does not fit the model any
-/// more: make it anew.
+/// Plants this hair, or takes it away. An [`avatar_render::AvatarState`] that was made before does not fit
+/// the model any more: make it anew.
 ///
 /// # Errors
 /// More strands than the device can hold; the model keeps its hair then.

@@ -24,7 +24,8 @@ pub struct View {
     pub pitch_degrees: f32,
     /// Distance as a multiple of the one that shows all of what is framed.
     pub distance: f32,
-    /// By how much the head is moved in the picture, to the right and up, in heights of the picture at `distance` 1.
+    /// By how much the head is moved in the picture, to the right and up, in heights of the picture at
+    /// `distance` 1.
     pub pan: [f32; 2],
     /// What fills the picture.
     pub framing: Framing,
@@ -35,7 +36,8 @@ pub struct View {
 pub enum Framing {
     /// All parts.
     Whole,
-    /// The head of an avatar with a body ([`Pack::face`]); all parts of an avatar that is no more than a head.
+    /// The head of an avatar with a body ([`Pack::face`]); all parts of an avatar that is no more than a
+    /// head.
     Head,
     /// The face alone, whatever else the avatar has.
     Face,
@@ -107,9 +109,11 @@ impl View {
         let bounds =
             framed.or_else(|| pack.bounds()).unwrap_or(Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE });
         let fov = VERTICAL_FOV_DEGREES.to_radians();
-        // The distance is that of the front view, so that the head does not grow and shrink as the camera goes round.
+        // The distance is that of the front view, so that the head does not grow and shrink as the camera
+        // goes round.
         let across = bounds.size().x.max(bounds.size().z);
-        // A head is round: the corners of its box that are nearest to the camera are empty. Other files hold anything.
+        // A head is round: the corners of its box that are nearest to the camera are empty. Other files hold
+        // anything.
         let is_head = pack.motion().is_none() || framed == pack.face() && framed.is_some();
         let roundness = if is_head { ROUNDNESS } else { 1.0 };
         let half = Vec3::new(across, bounds.size().y, across * roundness) / 2.0;
@@ -136,8 +140,8 @@ impl Default for View {
     }
 }
 
-/// The whole avatar from the front, before [`BACKGROUND`], in the light of a studio, for a picture of this aspect (width
-/// by height).
+/// The whole avatar from the front, before [`BACKGROUND`], in the light of a studio, for a picture of this
+/// aspect (width by height).
 pub fn portrait(pack: &Pack, aspect: f32) -> Scene {
     View::FRONT.scene(pack, aspect, BACKGROUND, Light::studio())
 }

@@ -1,4 +1,5 @@
-//! A performer does what the player, the couplings and the gaze do by hand, and tells of names that it does not know.
+//! A performer does what the player, the couplings and the gaze do by hand, and tells of names that it does
+//! not know.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 mod common;

@@ -62,7 +62,8 @@ fn digit_keys_press_poses_in_the_example() {
     }
 }
 
-/// The window's program in the README, in a project outside of the workspace, with only the lines that stand there.
+/// The window's program in the README, in a project outside of the workspace, with only the lines that stand
+/// there.
 #[test]
 fn twenty_lines_outside_the_workspace_show_the_default_face() {
     let Some(smile) = picture_of("smile") else { return };

@@ -9,10 +9,11 @@ use std::str::FromStr;
 
 /// Shows a rigged face in a window, and does the same without one.
 ///
-/// PACK is a folder in the raw format: Transformations.xml, a vertex and an index buffer for each of the seven parts,
-/// textures, and optionally controls.toml, poses.toml, clips.toml, materials.toml and hair.toml; or a file of an interchange format
-/// (.glb, .gltf, .vrm, .obj, .fbx, .dae, .md5mesh, .bvh; docs/formats.md). Without PACK the built-in avatar is used.
-/// Without a verb a window opens; a folder whose name is that of a verb is given as ./NAME.
+/// PACK is a folder in the raw format: Transformations.xml, a vertex and an index buffer for each of the
+/// seven parts, textures, and optionally controls.toml, poses.toml, clips.toml, materials.toml and hair.toml;
+/// or a file of an interchange format (.glb, .gltf, .vrm, .obj, .fbx, .dae, .md5mesh, .bvh; docs/formats.md).
+/// Without PACK the built-in avatar is used. Without a verb a window opens; a folder whose name is that of a
+/// verb is given as ./NAME.
 ///
 /// Exit status: 0 on success, 2 on wrong usage, 1 on any other failure.
 #[derive(Debug, Parser)]
@@ -52,7 +53,8 @@ pub(crate) enum Verb {
     Bones(BonesArgs),
     /// Writes a part's deformed positions and normals as OBJ
     Deform(DeformArgs),
-    /// Writes the avatar in another format: .glb with rig, shapes and clips, .obj as it is posed, or a folder in the raw format
+    /// Writes the avatar in another format: .glb with rig, shapes and clips, .obj as it is posed, or a folder
+    /// in the raw format
     Convert(ConvertArgs),
     /// Writes the strands of hair as the GPU grew them, as JSON
     Strands(StrandsArgs),
@@ -68,8 +70,8 @@ pub(crate) enum Verb {
 pub(crate) struct PackArg {
     /// Folder or file of the avatar [default: the built-in one]
     pub(crate) pack: Option<PathBuf>,
-    /// A file, or a folder of files, that belongs to PACK: MakeHuman targets of an OBJ file, frames of an OBJ sequence,
-    /// animations of an MD5 mesh; may be repeated
+    /// A file, or a folder of files, that belongs to PACK: MakeHuman targets of an OBJ file, frames of an OBJ
+    /// sequence, animations of an MD5 mesh; may be repeated
     #[arg(long, value_name = "FILE", requires = "pack")]
     pub(crate) with: Vec<PathBuf>,
 }
@@ -97,7 +99,8 @@ pub(crate) struct RenderArgs {
 pub(crate) struct RecordArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
-    /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5 wink-left"
+    /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5
+    /// wink-left"
     #[arg(long, allow_hyphen_values = true)]
     pub(crate) script: Option<String>,
     /// Clip of the avatar's file or clips.toml, as `info` lists them
@@ -111,7 +114,8 @@ pub(crate) struct RecordArgs {
     pub(crate) duration: Option<f64>,
     #[command(flatten)]
     pub(crate) look: LookArgs,
-    /// The film; its end says the format: .gif, .png (animated) or .mp4. A name without one is a folder of pictures
+    /// The film; its end says the format: .gif, .png (animated) or .mp4. A name without one is a folder of
+    /// pictures
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
     /// Size in pixels
@@ -169,8 +173,8 @@ pub(crate) struct ConvertArgs {
     pub(crate) target: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) face: FaceArgs,
-    /// The file to write, whose end says the format; a name without an end, or with a separator at its end, is that of a
-    /// folder
+    /// The file to write, whose end says the format; a name without an end, or with a separator at its end,
+    /// is that of a folder
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 }
@@ -195,7 +199,8 @@ pub(crate) struct StrandsArgs {
 pub(crate) struct TraceArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
-    /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5 wink-left"
+    /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5
+    /// wink-left"
     #[arg(long, allow_hyphen_values = true)]
     pub(crate) script: String,
     /// After all values, also each control's velocity (CONTROL') and acceleration (CONTROL''), per second

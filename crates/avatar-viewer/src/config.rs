@@ -31,7 +31,8 @@ pub(crate) struct Config {
 }
 
 impl Config {
-    /// What was remembered; with a message where the file cannot be understood, which is no reason not to start.
+    /// What was remembered; with a message where the file cannot be understood, which is no reason not to
+    /// start.
     pub(crate) fn load() -> (Self, Option<String>) {
         let Some(path) = folder().map(|folder| folder.join(FILE)) else { return Default::default() };
         let read = store::read(&path).map_err(|error| format!("{error:#}"));

@@ -17,10 +17,12 @@ pub(crate) struct FaceArgs {
     /// Set exactly this control, in degrees or as a weight; may be repeated
     #[arg(long, value_name = "CONTROL=VALUE", allow_hyphen_values = true)]
     set: Vec<Setting>,
-    /// Set this joint's local transform to a product of rotations about its own axes, left to right; may be repeated
+    /// Set this joint's local transform to a product of rotations about its own axes, left to right; may be
+    /// repeated
     #[arg(long, value_name = "JOINT=AXIS:DEG[,AXIS:DEG...]", allow_hyphen_values = true)]
     rotate: Vec<Rotation>,
-    /// Clip of the avatar's file or clips.toml to start from, as `info` lists them; what --set and --rotate concern is theirs
+    /// Clip of the avatar's file or clips.toml to start from, as `info` lists them; what --set and --rotate
+    /// concern is theirs
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
     /// Seconds from the clip's beginning
@@ -112,8 +114,9 @@ impl FaceChoice {
         Self { locals: set.locals, weights: set.weights, ..self }
     }
 
-    /// The choice as a line of `pose=NAME`, `clip=NAME`, `time=SECONDS`, `CONTROL=VALUE` and `rotate=JOINT=…`, apart by semicolons: what the
-    /// options of these names (and `--set`) take. A face at rest is an empty line.
+    /// The choice as a line of `pose=NAME`, `clip=NAME`, `time=SECONDS`, `CONTROL=VALUE` and
+    /// `rotate=JOINT=…`, apart by semicolons: what the options of these names (and `--set`) take. A face at
+    /// rest is an empty line.
     pub(crate) fn describe(&self, pack: &Pack) -> String {
         let defaults = pack.controls().defaults();
         let base = if self.start.is_empty() { &defaults } else { &self.values };
@@ -154,8 +157,8 @@ impl FaceArgs {
         self.pose.is_some() || !self.set.is_empty() || !self.rotate.is_empty() || self.clip.is_some()
     }
 
-    /// Looks all names up. `matches` tells the order in which options were given: where `--set` and `--rotate`
-    /// concern one joint, the later one wins.
+    /// Looks all names up. `matches` tells the order in which options were given: where `--set` and
+    /// `--rotate` concern one joint, the later one wins.
     pub(crate) fn resolve(&self, pack: &Pack, matches: &ArgMatches) -> Result<FaceChoice> {
         let mut values = pack.controls().defaults();
         if let Some(name) = &self.pose {

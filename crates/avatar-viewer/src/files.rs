@@ -105,7 +105,8 @@ impl Files {
         }
     }
 
-    /// As [`Files::load_pack`], but where poses or clips hold a mistake there are the usual ones: a window tells of it itself.
+    /// As [`Files::load_pack`], but where poses or clips hold a mistake there are the usual ones: a window
+    /// tells of it itself.
     pub(crate) fn load_pack_in_any_case(&self) -> Result<Pack> {
         self.load_pack().or_else(|error| {
             let pack = match self {
@@ -130,8 +131,8 @@ impl Files {
         }
     }
 
-    /// The scene of a file of an interchange format, which is read again: an avatar keeps what moves of it, not its meshes
-    /// and pictures as the file has them.
+    /// The scene of a file of an interchange format, which is read again: an avatar keeps what moves of it,
+    /// not its meshes and pictures as the file has them.
     pub(crate) fn read_scene(&self) -> Result<Option<Scene>> {
         let Self::File(path, further, _) = self else { return Ok(None) };
         let mut scene = match read(path, further)? {
@@ -156,7 +157,8 @@ impl Files {
     }
 }
 
-/// Reads an avatar from a file of an interchange format, what belongs to it, and what it refers to from its folder.
+/// Reads an avatar from a file of an interchange format, what belongs to it, and what it refers to from its
+/// folder.
 fn import(path: &Path, further: &[PathBuf]) -> Result<Import> {
     let import = match read(path, further)? {
         FileScene::Vrm(model) => Import::from_vrm(*model),

@@ -24,7 +24,8 @@ const WAITING: usize = 2;
 /// More pictures of one name than these are not looked through.
 const MOST_NAMES: u32 = 100_000;
 
-/// A picture as the bytes of a PNG. `state` says what the face does ([`crate::face_args::FaceChoice::describe`]).
+/// A picture as the bytes of a PNG. `state` says what the face does
+/// ([`crate::face_args::FaceChoice::describe`]).
 pub(crate) fn png(picture: &RgbaImage, state: &str) -> Result<Vec<u8>> {
     let software = concat!("Mimik ", env!("CARGO_PKG_VERSION"));
     let texts = [("Software", software), (KEYWORD, state)];
@@ -83,7 +84,8 @@ pub(crate) struct Take<'a> {
 }
 
 impl Take<'_> {
-    /// Draws every frame from what `at` says of its time, and calls `shot` with the number of those that are done.
+    /// Draws every frame from what `at` says of its time, and calls `shot` with the number of those that are
+    /// done.
     ///
     /// # Errors
     /// The first of either, of drawing or of encoding.
@@ -115,7 +117,8 @@ enum Message {
     End,
 }
 
-/// A film that is being written, by a thread of its own. Dropped without [`Self::finish`] it leaves nothing behind.
+/// A film that is being written, by a thread of its own. Dropped without [`Self::finish`] it leaves nothing
+/// behind.
 pub(crate) struct FilmSink {
     messages: Option<SyncSender<Message>>,
     encoder: Option<JoinHandle<Result<()>>>,

@@ -66,8 +66,8 @@ impl HairName {
 impl HairArgs {
     pub(crate) const OFF: Self = Self { hair: Some(HairName::Off), hair_density: None, hair_seed: None };
 
-    /// The hair, if there is to be some. A preset takes the place of the pack's whole style, tables included; number and
-    /// seed stay the pack's unless they are given themselves.
+    /// The hair, if there is to be some. A preset takes the place of the pack's whole style, tables included;
+    /// number and seed stay the pack's unless they are given themselves.
     pub(crate) fn choose(&self, of_pack: Option<&Hair>) -> Option<Hair> {
         let mut hair = of_pack.copied().unwrap_or_default();
         match self.hair {
@@ -80,7 +80,8 @@ impl HairArgs {
         Some(hair)
     }
 
-    /// The next choice (or the one before): the pack's own hair, where it has any, the presets, and none; round and round.
+    /// The next choice (or the one before): the pack's own hair, where it has any, the presets, and none;
+    /// round and round.
     pub(crate) fn next(self, of_pack: Option<&Hair>, backward: bool) -> Self {
         let own = of_pack.map(|_| None);
         let choices: Vec<Option<HairName>> =

@@ -4,7 +4,8 @@ use ab_glyph::{Font, FontRef, PxScale, ScaleFont};
 use anyhow::{Context, Result};
 use image::RgbaImage;
 
-/// Draws one line of text, centred on `center_x`, with its baseline at `baseline_y`; what leaves the picture is cut.
+/// Draws one line of text, centred on `center_x`, with its baseline at `baseline_y`; what leaves the picture
+/// is cut.
 pub(crate) fn draw(
     picture: &mut RgbaImage,
     text: &str,

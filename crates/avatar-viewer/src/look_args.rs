@@ -121,8 +121,8 @@ impl LookArgs {
         })
     }
 
-    /// How much of the hair is drawn on this adapter: fewer and wider strands where each costs much. A share, so that what
-    /// the pack and the options say of their number still counts.
+    /// How much of the hair is drawn on this adapter: fewer and wider strands where each costs much. A share,
+    /// so that what the pack and the options say of their number still counts.
     pub(crate) fn hair_detail(&self, adapter: &wgpu::AdapterInfo) -> HairDetail {
         let share = match self.quality(adapter) {
             Quality::Plain | Quality::Low => LOW_SHARE,

@@ -1,7 +1,8 @@
 //! Shows a rigged face in a window, and does the same without one: `avatar-viewer --help` explains all.
 //!
-//! The program only wires: files, command line, clock, keyboard and window on one side, the library crates on the
-//! other. Exit status: 0 on success, 2 where the command line has to be corrected, 1 on any other failure.
+//! The program only wires: files, command line, clock, keyboard and window on one side, the library crates on
+//! the other. Exit status: 0 on success, 2 where the command line has to be corrected, 1 on any other
+//! failure.
 
 mod cli;
 mod clips;
@@ -42,9 +43,9 @@ fn main() -> ExitCode {
     if error.is::<usage::UsageError>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 
-/// Starts the program anew where Mesa's layer that sorts devices would look for Wayland and print an error of its own
-/// among ours (no XDG_RUNTIME_DIR, as in containers). The layer takes its switch from the environment, which a program
-/// can set safely only for another one.
+/// Starts the program anew where Mesa's layer that sorts devices would look for Wayland and print an error of
+/// its own among ours (no XDG_RUNTIME_DIR, as in containers). The layer takes its switch from the
+/// environment, which a program can set safely only for another one.
 fn quiet_mesa() {
     #[cfg(unix)]
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() && std::env::var_os(MESA_SWITCH).is_none() {

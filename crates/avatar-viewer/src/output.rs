@@ -4,7 +4,8 @@ use std::io::{BufWriter, ErrorKind, Seek, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempDir};
 
-/// A file to be written, whole or not at all. Checked before the work, so that a slip in a name costs nothing.
+/// A file to be written, whole or not at all. Checked before the work, so that a slip in a name costs
+/// nothing.
 #[derive(Debug)]
 pub(crate) struct OutputFile {
     path: PathBuf,

@@ -14,7 +14,8 @@ pub(crate) struct PictureArgs {
     /// Where the camera stands; `left` looks at the character's left side
     #[arg(long, value_parser = named_view(), default_value = NamedView::Front.name())]
     view: NamedView,
-    /// Camera's angle around the vertical axis in degrees: 90 stands at the character's left [default: the view's]
+    /// Camera's angle around the vertical axis in degrees: 90 stands at the character's left [default: the
+    /// view's]
     #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
     yaw: Option<f32>,
     /// Camera's angle above the horizon in degrees [default: 0]

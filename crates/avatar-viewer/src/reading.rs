@@ -1,4 +1,5 @@
-//! Reads files of which nobody knows what they are: no device is waited for, and no link leads out of an avatar's folder.
+//! Reads files of which nobody knows what they are: no device is waited for, and no link leads out of an
+//! avatar's folder.
 
 use std::fmt;
 use std::io::{ErrorKind, Read};

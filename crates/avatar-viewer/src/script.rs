@@ -38,8 +38,8 @@ impl Script {
     }
 }
 
-/// A script under way. Every state is found from the last press in one step, so that it does not depend, not even in its last bit, on
-/// which times were asked for before.
+/// A script under way. Every state is found from the last press in one step, so that it does not depend, not
+/// even in its last bit, on which times were asked for before.
 pub(crate) struct Motion<'a> {
     /// Those to come.
     presses: &'a [(f64, Pose)],

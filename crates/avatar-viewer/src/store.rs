@@ -24,7 +24,8 @@ pub(crate) struct Store {
 }
 
 impl Store {
-    /// Those of a pack are in its folder; those of a file are beside it; those of the built-in avatar are the user's.
+    /// Those of a pack are in its folder; those of a file are beside it; those of the built-in avatar are the
+    /// user's.
     pub(crate) fn of(files: &Files) -> Self {
         Self {
             paths: [POSES, CLIPS].map(|which| path_of(files, which)),

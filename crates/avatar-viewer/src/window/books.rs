@@ -1,5 +1,5 @@
-//! A face's poses and clips: the only place where they are. They are edited in their texts, which can be undone, and for poses in
-//! their file at once.
+//! A face's poses and clips: the only place where they are. They are edited in their texts, which can be
+//! undone, and for poses in their file at once.
 
 use crate::files::Files;
 use crate::store::{self, Store};
@@ -114,7 +114,8 @@ impl Books {
         Ok(())
     }
 
-    /// Changes a clip; it is written to its file when the user says so. An index out of range changes nothing.
+    /// Changes a clip; it is written to its file when the user says so. An index out of range changes
+    /// nothing.
     pub(super) fn edit_clip(
         &mut self,
         index: usize,

@@ -94,7 +94,8 @@ impl HandCamera {
 }
 
 impl CameraMove {
-    /// What dragging by pixels does: the face follows the pointer, so dragging to the right shows the character's right side.
+    /// What dragging by pixels does: the face follows the pointer, so dragging to the right shows the
+    /// character's right side.
     pub(super) fn dragged(dx: f32, dy: f32) -> Self {
         Self::Orbit(-dx * DEGREES_PER_PIXEL, dy * DEGREES_PER_PIXEL)
     }

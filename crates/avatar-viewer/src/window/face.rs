@@ -7,8 +7,8 @@ use avatar_stage::Performer;
 use glam::Vec3;
 use pose_anim::{ClipSet, ControlTable, Pose, PoseSet};
 
-/// What an avatar does: where its controls are and where they are heading, what plays, and what is recorded. Its poses and clips are
-/// in the [`super::books::Books`]; the pack in here has none.
+/// What an avatar does: where its controls are and where they are heading, what plays, and what is recorded.
+/// Its poses and clips are in the [`super::books::Books`]; the pack in here has none.
 pub(super) struct Face {
     pub(super) performer: Performer,
     /// The face of the command line, with its single joints; until something else is asked for.

@@ -1,4 +1,5 @@
-//! A clip that the avatar's file brings along, while it plays: it moves joints and shapes themselves, over what the controls say.
+//! A clip that the avatar's file brings along, while it plays: it moves joints and shapes themselves, over
+//! what the controls say.
 
 use super::face::Face;
 use anyhow::Result;

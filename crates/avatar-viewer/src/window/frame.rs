@@ -1,4 +1,5 @@
-//! One frame: time passes, the panel is laid out, the face is drawn beside it, and the next frame is asked for if there is to be one.
+//! One frame: time passes, the panel is laid out, the face is drawn beside it, and the next frame is asked
+//! for if there is to be one.
 
 use super::App;
 use super::action::Action;
@@ -69,8 +70,8 @@ impl App {
         Ok(())
     }
 
-    /// Lets the panel see what has happened so far. It looks at the pointer where it is in the end: who clicks here and then there
-    /// before the next frame would not have clicked here.
+    /// Lets the panel see what has happened so far. It looks at the pointer where it is in the end: who
+    /// clicks here and then there before the next frame would not have clicked here.
     pub(super) fn react(&mut self, event_loop: &ActiveEventLoop) {
         let mut actions = Vec::new();
         self.lay_out(&mut actions);
@@ -184,8 +185,8 @@ impl Presenter {
         stage.draw(&shot, self.overlay.as_mut().zip(painted))
     }
 
-    /// Draws the small picture of one pose that has none, while nothing moves and the poses are seen. Returns whether it did:
-    /// then there may be more.
+    /// Draws the small picture of one pose that has none, while nothing moves and the poses are seen. Returns
+    /// whether it did: then there may be more.
     fn draw_miniature(&mut self, session: &Session, is_at_rest: bool) -> Result<bool> {
         let background = self.background();
         let (Some(overlay), Some(stage)) = (&self.overlay, &mut self.stage) else { return Ok(false) };

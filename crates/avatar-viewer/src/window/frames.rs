@@ -1,7 +1,8 @@
 use pose_anim::Pose;
 use std::time::{Duration, Instant};
 
-/// A frame that takes longer (a suspended laptop) does not let the motion jump, nor a recording wait for hours.
+/// A frame that takes longer (a suspended laptop) does not let the motion jump, nor a recording wait for
+/// hours.
 const MAX_FRAME_SECS: f64 = 0.25;
 const MAX_RECORDED_FRAME_SECS: f64 = 5.0;
 /// How long hair swings on after the head has stopped.
@@ -91,8 +92,8 @@ impl Frames {
         self.again = (again > Duration::ZERO).then(|| Instant::now().checked_add(again)).flatten();
     }
 
-    /// Seconds by which hair moves in this frame; NaN where it hangs still. Hair goes on a little after the head; where nothing has
-    /// moved for longer it hangs still.
+    /// Seconds by which hair moves in this frame; NaN where it hangs still. Hair goes on a little after the
+    /// head; where nothing has moved for longer it hangs still.
     pub(super) fn swing(&mut self, is_at_rest: bool, has_swinging_hair: bool) -> f32 {
         let now = Instant::now();
         let until = match is_at_rest {

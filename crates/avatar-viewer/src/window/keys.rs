@@ -223,8 +223,8 @@ impl Keys {
     }
 }
 
-/// The pose that this key presses: by the character that the key types, or, where a layout puts that character
-/// behind Shift (digits on French keyboards), by the key's place.
+/// The pose that this key presses: by the character that the key types, or, where a layout puts that
+/// character behind Shift (digits on French keyboards), by the key's place.
 pub(crate) fn pose(poses: &PoseSet, logical: &Key, physical: PhysicalKey) -> Option<usize> {
     let named = |name: &str| {
         let exactly = |pose: &Pose| pose.key.as_deref() == Some(name);

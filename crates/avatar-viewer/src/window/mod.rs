@@ -1,9 +1,11 @@
-//! The window: winit's events in, the face and the panel over it out; a frame is drawn only when something changes.
+//! The window: winit's events in, the face and the panel over it out; a frame is drawn only when something
+//! changes.
 //!
 //! ```text
 //!  events ─▶ Overlay (egui) ─▶ panel's actions ─┐
-//!     └────▶ Input (keys, pointer) ─────────────┴─▶ act ─▶ Session (Face, Books) ─▶ Presenter (Stage, Overlay, Frames) ─▶ picture
-//!  files, other threads ─▶ Wake ─▶ follow ──────────────────┘
+//!     └────▶ Input (keys, pointer) ─────────────┴─▶ act ─▶ Session (Face, Books)
+//!  files, other threads ─▶ Wake ─▶ follow, loading ────────┘       │
+//!                       Presenter (Stage, Overlay, Frames) ◀───────┘ ─▶ picture
 //! ```
 
 mod camera;
@@ -267,8 +269,9 @@ impl ApplicationHandler<Wake> for App {
 }
 
 impl App {
-    /// A frame was not drawn, and the device is not lost: memory may have run out for a moment. The window stays open, tries once more
-    /// soon, then on a device opened anew, and after that waits for something to happen.
+    /// A frame was not drawn, and the device is not lost: memory may have run out for a moment. The window
+    /// stays open, tries once more soon, then on a device opened anew, and after that waits for something to
+    /// happen.
     fn frame_failed(&mut self, event_loop: &ActiveEventLoop, error: &anyhow::Error) {
         self.failed_frames += 1;
         self.messages.error(About::Device, "A frame was not drawn.", error);
@@ -304,7 +307,8 @@ impl App {
         }
     }
 
-    /// Whether nothing is lost with this face; or the user wants the same once more after having been told what is.
+    /// Whether nothing is lost with this face; or the user wants the same once more after having been told
+    /// what is.
     fn may_leave(&mut self) -> bool {
         if !self.session.has_unsaved()
             || self.presenter.overlay.is_none()

@@ -54,7 +54,8 @@ impl Overlay {
         }
     }
 
-    /// Forgets the device that it was drawn with: the next frame goes to another one, with the letters that egui believes to be there.
+    /// Forgets the device that it was drawn with: the next frame goes to another one, with the letters that
+    /// egui believes to be there.
     pub(super) fn forget_device(&mut self) {
         self.renderer = None;
         self.textures.clear();

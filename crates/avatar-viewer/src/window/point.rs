@@ -1,5 +1,5 @@
-//! What the pointer says: which part of the face a slider moves, which sliders move the part under the pointer, and where the eyes
-//! are to look.
+//! What the pointer says: which part of the face a slider moves, which sliders move the part under the
+//! pointer, and where the eyes are to look.
 
 use super::face::Face;
 use super::input::Input;
@@ -84,7 +84,8 @@ impl Pointing {
 }
 
 impl Presenter {
-    /// Looks at what is under the pointer, and marks what the slider under the pointer moves. The face has to be posed.
+    /// Looks at what is under the pointer, and marks what the slider under the pointer moves. The face has to
+    /// be posed.
     pub(super) fn point(
         &mut self,
         session: &Session,

@@ -24,7 +24,8 @@ use winit::window::{Fullscreen, Window};
 /// Ground of the light theme.
 const LIGHT_BACKGROUND: [u8; 4] = [0xc9, 0xcd, 0xd4, 255];
 
-/// What shows the session: the window with its device, the panel over it, where the camera stands, and when to draw.
+/// What shows the session: the window with its device, the panel over it, where the camera stands, and when
+/// to draw.
 pub(super) struct Presenter {
     /// `None` until the window is open.
     pub(super) stage: Option<Stage>,
@@ -161,8 +162,8 @@ impl Presenter {
         }
     }
 
-    /// Saves the picture as the window shows it, without the panel, in the first free name of the folder that the program was
-    /// started in; returns the name.
+    /// Saves the picture as the window shows it, without the panel, in the first free name of the folder that
+    /// the program was started in; returns the name.
     pub(super) fn save_picture(&mut self, session: &mut Session) -> Result<PathBuf> {
         session.face.pose()?;
         let shot = self.shot(session, None);

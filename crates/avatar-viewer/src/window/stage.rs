@@ -34,7 +34,8 @@ pub(super) struct Stage {
     timer: Option<PassTimer>,
     /// Draws small pictures of poses.
     miniatures: Option<Miniatures>,
-    /// The picture without the panel, where surfaces can be copied to: while only the panel changes, the face is not drawn again.
+    /// The picture without the panel, where surfaces can be copied to: while only the panel changes, the face
+    /// is not drawn again.
     kept: Option<Kept>,
     can_keep: bool,
     /// Whether the hair moved in the frame before.
@@ -77,7 +78,8 @@ impl Stage {
         config.present_mode = wgpu::PresentMode::Fifo;
         // What the user does is to be seen at once, not behind frames that wait.
         config.desired_maximum_frame_latency = 1;
-        // The panel blends in the space of the screen: through a view without sRGB, where the surface has such views.
+        // The panel blends in the space of the screen: through a view without sRGB, where the surface has
+        // such views.
         let flags = gpu.adapter.get_downlevel_capabilities().flags;
         let plain = config.format.remove_srgb_suffix();
         let panel_format = match flags.contains(wgpu::DownlevelFlags::SURFACE_VIEW_FORMATS) {
@@ -183,7 +185,8 @@ impl Stage {
         self.gpu.errors.is_lost()
     }
 
-    /// As [`Stage::is_lost`], once something has failed: some losses are only told of when somebody asks the device.
+    /// As [`Stage::is_lost`], once something has failed: some losses are only told of when somebody asks the
+    /// device.
     pub(super) fn is_found_lost(&self) -> bool {
         // What the question itself fails with is that loss.
         let _ = self.gpu.device.poll(wgpu::PollType::Poll);
@@ -204,7 +207,8 @@ impl Stage {
         }
     }
 
-    /// Milliseconds of the passes of the last frame in which the face was drawn, if nobody asked before; waits for that frame to end.
+    /// Milliseconds of the passes of the last frame in which the face was drawn, if nobody asked before;
+    /// waits for that frame to end.
     pub(super) fn passes(&mut self) -> Option<Vec<(&'static str, f32)>> {
         if !std::mem::take(&mut self.is_measured) {
             return None;
@@ -301,7 +305,8 @@ impl Stage {
         self.model.strand_count() > 0 && self.style.is_some_and(|style| style.swings())
     }
 
-    /// Draws one frame, the panel over the picture. A surface that is not ready loses this frame, not the window.
+    /// Draws one frame, the panel over the picture. A surface that is not ready loses this frame, not the
+    /// window.
     pub(super) fn draw(&mut self, shot: &Shot<'_>, panel: Option<(&mut Overlay, &Painted)>) -> Result<()> {
         if self.targets.is_none() {
             return Ok(());

@@ -66,8 +66,9 @@ impl Watching {
     }
 }
 
-/// Tells the window when files of the avatar change that it follows. Folders are watched instead of files: many editors put a new
-/// file in the place of the old one. Where watching does not work the window works all the same, after a warning.
+/// Tells the window when files of the avatar change that it follows. Folders are watched instead of files:
+/// many editors put a new file in the place of the old one. Where watching does not work the window works all
+/// the same, after a warning.
 pub(super) fn watch(files: &Files, store: &Store, window: EventLoopProxy<Wake>) -> Watching {
     let paths: Vec<(Watched, PathBuf)> =
         Watched::ALL.into_iter().filter_map(|file| Some((file, file.path(files, store)?))).collect();

@@ -13,8 +13,8 @@ const SKIN_BYTES: usize = 124;
 const BONES_AT: usize = 8;
 const WEIGHTS_AT: usize = 12;
 
-/// Damages a copy of a good pack; `info`, `bones`, `deform` and `render` must then all fail in the same way, and
-/// leave no file.
+/// Damages a copy of a good pack; `info`, `bones`, `deform` and `render` must then all fail in the same way,
+/// and leave no file.
 #[track_caller]
 fn refuses(damage: impl FnOnce(&Path), parts: &[&str]) {
     let pack = copy_of_golden_pack();

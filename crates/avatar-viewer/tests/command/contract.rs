@@ -56,8 +56,8 @@ fn every_control_moves_the_face_the_way_its_name_says() {
             options.extend(["--set", &setting]);
             let moved = turned(&skin_matrix(&options, joint), direction);
             let sine = 5f64.to_radians().sin();
-            // Joint frames are not parallel to the world's axes: the real face's jaw leans by 51 degrees. The sign and
-            // that nothing else moves are what matters.
+            // Joint frames are not parallel to the world's axes: the real face's jaw leans by 51 degrees. The
+            // sign and that nothing else moves are what matters.
             assert!(moved[axis] * sign > 0.5 * sine, "{control} in {pack:?}: {moved:?}");
             let others = (0..3).filter(|&other| other != axis && direction[other] == 0.0);
             for other in others {

@@ -1,5 +1,5 @@
-//! Files of interchange formats in the place of a pack: what another program computed, on the CPU and on the GPU; and
-//! files that are none.
+//! Files of interchange formats in the place of a pack: what another program computed, on the CPU and on the
+//! GPU; and files that are none.
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use crate::common::{finish, has_adapter, json, numbers, read_obj, shared_data, viewer};

@@ -36,8 +36,8 @@ fn picture(pack: &Path, options: &[&str]) -> RgbaImage {
     image::load_from_memory(&draw(Some(pack), options).png).expect("a PNG").into_rgba8()
 }
 
-/// The built-in avatar in a folder, without its textures of skin and teeth, which take long to load. It is the same on
-/// both sides.
+/// The built-in avatar in a folder, without its textures of skin and teeth, which take long to load. It is
+/// the same on both sides.
 fn built_in() -> TempDir {
     let copy = tempfile::tempdir().expect("a temporary folder");
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne");

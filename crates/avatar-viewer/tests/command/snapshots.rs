@@ -1,7 +1,7 @@
 //! A handful of small pictures and texts that were looked at, and must stay as they are.
 //!
-//! `MIMIK_UPDATE_SNAPSHOTS=1 cargo test -p avatar-viewer --test command snapshots` draws the pictures anew, and
-//! `INSTA_UPDATE=always` writes the texts anew: look at them before they are committed.
+//! `MIMIK_UPDATE_SNAPSHOTS=1 cargo test -p avatar-viewer --test command snapshots` draws the pictures anew,
+//! and `INSTA_UPDATE=always` writes the texts anew: look at them before they are committed.
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use crate::common;

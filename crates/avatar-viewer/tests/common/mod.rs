@@ -86,7 +86,8 @@ pub fn shared_data(name: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// Says that a test does not run, and why; past the harness, which keeps the output of tests that pass to itself.
+/// Says that a test does not run, and why; past the harness, which keeps the output of tests that pass to
+/// itself.
 pub fn tell(reason: &str) {
     let _ = writeln!(std::io::stderr(), "SKIPPED: {reason}");
 }
@@ -109,7 +110,8 @@ pub fn hairy_pack() -> TempDir {
     copy
 }
 
-/// Whether drawing can be tested here. Where `MIMIK_REQUIRE_GPU=1` promises an adapter, a missing one is a failure.
+/// Whether drawing can be tested here. Where `MIMIK_REQUIRE_GPU=1` promises an adapter, a missing one is a
+/// failure.
 pub fn has_adapter() -> bool {
     let out = tempfile::tempdir().expect("a temporary folder");
     let picture = out.path().join("probe.png");

@@ -1,5 +1,5 @@
-//! Hair in the window: `hair.toml` edited while it is open, and the key that goes through the presets. Expected is what
-//! `render` draws of the same pack.
+//! Hair in the window: `hair.toml` edited while it is open, and the key that goes through the presets.
+//! Expected is what `render` draws of the same pack.
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use crate::common::hairy_pack;
@@ -150,7 +150,8 @@ fn hair_swings_while_the_head_turns_and_hangs_as_in_a_picture_when_it_has_settle
     let mut desk = Desk::open(&options);
     desk.shows(&render(&options), "at first");
     desk.key("7");
-    // On the way hair is elsewhere than in any picture of the pose; then it is where the picture has it, and stays.
+    // On the way hair is elsewhere than in any picture of the pose; then it is where the picture has it, and
+    // stays.
     desk.shows(&still, "after it has settled");
     let settled = desk.picture();
     std::thread::sleep(A_WHILE);

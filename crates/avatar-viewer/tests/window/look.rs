@@ -1,5 +1,5 @@
-//! How the window's picture looks: the options, and `materials.toml` edited while the window is open. Expected is what
-//! `render` draws of the same pack.
+//! How the window's picture looks: the options, and `materials.toml` edited while the window is open.
+//! Expected is what `render` draws of the same pack.
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use crate::common;
@@ -94,7 +94,8 @@ fn materials_that_change_while_the_window_opens_are_not_missed() {
         return;
     }
     let pack = copy_of_golden_pack();
-    // A texture that arrives when the test says so: by then the materials have been read, and nobody watches yet.
+    // A texture that arrives when the test says so: by then the materials have been read, and nobody watches
+    // yet.
     let slow = pack.path().join("SkinTex_Decal.png");
     if !Command::new("mkfifo").arg(&slow).status().is_ok_and(|status| status.success()) {
         common::tell("mkfifo does not work here");

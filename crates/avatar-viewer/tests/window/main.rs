@@ -8,3 +8,4 @@ mod keys;
 mod look;
 mod hair;
 mod panel;
+mod files;

@@ -1,5 +1,5 @@
-//! The other side of drag and drop under X11 (freedesktop.org, *Drag-and-Drop Protocol for the X Window System*): a program from
-//! which a file is dragged onto a window.
+//! The other side of drag and drop under X11 (freedesktop.org, *Drag-and-Drop Protocol for the X Window
+//! System*): a program from which a file is dragged onto a window.
 
 use super::PATIENCE;
 use std::path::Path;

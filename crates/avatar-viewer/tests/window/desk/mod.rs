@@ -1,4 +1,5 @@
-//! A virtual display with the viewer on it, for real key and mouse events (XTEST, by xdotool); the screen is read back.
+//! A virtual display with the viewer on it, for real key and mouse events (XTEST, by xdotool); the screen is
+//! read back.
 
 mod drop;
 
@@ -57,7 +58,8 @@ impl Desk {
     fn start(command: &mut Command) -> Self {
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let mut server = Command::new("Xvfb");
-        // Without -noreset the display starts anew whenever its last client leaves, under the feet of the next one.
+        // Without -noreset the display starts anew whenever its last client leaves, under the feet of the
+        // next one.
         server.args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp", "-noreset"]);
         let mut server =
             Process(server.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb starts"));
