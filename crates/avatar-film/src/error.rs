@@ -74,15 +74,3 @@ impl FilmError {
         Self::Encoder { format, reason: reason.to_string() }
     }
 }
-
-/// Not a [`Rate`].
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "expected frames per second from {} to {}, as a number or a fraction of numbers up to 65535 (30, 12.5, 30000/1001), found {found}",
-    Rate::SLOWEST,
-    Rate::FASTEST
-)]
-pub struct RateError {
-    /// What was given.
-    pub found: String,
-}

@@ -93,3 +93,21 @@ impl<W: Write + Seek> Film<W> {
         Ok(sink)
     }
 }
+
+impl Format {
+    /// Whether the format holds frames of this size at this rate.
+    ///
+    /// # Errors
+    /// No pixels; GIF: a side beyond 65535, or more than 50 frames per second; MP4: more than 3840x2160,
+    /// either way round.
+    pub fn check(self, width: u32, height: u32, rate: Rate) -> Result<(), FilmError> {
+        let largest = self.largest();
+        if width.min(height) == 0 || width.max(height) > largest.0 || width.min(height) > largest.1 {
+            return Err(FilmError::Size { format: self, width, height, largest });
+        }
+        match self.fastest().filter(|most| rate.per_second() > f64::from(*most)) {
+            Some(most) => Err(FilmError::Rate { format: self, rate, most }),
+            None => Ok(()),
+        }
+    }
+}

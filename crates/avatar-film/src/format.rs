@@ -1,4 +1,3 @@
-use crate::{FilmError, Rate};
 use std::fmt;
 
 /// A kind of file that holds a film.
@@ -41,22 +40,6 @@ impl Format {
         }
     }
 
-    /// Whether the format holds frames of this size at this rate.
-    ///
-    /// # Errors
-    /// No pixels; GIF: a side beyond 65535, or more than 50 frames per second; MP4: more than 3840x2160,
-    /// either way round.
-    pub fn check(self, width: u32, height: u32, rate: Rate) -> Result<(), FilmError> {
-        let largest = self.largest();
-        if width.min(height) == 0 || width.max(height) > largest.0 || width.min(height) > largest.1 {
-            return Err(FilmError::Size { format: self, width, height, largest });
-        }
-        match self.fastest().filter(|most| rate.per_second() > f64::from(*most)) {
-            Some(most) => Err(FilmError::Rate { format: self, rate, most }),
-            None => Ok(()),
-        }
-    }
-
     /// Longer and shorter side of the largest picture.
     pub(crate) const fn largest(self) -> (u32, u32) {
         match self {
@@ -68,7 +51,7 @@ impl Format {
         }
     }
 
-    /// The most frames per second, where there is a limit below [`Rate::FASTEST`].
+    /// The most frames per second, where there is a limit below [`crate::Rate::FASTEST`].
     pub(crate) const fn fastest(self) -> Option<u32> {
         match self {
             // Delays are hundredths of a second, and programs that show GIFs take less than two of them for
@@ -80,6 +63,7 @@ impl Format {
         }
     }
 
+    /// A size in words.
     pub(crate) fn words((width, height): (u32, u32)) -> String {
         format!("{width}x{height}")
     }

@@ -29,22 +29,22 @@
 //! What each format keeps of a frame, and what it costs, is told in `docs/films.md`. This crate knows no
 //! files, no clock and no threads.
 
-mod apng;
-mod changed;
-mod error;
-mod film;
-mod format;
-mod gif_film;
-#[cfg(feature = "mp4")]
-mod mp4_film;
-mod palette;
-mod picture;
 mod rate;
+mod format;
+mod error;
+mod changed;
+mod palette;
+mod gif_film;
+mod picture;
+mod apng;
 #[cfg(feature = "mp4")]
 mod yuv;
+#[cfg(feature = "mp4")]
+mod mp4_film;
+mod film;
 
-pub use error::{FilmError, RateError};
+pub use error::FilmError;
 pub use film::Film;
 pub use format::Format;
 pub use picture::{frame_name, png};
-pub use rate::Rate;
+pub use rate::{Rate, RateError};

@@ -1,6 +1,17 @@
-use crate::RateError;
 use std::fmt;
 use std::str::FromStr;
+
+/// Not a [`Rate`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "expected frames per second from {} to {}, as a number or a fraction of numbers up to 65535 (30, 12.5, 30000/1001), found {found}",
+    Rate::SLOWEST,
+    Rate::FASTEST
+)]
+pub struct RateError {
+    /// What was given.
+    pub found: String,
+}
 
 /// Frames per second, as a fraction in lowest terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

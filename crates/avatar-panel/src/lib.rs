@@ -53,25 +53,23 @@
 //! - Scaling text scales points: [`egui::Context::pixels_per_point`] follows.
 //! - Everything has a name for screen readers; forward AccessKit's events and trees to have them read.
 
+mod groups;
+mod model;
+mod state;
+mod style;
+mod help;
+mod overlay;
+mod widgets;
+mod pose_form;
 mod action;
 mod clips;
 mod face;
-mod groups;
-mod help;
-mod model;
 mod notices;
-mod overlay;
-mod panel;
 mod pose_cards;
-mod pose_form;
 mod poses;
-mod state;
-mod style;
 mod timeline;
-mod timeline_bar;
-mod track_row;
 mod view;
-mod widgets;
+mod panel;
 
 pub use action::{Action, Edit};
 /// The version of egui that the interface speaks.

@@ -37,13 +37,9 @@
 //! device.
 
 mod upload;
-
 mod view;
-
 mod performer;
-
 mod screen;
-
 #[cfg(feature = "default-face")]
 mod default_face;
 

@@ -1,6 +1,5 @@
 //! Clips by their names: those of a file of an interchange format, and those of a pack's `clips.toml`.
 
-use crate::face_args::FaceChoice;
 use crate::usage::{unknown, usage};
 use anyhow::Result;
 use avatar_pack::{MotionAt, Pack};
@@ -70,12 +69,5 @@ impl FoundClip {
                 Ok(at.map_err(|error| usage(error.to_string()))?.unwrap_or_default())
             }
         }
-    }
-
-    /// The face at a time of the clip, and nothing else.
-    pub(crate) fn face(&self, pack: &Pack, time_secs: f64) -> Result<FaceChoice> {
-        let mut values = pack.controls().defaults();
-        let set = self.at(pack, time_secs, &mut values)?;
-        Ok(FaceChoice::of_values(values).with_motion(set))
     }
 }

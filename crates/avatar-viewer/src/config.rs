@@ -1,9 +1,8 @@
 //! What the program remembers of its user: in one folder, as TOML that a person can read.
 
 use crate::output::OutputFile;
-use crate::store;
-use crate::window::keys::Keys;
-use anyhow::{Result, anyhow};
+use crate::reading;
+use anyhow::Result;
 use avatar_panel::PanelState;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -16,7 +15,6 @@ pub(crate) fn folder() -> Option<PathBuf> {
 /// More files than these are not remembered.
 const RECENT: usize = 10;
 const FILE: &str = "viewer.toml";
-const KEYS: &str = "keys.toml";
 
 /// What is remembered from run to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -35,7 +33,7 @@ impl Config {
     /// start.
     pub(crate) fn load() -> (Self, Option<String>) {
         let Some(path) = folder().map(|folder| folder.join(FILE)) else { return Default::default() };
-        let read = store::read(&path).map_err(|error| format!("{error:#}"));
+        let read = reading::text(&path).map_err(|error| format!("{error:#}"));
         let parsed = read.and_then(|text| {
             let text = text.unwrap_or_default();
             toml::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))
@@ -62,17 +60,5 @@ impl Config {
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
         self.recent.truncate(RECENT);
-    }
-}
-
-/// The keys, as the user has bound them.
-///
-/// # Errors
-/// What is wrong with their file, and where.
-pub(crate) fn keys() -> Result<Keys> {
-    let Some(path) = folder().map(|folder| folder.join(KEYS)) else { return Ok(Keys::default()) };
-    match store::read(&path)? {
-        None => Ok(Keys::default()),
-        Some(text) => Keys::read(&text).map_err(|error| anyhow!("{}: {error}", path.display())),
     }
 }

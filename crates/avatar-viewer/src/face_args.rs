@@ -1,4 +1,4 @@
-use crate::clips;
+use crate::clips::{self, FoundClip};
 use crate::usage::{self, unknown, usage};
 use anyhow::Result;
 use avatar_pack::{FaceState, MotionAt, Pack};
@@ -101,6 +101,13 @@ impl FaceChoice {
     /// A pose's values on top of the defaults, and nothing else.
     pub(crate) fn of_values(values: Vec<f32>) -> Self {
         Self { values, ..Self::default() }
+    }
+
+    /// What a clip sets at a time, and nothing else.
+    pub(crate) fn of_found(clip: &FoundClip, pack: &Pack, time_secs: f64) -> Result<Self> {
+        let mut values = pack.controls().defaults();
+        let set = clip.at(pack, time_secs, &mut values)?;
+        Ok(Self::of_values(values).with_motion(set))
     }
 
     /// A clip of a file at a time, only to be described.

@@ -1,3 +1,4 @@
+use crate::config;
 use crate::reading::{self, Unread};
 use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
@@ -51,6 +52,24 @@ impl Files {
         }
     }
 
+    /// Where poses and clips are kept that a user makes: those of a pack in its folder, those of a file
+    /// beside it, those of the built-in avatar among the user's settings.
+    pub(crate) fn store(&self) -> Store {
+        Store::new([store::POSES, store::CLIPS].map(|which| self.path_of(store::NAMES[which])))
+    }
+
+    fn path_of(&self, name: &str) -> Option<PathBuf> {
+        match self {
+            Self::Folder(folder) => Some(folder.join(name)),
+            Self::File(path, ..) => {
+                let mut beside = path.file_name()?.to_owned();
+                beside.push(format!(".{name}"));
+                Some(path.with_file_name(beside))
+            }
+            Self::BuiltIn => Some(config::folder()?.join("marsienne").join(name)),
+        }
+    }
+
     /// A short name for titles.
     pub(crate) fn name(&self) -> String {
         match self {
@@ -85,7 +104,7 @@ impl Files {
             Self::File(.., import) => import.pack.clone(),
         };
         // Such an avatar has no folder of its own: what its user has made is elsewhere.
-        let store = Store::of(self);
+        let store = self.store();
         if let Some(text) = store.read(store::POSES)? {
             let poses = PoseSet::from_toml(&text, pack.controls());
             pack.set_poses(poses.map_err(|error| store.placed(store::POSES, &error))?)?;

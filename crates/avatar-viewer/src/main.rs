@@ -4,25 +4,25 @@
 //! the other. Exit status: 0 on success, 2 where the command line has to be corrected, 1 on any other
 //! failure.
 
-mod cli;
-mod clips;
-mod config;
-mod face_args;
-mod files;
-mod film;
 mod hair_args;
 mod label;
 mod look_args;
-mod offscreen;
 mod output;
-mod picture_args;
 mod progress;
 mod reading;
-mod script;
-mod store;
 mod usage;
-mod verbs;
+mod clips;
+mod face_args;
+mod picture_args;
+mod cli;
+mod offscreen;
+mod film;
+mod config;
+mod store;
+mod files;
 mod window;
+mod script;
+mod verbs;
 
 use clap::{CommandFactory, FromArgMatches};
 use std::process::ExitCode;

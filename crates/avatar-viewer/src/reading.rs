@@ -1,6 +1,7 @@
 //! Reads files of which nobody knows what they are: no device is waited for, and no link leads out of an
 //! avatar's folder.
 
+use anyhow::Context;
 use std::fmt;
 use std::io::{ErrorKind, Read};
 use std::path::{Component, Path};
@@ -49,6 +50,16 @@ pub(crate) fn file_within(folder: &Path, name: &str) -> Result<Vec<u8>, Unread> 
         return Err(refused());
     }
     file(&path)
+}
+
+/// A text that may not be there.
+pub(crate) fn text(path: &Path) -> anyhow::Result<Option<String>> {
+    let unreadable = || format!("{}: expected a readable text", path.display());
+    match file(path) {
+        Ok(bytes) => Ok(Some(String::from_utf8(bytes).with_context(unreadable)?)),
+        Err(Unread::Missing(_)) => Ok(None),
+        Err(Unread::Refused(reason)) => Err(anyhow::anyhow!(reason).context(unreadable())),
+    }
 }
 
 fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {

@@ -1,9 +1,7 @@
 //! Where poses and clips that a user makes are kept.
 
-use crate::config;
-use crate::files::Files;
 use crate::output::OutputFile;
-use crate::reading::{self, Unread};
+use crate::reading;
 use anyhow::{Context, Result, anyhow};
 use avatar_pack::files;
 use std::path::{Path, PathBuf};
@@ -24,14 +22,9 @@ pub(crate) struct Store {
 }
 
 impl Store {
-    /// Those of a pack are in its folder; those of a file are beside it; those of the built-in avatar are the
-    /// user's.
-    pub(crate) fn of(files: &Files) -> Self {
-        Self {
-            paths: [POSES, CLIPS].map(|which| path_of(files, which)),
-            taken: Default::default(),
-            known: Default::default(),
-        }
+    /// Poses and clips in these files, if there can be files.
+    pub(crate) fn new(paths: [Option<PathBuf>; 2]) -> Self {
+        Self { paths, taken: Default::default(), known: Default::default() }
     }
 
     /// Where a file is, if there can be one.
@@ -41,7 +34,7 @@ impl Store {
 
     /// The file's text; `None` where there is none.
     pub(crate) fn read(&self, which: usize) -> Result<Option<String>> {
-        self.path(which).map_or(Ok(None), read)
+        self.path(which).map_or(Ok(None), reading::text)
     }
 
     /// The text that was taken over or written last.
@@ -94,27 +87,5 @@ impl Store {
             Some(path) => anyhow!("{}: {error}", path.display()),
             None => anyhow!("{error}"),
         }
-    }
-}
-
-fn path_of(files: &Files, which: usize) -> Option<PathBuf> {
-    match files {
-        Files::Folder(folder) => Some(folder.join(NAMES[which])),
-        Files::File(path, ..) => {
-            let mut name = path.file_name()?.to_owned();
-            name.push(format!(".{}", NAMES[which]));
-            Some(path.with_file_name(name))
-        }
-        Files::BuiltIn => Some(config::folder()?.join("marsienne").join(NAMES[which])),
-    }
-}
-
-/// A text that may not be there.
-pub(crate) fn read(path: &Path) -> Result<Option<String>> {
-    let unreadable = || format!("{}: expected a readable text", path.display());
-    match reading::file(path) {
-        Ok(bytes) => Ok(Some(String::from_utf8(bytes).with_context(unreadable)?)),
-        Err(Unread::Missing(_)) => Ok(None),
-        Err(Unread::Refused(reason)) => Err(anyhow!(reason).context(unreadable())),
     }
 }

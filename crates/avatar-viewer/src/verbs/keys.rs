@@ -1,7 +1,6 @@
 use crate::cli::KeysArgs;
-use crate::config;
 use crate::output;
-use crate::window::keys::MOUSE;
+use crate::window::keys::{Keys, MOUSE};
 use anyhow::Result;
 use std::fmt::Write;
 
@@ -18,7 +17,7 @@ pub(super) fn run(args: &KeysArgs) -> Result<()> {
             let _ = writeln!(out, "{key:<24} clip {}", clip.name);
         }
     }
-    for (name, row) in config::keys()?.rows() {
+    for (name, row) in Keys::load()?.rows() {
         let _ = writeln!(out, "{name:<24} {}", row.meaning);
     }
     for (gesture, meaning) in MOUSE {

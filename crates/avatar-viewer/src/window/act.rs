@@ -1,8 +1,8 @@
 //! What the user wants, by key, by pointer or by panel, is carried out.
 
 use super::App;
-use super::action::{Action, CameraMove};
-use super::camera::Place;
+use super::action::Action;
+use super::camera::{CameraMove, Place};
 use super::messages::About;
 use anyhow::Result;
 use avatar_panel::{Action as Panel, Edit};

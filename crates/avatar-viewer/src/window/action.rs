@@ -1,4 +1,4 @@
-use super::camera::Place;
+use super::camera::CameraMove;
 
 /// Everything that a user can want of the window, by key, by pointer or by the panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,19 +19,6 @@ pub(crate) enum Action {
     Help,
     /// Folds the panel, or unfolds it.
     FoldPanel,
-}
-
-/// How the camera moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum CameraMove {
-    /// Around the face: degrees to the character's left, degrees up.
-    Orbit(f32, f32),
-    /// Multiplies its distance.
-    Zoom(f32),
-    /// Moves the picture: shares of its height to the right and up.
-    Pan(f32, f32),
-    /// To a place.
-    Go(Place),
 }
 
 impl Action {

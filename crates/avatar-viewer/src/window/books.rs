@@ -50,7 +50,7 @@ impl Books {
         let mut books = Self {
             poses: PoseBook::of_set(pack.poses(), pack.controls())?,
             clips: ClipBook::of_set(pack.clips(), pack.controls())?,
-            store: Store::of(files),
+            store: files.store(),
             order: Order::default(),
         };
         // Texts with mistakes are told of when they are followed.

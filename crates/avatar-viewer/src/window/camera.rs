@@ -1,4 +1,3 @@
-use super::action::CameraMove;
 use avatar_stage::{Framing, NamedView, View};
 use std::ops::RangeInclusive;
 
@@ -40,6 +39,19 @@ impl Place {
             Self::Face => "face",
         }
     }
+}
+
+/// How the camera moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum CameraMove {
+    /// Around the face: degrees to the character's left, degrees up.
+    Orbit(f32, f32),
+    /// Multiplies its distance.
+    Zoom(f32),
+    /// Moves the picture: shares of its height to the right and up.
+    Pan(f32, f32),
+    /// To a place.
+    Go(Place),
 }
 
 /// The view, as it is moved by hand.

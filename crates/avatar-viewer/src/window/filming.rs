@@ -1,12 +1,10 @@
 //! A film of what the window shows, made beside it on a device of its own.
 
-use super::presenter::Presenter;
-use super::session::Session;
 use super::watch::Wake;
 use crate::cli::Size;
 use crate::clips::FoundClip;
 use crate::face_args::FaceChoice;
-use crate::film::{FilmSink, FilmTarget, Take, free_name, through};
+use crate::film::{FilmSink, FilmTarget, Take, through};
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
 use anyhow::{Result, bail};
@@ -27,7 +25,7 @@ const FPS: u32 = 30;
 /// Seconds in which the camera goes once around a face that does nothing.
 const TURN_SECS: f64 = 4.0;
 /// Films of larger windows are that large.
-const LARGEST_SIDE: u32 = 1920;
+pub(super) const LARGEST_SIDE: u32 = 1920;
 
 /// A film that is being made.
 pub(super) struct Filming {
@@ -57,16 +55,16 @@ enum News {
 }
 
 /// What is filmed.
-struct Subject {
-    pack: Arc<Pack>,
-    textures: Textures,
-    look: LookArgs,
+pub(super) struct Subject {
+    pub(super) pack: Arc<Pack>,
+    pub(super) textures: Textures,
+    pub(super) look: LookArgs,
     /// The clip; without one the present face is looked at from all around.
-    clip: Option<FoundClip>,
-    values: Vec<f32>,
-    view: View,
-    size: Size,
-    background: [u8; 4],
+    pub(super) clip: Option<FoundClip>,
+    pub(super) values: Vec<f32>,
+    pub(super) view: View,
+    pub(super) size: Size,
+    pub(super) background: [u8; 4],
 }
 
 /// Formats of films, for people, with the ends of their names.
@@ -79,7 +77,7 @@ pub(super) fn formats() -> Vec<(&'static str, &'static str)> {
 }
 
 impl Filming {
-    fn start(subject: Subject, path: PathBuf, window: EventLoopProxy<Wake>) -> Result<Self> {
+    pub(super) fn start(subject: Subject, path: PathBuf, window: EventLoopProxy<Wake>) -> Result<Self> {
         let rate = Rate::new(FPS, 1)?;
         let target = FilmTarget::check(&path, subject.size, rate)?;
         let frames = match &subject.clip {
@@ -150,7 +148,7 @@ impl Subject {
         let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, look)?;
         let mut film = FilmSink::create(target, size, rate, frames)?;
         let at = |secs: f64| match &clip {
-            Some(clip) => Ok((clip.face(&pack, secs)?, view)),
+            Some(clip) => Ok((FaceChoice::of_found(clip, &pack, secs)?, view)),
             None => {
                 let yaw_degrees = view.yaw_degrees + (secs / TURN_SECS * 360.0) as f32;
                 Ok((FaceChoice::of_values(values.clone()), View { yaw_degrees, ..view }))
@@ -163,53 +161,16 @@ impl Subject {
 }
 
 impl Filming {
+    /// Ends it, and discards what there is.
+    pub(super) fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
     pub(super) fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
-    }
-}
-
-impl Session {
-    pub(super) fn stop_film(&mut self) {
-        if let Some(filming) = &self.filming {
-            filming.stop.store(true, Ordering::Relaxed);
-        }
-    }
-}
-
-impl Presenter {
-    /// Begins a film of a clip, or of the present face from all around.
-    pub(super) fn film(
-        &self,
-        session: &Session,
-        format: usize,
-        clip: Option<usize>,
-        window: EventLoopProxy<Wake>,
-    ) -> Result<Filming> {
-        let formats = formats();
-        let Some((_, ending)) = formats.get(format) else { bail!("expected a format that there is") };
-        let Some(stage) = &self.stage else { bail!("expected a window, found none") };
-        let (width, height) = stage.size();
-        let size = Size { width: width.min(LARGEST_SIDE), height: height.min(LARGEST_SIDE) };
-        let face = &session.face;
-        let of_file = face.motion.as_ref().filter(|motion| motion.is_wanted());
-        let of_file = of_file.map(|motion| FoundClip::File(motion.name.clone()));
-        let chosen = clip.and_then(|clip| session.books.clip(clip));
-        let clip = of_file.or(chosen.map(|clip| FoundClip::Controls(clip.clone())));
-        let stem = clip.as_ref().map_or("around", FoundClip::name).to_owned();
-        let subject = Subject {
-            pack: Arc::clone(face.performer.pack()),
-            textures: session.textures.clone(),
-            look: self.look,
-            clip,
-            values: face.targets(),
-            view: self.camera.view,
-            size,
-            background: self.background(),
-        };
-        Filming::start(subject, free_name(&stem, ending)?, window)
     }
 }

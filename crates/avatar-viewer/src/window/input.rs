@@ -1,7 +1,8 @@
 //! Keys and pointer become actions.
 
-use super::action::{Action, CameraMove};
+use super::action::Action;
 use super::books::Books;
+use super::camera::CameraMove;
 use super::keys::{self, Keys};
 use winit::dpi::PhysicalPosition;
 use winit::event::{ElementState, KeyEvent, Modifiers, MouseButton, MouseScrollDelta};

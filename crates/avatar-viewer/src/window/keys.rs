@@ -1,14 +1,19 @@
 //! Which key does what in the window: one table that handles keys, prints them and shows them as help.
 
-use super::action::{Action, CameraMove};
-use super::camera::Place;
+use super::action::Action;
+use super::camera::{CameraMove, Place};
 use super::key_name::KeyName;
+use crate::{config, reading};
+use anyhow::{Result, anyhow};
 use avatar_panel::{Action as Panel, Edit};
 use avatar_stage::NamedView;
 use placed_toml::{Document, TomlError};
 use pose_anim::{Clip, Pose, PoseSet};
 use winit::event::Modifiers;
 use winit::keyboard::{Key, KeyCode, PhysicalKey};
+
+/// The file that binds keys anew.
+const FILE: &str = "keys.toml";
 
 /// A row of the table.
 #[derive(Clone, Debug)]
@@ -138,7 +143,7 @@ impl Keys {
     ///
     /// # Errors
     /// A name that no row has, a key that cannot be, a key twice; with its place.
-    pub(crate) fn read(text: &str) -> Result<Self, TomlError> {
+    fn read(text: &str) -> Result<Self, TomlError> {
         const EXPECTED: &str =
             "the name of a key such as \"x\", \"F5\" or \"Ctrl+Left\", or a list of such names";
         let document = Document::parse(text)?;
@@ -175,6 +180,18 @@ impl Keys {
             }
         }
         Ok(keys)
+    }
+
+    /// The keys as the user has bound them in `keys.toml`, among the settings.
+    ///
+    /// # Errors
+    /// What is wrong with the file, and where.
+    pub(crate) fn load() -> Result<Self> {
+        let Some(path) = config::folder().map(|folder| folder.join(FILE)) else { return Ok(Self::default()) };
+        match reading::text(&path)? {
+            None => Ok(Self::default()),
+            Some(text) => Self::read(&text).map_err(|error| anyhow!("{}: {error}", path.display())),
+        }
     }
 
     /// What a pressed key does, if the window handles it itself; `is_repeat`: because it is held down.

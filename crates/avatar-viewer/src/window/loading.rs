@@ -1,10 +1,4 @@
-use super::App;
-use super::camera::HandCamera;
-use super::messages::About;
-use super::point::Pointing;
-use super::session::Session;
 use super::watch::Wake;
-use crate::face_args::FaceChoice;
 use crate::files::Files;
 use anyhow::Result;
 use avatar_pack::{Pack, Textures};
@@ -104,57 +98,4 @@ pub(super) fn ask(window: EventLoopProxy<Wake>) {
         let path = if is_pack { path.parent().unwrap_or(path) } else { path };
         let _ = window.send_event(Wake::Chosen(path.to_owned()));
     });
-}
-
-impl App {
-    /// Reads another avatar beside the running picture.
-    pub(super) fn open(&mut self, path: &Path) {
-        if !self.may_leave() {
-            return;
-        }
-        self.session.loading = Some(Loading::start(path, self.proxy.clone()));
-        self.presenter.redraw();
-    }
-
-    /// Takes over what was read; a broken file leaves everything as it is.
-    pub(super) fn take_loaded(&mut self) {
-        let Some(loading) = &mut self.session.loading else { return };
-        let loaded = loading.take();
-        self.presenter.redraw();
-        let Some(loaded) = loaded else { return };
-        let path = loading.path.clone();
-        self.session.loading = None;
-        match loaded.and_then(|loaded| self.show(loaded)) {
-            Ok(()) => {
-                self.messages.settle(About::Opening);
-                self.config.opened(&path);
-                self.remember();
-            }
-            Err(error) => {
-                let title = format!("{} was not opened.", path.display());
-                self.messages.error(About::Opening, title, &error);
-            }
-        }
-    }
-
-    fn show(&mut self, loaded: Loaded) -> Result<()> {
-        let start = FaceChoice::of_values(loaded.pack.controls().defaults());
-        let mut session = Session::new(loaded, start, self.proxy.clone())?;
-        if let Some(stage) = &mut self.presenter.stage {
-            stage.set_avatar(session.face.pack(), &session.textures, self.presenter.look)?;
-        }
-        // A film of the avatar before goes on.
-        session.filming = self.session.filming.take();
-        self.session = session;
-        let follows = self.presenter.pointing.follows;
-        self.presenter.pointing =
-            Pointing::new(self.session.face.performer.pack(), self.proxy.clone(), follows);
-        self.presenter.camera = HandCamera::START;
-        self.presenter.frames.forget_miniatures();
-        for about in [About::Poses, About::Clips, About::Materials, About::Hair] {
-            self.messages.settle(about);
-        }
-        self.presenter.set_title(&self.session.title());
-        Ok(())
-    }
 }

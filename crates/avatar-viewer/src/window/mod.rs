@@ -9,53 +9,31 @@
 //! ```
 
 mod camera;
-
 pub(crate) mod action;
-
 mod key_name;
-
 pub(crate) mod keys;
-
 mod messages;
-
 mod watch;
-
 mod books;
-
-mod playing;
-
-mod file_motion;
-
 mod face;
-
 mod loading;
-
 mod filming;
-
 mod session;
-
 mod input;
-
 mod shot;
-
 mod overlay;
-
 mod stage;
-
 mod frames;
-
-mod point;
-
+mod pointing;
 mod presenter;
-
+mod point;
 mod frame;
-
 mod act;
-
 mod follow;
+mod open;
 
 use crate::cli::WindowArgs;
-use crate::config::{self, Config};
+use crate::config::Config;
 use crate::files::Files;
 use anyhow::{Context, Result, anyhow};
 use clap::ArgMatches;
@@ -63,7 +41,7 @@ use input::Input;
 use keys::Keys;
 use loading::Loaded;
 use messages::{About, Messages};
-use point::Pointing;
+use pointing::Pointing;
 use presenter::Presenter;
 use session::Session;
 use stage::Stage;
@@ -91,7 +69,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     if let Some(mistake) = mistake {
         messages.warn(About::Settings, "What was remembered cannot be read.", mistake);
     }
-    let keys = config::keys().unwrap_or_else(|error| {
+    let keys = Keys::load().unwrap_or_else(|error| {
         messages.error(About::Keys, "The usual keys are used.", &error);
         Keys::default()
     });

@@ -1,15 +1,18 @@
 use super::camera::HandCamera;
+use super::filming::{Filming, LARGEST_SIDE, Subject, formats};
 use super::frames::Frames;
 use super::overlay::Overlay;
-use super::point::Pointing;
+use super::pointing::Pointing;
 use super::session::Session;
 use super::shot::Shot;
 use super::stage::Stage;
 use super::watch::Wake;
+use crate::cli::Size;
+use crate::clips::FoundClip;
 use crate::film;
 use crate::look_args::LookArgs;
 use crate::output::OutputFile;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
 use avatar_panel::{PanelState, Theme};
 use avatar_render::Camera;
@@ -167,7 +170,7 @@ impl Presenter {
     pub(super) fn save_picture(&mut self, session: &mut Session) -> Result<PathBuf> {
         session.face.pose()?;
         let shot = self.shot(session, None);
-        let Some(stage) = &mut self.stage else { anyhow::bail!("expected a window, found none") };
+        let Some(stage) = &mut self.stage else { bail!("expected a window, found none") };
         let (width, height) = stage.size();
         let picture = stage.picture(&shot, width, height)?;
         let face = &session.face;
@@ -175,5 +178,37 @@ impl Presenter {
         let path = film::free_name(stem.map_or("face", |pose| pose.name.as_str()), "png")?;
         film::still(&OutputFile::check(&path)?, &picture, &face.choice().describe(face.pack()))?;
         Ok(path)
+    }
+
+    /// Begins a film of a clip, or of the present face from all around.
+    pub(super) fn film(
+        &self,
+        session: &Session,
+        format: usize,
+        clip: Option<usize>,
+        window: EventLoopProxy<Wake>,
+    ) -> Result<Filming> {
+        let formats = formats();
+        let Some((_, ending)) = formats.get(format) else { bail!("expected a format that there is") };
+        let Some(stage) = &self.stage else { bail!("expected a window, found none") };
+        let (width, height) = stage.size();
+        let size = Size { width: width.min(LARGEST_SIDE), height: height.min(LARGEST_SIDE) };
+        let face = &session.face;
+        let of_file = face.motion.as_ref().filter(|motion| motion.is_wanted());
+        let of_file = of_file.map(|motion| FoundClip::File(motion.name.clone()));
+        let chosen = clip.and_then(|clip| session.books.clip(clip));
+        let clip = of_file.or(chosen.map(|clip| FoundClip::Controls(clip.clone())));
+        let stem = clip.as_ref().map_or("around", FoundClip::name).to_owned();
+        let subject = Subject {
+            pack: Arc::clone(face.performer.pack()),
+            textures: session.textures.clone(),
+            look: self.look,
+            clip,
+            values: face.targets(),
+            view: self.camera.view,
+            size,
+            background: self.background(),
+        };
+        Filming::start(subject, film::free_name(&stem, ending)?, window)
     }
 }

@@ -1,9 +1,8 @@
 use super::books::{Book, Books};
-use super::face::Face;
+use super::face::{Face, Playback};
 use super::filming::Filming;
 use super::loading::{Loaded, Loading};
 use super::messages::About;
-use super::playing::Playback;
 use super::watch::{Wake, Watched, Watching, watch};
 use crate::face_args::FaceChoice;
 use crate::files::Files;
@@ -109,6 +108,12 @@ impl Session {
     pub(super) fn scrub(&mut self, index: usize, time_secs: f64) {
         if let Some(clip) = self.books.clip(index) {
             self.face.scrub(index, clip, time_secs);
+        }
+    }
+
+    pub(super) fn stop_film(&self) {
+        if let Some(filming) = &self.filming {
+            filming.stop();
         }
     }
 

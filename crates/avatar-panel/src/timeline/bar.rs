@@ -1,8 +1,8 @@
 //! Above the tracks: playing, and what is known of the chosen key.
 
+use super::Timeline;
+use super::track_row::limits;
 use crate::style::palette;
-use crate::timeline::Timeline;
-use crate::track_row::limits;
 use crate::widgets::{Icon, icon_button, icon_button_if, named, passed_by};
 use crate::{Action, Edit, Model};
 use egui::{Button, ComboBox, DragValue, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};

@@ -1,21 +1,21 @@
 //! Clips that play, and faces that are recorded.
 
-use super::face::Face;
+use super::Face;
 use anyhow::Result;
 use pose_anim::{Clip, Pose, Track, Wrap};
 
 /// A recording is reduced to keys that stray by at most this share of a control's range.
 const RECORDED_TOLERANCE: f64 = 0.005;
 /// A recording takes the face's values this often.
-pub(super) const RECORDED_PER_SEC: f64 = 60.0;
+pub(in crate::window) const RECORDED_PER_SEC: f64 = 60.0;
 /// Longer recordings end by themselves.
 const LONGEST_RECORDING_SECS: f64 = 600.0;
 
 /// A face whose values are noted.
-pub(super) struct Recording {
-    pub(super) secs: f64,
+pub(in crate::window) struct Recording {
+    pub(in crate::window) secs: f64,
     /// Values of all controls, one row per sample.
-    pub(super) samples: Vec<Vec<f32>>,
+    pub(in crate::window) samples: Vec<Vec<f32>>,
 }
 
 /// Seconds in which a face follows the playhead that is dragged.
@@ -23,9 +23,9 @@ const SCRUB_SECS: f64 = 0.08;
 
 /// The clip that is chosen, and its playhead.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Playback {
+pub(in crate::window) struct Playback {
     /// Its index in the books.
-    pub(super) clip: Option<usize>,
+    pub(in crate::window) clip: Option<usize>,
     playhead: Playhead,
 }
 
@@ -46,19 +46,19 @@ impl Default for Playhead {
 
 impl Playback {
     /// A clip whose playhead stands at a time.
-    pub(super) const fn at(clip: usize, secs: f64) -> Self {
+    pub(in crate::window) const fn at(clip: usize, secs: f64) -> Self {
         Self { clip: Some(clip), playhead: Playhead::Stands(secs) }
     }
 }
 
 impl Face {
     /// Whether a clip of the books plays.
-    pub(super) fn is_playing(&self) -> bool {
+    pub(in crate::window) fn is_playing(&self) -> bool {
         matches!(self.playback.playhead, Playhead::Runs { .. }) && self.performer.clip_time_secs().is_some()
     }
 
     /// Where the playhead is, in seconds from the start of the clip.
-    pub(super) fn playhead_secs(&self) -> f64 {
+    pub(in crate::window) fn playhead_secs(&self) -> f64 {
         match self.playback.playhead {
             Playhead::Stands(secs) => secs,
             Playhead::Runs { end_secs } => self.performer.clip_time_secs().unwrap_or(end_secs),
@@ -66,12 +66,12 @@ impl Face {
     }
 
     /// The playhead stays where it is.
-    pub(super) fn halt_playhead(&mut self) {
+    pub(in crate::window) fn halt_playhead(&mut self) {
         self.playback.playhead = Playhead::Stands(self.playhead_secs());
     }
 
     /// Plays a clip, the one of this index in the books: from where the playhead stands, or from its start.
-    pub(super) fn play(&mut self, index: usize, clip: &Clip) -> Result<()> {
+    pub(in crate::window) fn play(&mut self, index: usize, clip: &Clip) -> Result<()> {
         let stands_secs = self.playhead_secs();
         let ended = clip.wrap == Wrap::Once && stands_secs >= clip.duration_secs();
         let from_secs = if self.playback.clip == Some(index) && !ended { stands_secs } else { 0.0 };
@@ -84,7 +84,7 @@ impl Face {
     }
 
     /// Halts what plays.
-    pub(super) fn pause(&mut self) {
+    pub(in crate::window) fn pause(&mut self) {
         if let Some(motion) = &mut self.motion {
             motion.playing = false;
         }
@@ -95,20 +95,20 @@ impl Face {
     }
 
     /// What plays may be another clip now, or none.
-    pub(super) fn forget_playback(&mut self) {
+    pub(in crate::window) fn forget_playback(&mut self) {
         self.pause();
         self.playback = Playback::default();
     }
 
     /// Shows a clip, the one of this index in the books, at a time.
-    pub(super) fn scrub(&mut self, index: usize, clip: &Clip, time_secs: f64) {
+    pub(in crate::window) fn scrub(&mut self, index: usize, clip: &Clip, time_secs: f64) {
         let values = clip.tracks().iter().map(|track| (track.control(), track.at(time_secs).value as f32));
         let pose = Pose::new("playhead", values.collect()).lasting(SCRUB_SECS);
         self.press(&pose);
         self.playback = Playback::at(index, time_secs);
     }
 
-    pub(super) fn recorded_secs(&self) -> Option<f64> {
+    pub(in crate::window) fn recorded_secs(&self) -> Option<f64> {
         Some(self.recording.as_ref()?.secs)
     }
 
@@ -116,7 +116,7 @@ impl Face {
     ///
     /// # Errors
     /// A clip of the file moves the face, and no control does.
-    pub(super) fn start_recording(&mut self) -> Result<()> {
+    pub(in crate::window) fn start_recording(&mut self) -> Result<()> {
         if let Some(motion) = self.motion.as_ref().filter(|motion| motion.is_wanted()) {
             anyhow::bail!(
                 "expected a face that its controls move, found the clip {} of its file, which moves joints themselves",
@@ -128,13 +128,13 @@ impl Face {
     }
 
     /// Whether a recording has become too long.
-    pub(super) fn recording_is_full(&self) -> bool {
+    pub(in crate::window) fn recording_is_full(&self) -> bool {
         self.recording.as_ref().is_some_and(|recording| recording.secs > LONGEST_RECORDING_SECS)
     }
 
     /// Makes a clip of what was recorded: of those controls that moved, with as few keys as say it.
     /// Without a recording there is none.
-    pub(super) fn stop_recording(&mut self, name: String) -> Result<Option<Clip>> {
+    pub(in crate::window) fn stop_recording(&mut self, name: String) -> Result<Option<Clip>> {
         let Some(Recording { samples, .. }) = self.recording.take() else { return Ok(None) };
         let controls = self.controls().controls();
         let moved = |control: &usize| samples.iter().any(|row| row[*control] != samples[0][*control]);

@@ -1,31 +1,35 @@
-use super::file_motion::FileMotion;
-use super::playing::{Playback, RECORDED_PER_SEC, Recording};
+mod file_motion;
+mod playing;
+
 use crate::face_args::FaceChoice;
 use anyhow::Result;
 use avatar_pack::Pack;
 use avatar_stage::Performer;
+use file_motion::FileMotion;
 use glam::Vec3;
+pub(super) use playing::Playback;
+use playing::{RECORDED_PER_SEC, Recording};
 use pose_anim::{ClipSet, ControlTable, Pose, PoseSet};
 
 /// What an avatar does: where its controls are and where they are heading, what plays, and what is recorded.
 /// Its poses and clips are in the [`super::books::Books`]; the pack in here has none.
-pub(super) struct Face {
-    pub(super) performer: Performer,
+pub(in crate::window) struct Face {
+    pub(in crate::window) performer: Performer,
     /// The face of the command line, with its single joints; until something else is asked for.
     start: Option<FaceChoice>,
     /// The pose that was asked for last, if nothing else was since.
-    pub(super) active_pose: Option<usize>,
-    pub(super) playback: Playback,
+    pub(in crate::window) active_pose: Option<usize>,
+    pub(in crate::window) playback: Playback,
     /// A clip of the file that moves the face.
-    pub(super) motion: Option<FileMotion>,
+    pub(in crate::window) motion: Option<FileMotion>,
     /// Names and lengths in seconds of the file's clips.
-    pub(super) file_clips: Vec<(String, f64)>,
-    pub(super) recording: Option<Recording>,
+    pub(in crate::window) file_clips: Vec<(String, f64)>,
+    pub(in crate::window) recording: Option<Recording>,
 }
 
 impl Face {
     /// A face at rest that starts as the command line says.
-    pub(super) fn new(mut pack: Pack, start: FaceChoice) -> Result<Self> {
+    pub(in crate::window) fn new(mut pack: Pack, start: FaceChoice) -> Result<Self> {
         pack.set_poses(PoseSet::default())?;
         pack.set_clips(ClipSet::default())?;
         let file_clips = pack.motion().map_or_else(Vec::new, |motion| {
@@ -48,16 +52,16 @@ impl Face {
         })
     }
 
-    pub(super) fn pack(&self) -> &Pack {
+    pub(in crate::window) fn pack(&self) -> &Pack {
         self.performer.pack()
     }
 
-    pub(super) fn controls(&self) -> &ControlTable {
+    pub(in crate::window) fn controls(&self) -> &ControlTable {
         self.pack().controls()
     }
 
     /// Lets time pass. What is recorded is recorded at even times, however many frames are drawn.
-    pub(super) fn advance(&mut self, secs: f64) {
+    pub(in crate::window) fn advance(&mut self, secs: f64) {
         let mut left = secs;
         while let Some(recording) = &self.recording {
             let due = recording.samples.len() as f64 / RECORDED_PER_SEC - recording.secs;
@@ -83,13 +87,13 @@ impl Face {
     }
 
     /// Whether frames have to follow each other.
-    pub(super) fn moves(&self) -> bool {
+    pub(in crate::window) fn moves(&self) -> bool {
         let is_led = self.motion.as_ref().is_some_and(FileMotion::moves);
         !self.performer.is_at_rest() || is_led || self.is_playing() || self.recording.is_some()
     }
 
     /// Brings bones and weights to the present values.
-    pub(super) fn pose(&mut self) -> Result<()> {
+    pub(in crate::window) fn pose(&mut self) -> Result<()> {
         if self.pose_motion()? {
             return Ok(());
         }
@@ -100,7 +104,7 @@ impl Face {
     }
 
     /// What is shown, in words of the command line.
-    pub(super) fn choice(&self) -> FaceChoice {
+    pub(in crate::window) fn choice(&self) -> FaceChoice {
         match (&self.motion, &self.start) {
             (Some(motion), _) if motion.is_wanted() => {
                 FaceChoice::of_clip(self.pack(), &motion.name, motion.time_secs)
@@ -119,19 +123,19 @@ impl Face {
     }
 
     /// As [`Self::turn_away`], while the controls come to rest by themselves.
-    pub(super) fn forget_wishes(&mut self) {
+    pub(in crate::window) fn forget_wishes(&mut self) {
         self.start = None;
         self.active_pose = None;
     }
 
     /// Goes to a pose.
-    pub(super) fn press(&mut self, pose: &Pose) {
+    pub(in crate::window) fn press(&mut self, pose: &Pose) {
         self.turn_away();
         self.performer.press_pose(pose);
     }
 
     /// Goes to one of the poses.
-    pub(super) fn go_to(&mut self, poses: &PoseSet, index: usize) {
+    pub(in crate::window) fn go_to(&mut self, poses: &PoseSet, index: usize) {
         if let Some(pose) = poses.poses.get(index) {
             self.press(pose);
             self.active_pose = Some(index);
@@ -139,25 +143,25 @@ impl Face {
     }
 
     /// Goes to the default face.
-    pub(super) fn defaults(&mut self) {
+    pub(in crate::window) fn defaults(&mut self) {
         self.press(&Pose::from_values("defaults", &self.controls().defaults()));
     }
 
     /// Takes one control to a value, as fast as a hand moves a slider.
-    pub(super) fn set_control(&mut self, control: usize, value: f32) {
+    pub(in crate::window) fn set_control(&mut self, control: usize, value: f32) {
         self.turn_away();
         self.performer.set_control(control, value);
     }
 
     /// Takes one control back to its default.
-    pub(super) fn reset_control(&mut self, control: usize) {
+    pub(in crate::window) fn reset_control(&mut self, control: usize) {
         if let Some(value) = self.controls().controls().get(control).map(|control| control.default) {
             self.set_control(control, value);
         }
     }
 
     /// Looks at a point.
-    pub(super) fn look_at(&mut self, point: Vec3) {
+    pub(in crate::window) fn look_at(&mut self, point: Vec3) {
         // Only a face of another pack would be an error.
         if self.performer.look_at(point).unwrap_or(false) {
             self.forget_wishes();
@@ -165,18 +169,18 @@ impl Face {
     }
 
     /// Looks straight ahead again.
-    pub(super) fn look_ahead(&mut self) {
+    pub(in crate::window) fn look_ahead(&mut self) {
         self.turn_away();
         self.performer.look_ahead();
     }
 
     /// Where every control is heading: what sliders show.
-    pub(super) fn targets(&self) -> Vec<f32> {
+    pub(in crate::window) fn targets(&self) -> Vec<f32> {
         self.performer.targets().collect()
     }
 
     /// The pose that the face has or heads for, with all its controls.
-    pub(super) fn present(&self, name: &str) -> Pose {
+    pub(in crate::window) fn present(&self, name: &str) -> Pose {
         Pose::from_values(name, &self.targets())
     }
 }

@@ -1,8 +1,9 @@
 //! The timeline of a clip: a row for each control, its keys, and the playhead.
 
+mod bar;
+mod track_row;
+
 use crate::style::palette;
-use crate::timeline_bar;
-use crate::track_row;
 use crate::{Action, Model};
 use egui::{
     Align2, EventFilter, FontId, Key, Pos2, Rangef, Rect, ScrollArea, Sense, Stroke, Ui, WidgetInfo, pos2,
@@ -101,11 +102,11 @@ impl Timeline {
     ) {
         let Some((index, clip)) = self.refresh(model) else { return };
         let playhead_secs = if model.playback.clip == Some(index) { model.playback.time_secs } else { 0.0 };
-        let is_open = timeline_bar::transport(self, ui, model, index, playhead_secs, folded, actions);
+        let is_open = bar::transport(self, ui, model, index, playhead_secs, folded, actions);
         if !is_open {
             return;
         }
-        timeline_bar::inspector(self, ui, model, index, clip, actions);
+        bar::inspector(self, ui, model, index, clip, actions);
         let scale = self.scale(ui, model, clip);
         self.ruler(ui, &scale, index, playhead_secs, actions);
         if clip.tracks().is_empty() {

@@ -1,7 +1,7 @@
 //! One row of the timeline: the curve of a control and its keys.
 
+use super::{Scale, Timeline};
 use crate::style::palette;
-use crate::timeline::{Scale, Timeline};
 use crate::{Action, Edit, Model};
 use egui::{
     Align2, EventFilter, Key, Rect, Role, Sense, Shape, Stroke, TextStyle, Ui, UiBuilder, WidgetInfo, pos2,

@@ -1,7 +1,7 @@
 //! A clip that the avatar's file brings along, while it plays: it moves joints and shapes themselves, over
 //! what the controls say.
 
-use super::face::Face;
+use super::Face;
 use anyhow::Result;
 use avatar_pack::MotionSampler;
 
@@ -9,12 +9,12 @@ use avatar_pack::MotionSampler;
 const LEAD_SECS: f64 = 0.3;
 
 /// A clip that comes, plays, is paused or goes.
-pub(super) struct FileMotion {
-    pub(super) clip: usize,
-    pub(super) name: String,
+pub(in crate::window) struct FileMotion {
+    pub(in crate::window) clip: usize,
+    pub(in crate::window) name: String,
     /// Seconds from its start.
-    pub(super) time_secs: f64,
-    pub(super) playing: bool,
+    pub(in crate::window) time_secs: f64,
+    pub(in crate::window) playing: bool,
     duration_secs: f64,
     /// How much of the face is the clip's; the rest is the controls'.
     share: f32,
@@ -24,12 +24,12 @@ pub(super) struct FileMotion {
 
 impl FileMotion {
     /// Whether frames have to follow each other. Clips of a single face stand still once they are there.
-    pub(super) fn moves(&self) -> bool {
+    pub(in crate::window) fn moves(&self) -> bool {
         self.leaving || self.share < 1.0 || (self.playing && self.duration_secs > 0.0)
     }
 
     /// Whether it is what the user wants to see.
-    pub(super) fn is_wanted(&self) -> bool {
+    pub(in crate::window) fn is_wanted(&self) -> bool {
         !self.leaving
     }
 
@@ -46,7 +46,7 @@ impl FileMotion {
 
 impl Face {
     /// Plays a clip of the file: from where it was paused, or else from its start, over and over.
-    pub(super) fn play_file_clip(&mut self, clip: usize) -> Result<()> {
+    pub(in crate::window) fn play_file_clip(&mut self, clip: usize) -> Result<()> {
         if self.pack().motion().is_none() {
             return Ok(());
         }
@@ -75,18 +75,18 @@ impl Face {
     }
 
     /// Leads the face back to what its controls say.
-    pub(super) fn leave_file_clip(&mut self) {
+    pub(in crate::window) fn leave_file_clip(&mut self) {
         if let Some(motion) = &mut self.motion {
             motion.leaving = true;
         }
     }
 
-    pub(super) fn advance_motion(&mut self, secs: f64) {
+    pub(in crate::window) fn advance_motion(&mut self, secs: f64) {
         self.motion.take_if(|motion| !motion.advance(secs));
     }
 
     /// Brings the state to the present values, and from there towards the clip; whether there is one.
-    pub(super) fn pose_motion(&mut self) -> Result<bool> {
+    pub(in crate::window) fn pose_motion(&mut self) -> Result<bool> {
         let Some(motion) = &mut self.motion else { return Ok(false) };
         // Slow at both ends, as transitions are.
         let share = motion.share * motion.share * (3.0 - 2.0 * motion.share);
