@@ -1,11 +1,10 @@
 //! Frames of one renderer, one after the other: what is measured, and what is left over from the last one.
 
 use crate::common::stage::Stage;
-use crate::common::{ball, gpu, model, part, scene, shadings};
+use crate::common::{ball, gpu, model, part, scene, shadings, skip};
 use avatar_mesh::PartKind;
 use avatar_render::{Environment, Light, PartTextures, PassTimer, Scene};
 use glam::Vec3;
-use std::io::Write as _;
 
 const SIZE: u32 = 48;
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -33,7 +32,7 @@ fn a_timer_names_the_passes_that_ran_in_their_order() {
     let Some(gpu) = gpu() else { return };
     let (device, queue) = (&gpu.device, &gpu.queue);
     let Some(timer) = PassTimer::new(device, queue) else {
-        let _ = writeln!(std::io::stderr(), "SKIPPED: the device has no timestamps");
+        skip("the device has no timestamps");
         return;
     };
     let mesh = ball(Vec3::ZERO, 1.0, 12);

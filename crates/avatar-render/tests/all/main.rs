@@ -1,4 +1,5 @@
-//! All tests of the crate from outside, in one program: it opens the adapter once, and tests share the shaders they compile.
+//! All tests of the crate from outside, in one program: it opens the adapter once, and tests share the shaders they
+//! compile.
 //!
 //! `cargo test -p avatar-render --test all eyes` runs those of one module.
 
@@ -15,6 +16,7 @@ mod targets;
 mod frames;
 mod limits;
 mod pixels;
+mod crowds;
 mod views;
 mod mirror;
 mod tone;

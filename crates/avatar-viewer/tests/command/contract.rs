@@ -251,9 +251,20 @@ fn keys_name_every_pose_with_a_key() {
 #[test]
 fn help_explains_every_verb() {
     let help = run(&["--help"]).ok();
-    for verb in ["render", "record", "sheet", "bones", "deform", "trace", "info", "keys"] {
-        assert!(help.contains(verb), "{verb} is not in: {help}");
-        run(&[verb, "--help"]).ok();
+    // As the program lists them, each with a sentence, up to an empty line; sentences go on farther to the right.
+    let listed = help.split("Commands:\n").nth(1).and_then(|rest| rest.split("\n\n").next()).expect("a list");
+    let starts =
+        listed.lines().filter_map(|line| line.strip_prefix("  ")).filter(|line| !line.starts_with(' '));
+    let verbs: Vec<_> = starts.map(|line| line.split_once(' ').expect("a sentence")).collect();
+    for known in
+        ["render", "record", "sheet", "bones", "deform", "strands", "convert", "trace", "info", "keys"]
+    {
+        assert!(verbs.iter().any(|(verb, _)| *verb == known), "{known} is not in: {listed}");
+    }
+    for (verb, explained) in verbs {
+        assert!(!explained.trim().is_empty(), "{verb}");
+        let of_verb = run(&[verb, "--help"]).ok();
+        assert!(of_verb.contains(&format!("Usage: avatar-viewer {verb}")), "{verb}: {of_verb}");
     }
 }
 

@@ -147,7 +147,7 @@ fn auto_is_what_the_adapter_is_able_to_and_every_quality_looks_different() {
 }
 
 #[test]
-fn every_look_draws_every_pack_twice_the_same_without_complaints() {
+fn every_look_draws_every_pack_without_complaints_and_a_second_time_the_same() {
     if !has_adapter() {
         return;
     }
@@ -164,9 +164,12 @@ fn every_look_draws_every_pack_twice_the_same_without_complaints() {
             .collect();
         for look in LOOKS {
             let options = [look, &["--size", "80x80", "--view", "three-quarter", "--pose", "smile"]].concat();
-            let [first, second] = [(); 2].map(|()| draw(pack, &options));
+            let first = draw(pack, &options);
             assert_eq!(first.stderr, expected, "{pack:?} {look:?}");
-            assert!(first.png == second.png, "{pack:?} {look:?}: two runs differ");
+            // Whether a look draws the same again does not depend on the pack: the small one tells.
+            if pack == Some(&golden) {
+                assert!(first.png == draw(pack, &options).png, "{look:?}: two runs differ");
+            }
         }
     }
 }

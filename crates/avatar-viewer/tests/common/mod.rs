@@ -7,6 +7,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 use tempfile::TempDir;
 
 /// The program under test.
@@ -71,15 +72,18 @@ pub fn golden_pack() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/pack")
 }
 
-/// The real face, where it is at hand; else the reason is printed.
+/// A real face, among the data beside the repository.
 pub fn real_face() -> Option<PathBuf> {
     shared_data("avatar-course-format-makehuman")
 }
 
-/// A file or folder of the data beside the repository, where it is at hand; else the reason is printed.
+/// A file or folder of the data beside the repository, where there is any; else the reason is printed, or under
+/// `MIMIK_REQUIRE_DATA` the test fails.
 pub fn shared_data(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
     if !path.exists() {
+        let required = std::env::var_os("MIMIK_REQUIRE_DATA").is_some();
+        assert!(!required, "expected data in {} (MIMIK_REQUIRE_DATA is set), found none", path.display());
         tell(&format!("{} is not there", path.display()));
         return None;
     }
@@ -113,9 +117,13 @@ pub fn hairy_pack() -> TempDir {
 /// Whether drawing can be tested here. Where `MIMIK_REQUIRE_GPU=1` promises an adapter, a missing one is a
 /// failure.
 pub fn has_adapter() -> bool {
-    let out = tempfile::tempdir().expect("a temporary folder");
-    let picture = out.path().join("probe.png");
-    let run = finish(viewer().args(["render", "--size", "8x8", "--out"]).arg(&picture));
+    // Once for all tests: it takes a whole start of the program.
+    static PROBE: OnceLock<Run> = OnceLock::new();
+    let run = PROBE.get_or_init(|| {
+        let out = tempfile::tempdir().expect("a temporary folder");
+        let picture = out.path().join("probe.png");
+        finish(viewer().arg("render").arg(golden_pack()).args(["--size", "8x8", "--out"]).arg(&picture))
+    });
     if run.status == 0 {
         return true;
     }

@@ -18,20 +18,25 @@ use std::sync::OnceLock;
 /// The GPU, or `None` after printing why the test is skipped.
 ///
 /// With `MIMIK_REQUIRE_GPU=1` a missing GPU fails the test instead.
-#[allow(clippy::disallowed_methods, reason = "a test may ask the environment how strict it is to be")]
 pub(crate) fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
     let opened = GPU.get_or_init(|| open_blocking(GpuOptions::default()).map_err(|e| e.to_string()));
     match opened {
         Ok(gpu) => Some(gpu),
         Err(reason) => {
-            let required = std::env::var("MIMIK_REQUIRE_GPU").is_ok_and(|value| value == "1");
-            assert!(!required, "MIMIK_REQUIRE_GPU=1, but {reason}");
-            // Not eprintln: the harness swallows that of tests that pass.
-            let _ = writeln!(std::io::stderr(), "SKIPPED: {reason}");
+            skip(reason);
             None
         }
     }
+}
+
+/// Prints why a test is skipped; with `MIMIK_REQUIRE_GPU=1` the test fails instead.
+#[allow(clippy::disallowed_methods, reason = "a test may ask the environment how strict it is to be")]
+pub(crate) fn skip(reason: &str) {
+    let required = std::env::var("MIMIK_REQUIRE_GPU").is_ok_and(|value| value == "1");
+    assert!(!required, "MIMIK_REQUIRE_GPU=1, but {reason}");
+    // Not eprintln: the harness swallows that of tests that pass.
+    let _ = writeln!(std::io::stderr(), "SKIPPED: {reason}");
 }
 
 /// A small generator with a fixed seed: SplitMix64.
