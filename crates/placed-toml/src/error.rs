@@ -8,9 +8,9 @@ pub struct TomlError {
     pub column: usize,
     /// The key with its tables, such as `eyeball.iris.depth`; empty where no key is at fault.
     pub key: String,
-    /// What would have been right there.
+    /// What would be right there.
     pub expected: String,
-    /// What stands there.
+    /// What stands there instead.
     pub found: String,
     /// The nearest valid name, if the fault is a name and one is close to it.
     pub nearest: Option<String>,

@@ -83,7 +83,7 @@ impl<T> Field<T> {
 /// Reads one entry as one of the fields. `others` are keys that may stand beside them, for the error.
 ///
 /// # Errors
-/// A key that is no field, a value of another type or out of range.
+/// A key that is not a field, a value of another type or out of range.
 pub fn read_field<T>(
     entry: &Entry<'_, '_>,
     fields: &[Field<T>],

@@ -3,8 +3,8 @@
 //! place of a value that has the right type but a wrong content.
 //!
 //! ```text
-//!  text ──Document::parse──▶ Document ──root──▶ Table ──take, require, finish──▶ Entry ──number …──▶ values
-//!                                                └──read_fields(FIELDS)──▶ a struct's numbers, by its keys
+//!  text ─Document::parse─▶ Document ─root─▶ Table ─take, require, finish─▶ Entry ─number, string …─▶ values
+//!                                             └─read_fields(FIELDS)─▶ the numbers of a struct, by its keys
 //! ```
 //!
 //! ```
@@ -33,8 +33,8 @@
 //! let error = read("[lamp]\ncolour = [1, 1, 1]").err().unwrap();
 //! assert_eq!(
 //!     error.to_string(),
-//!     "line 2, column 1: lamp.colour: expected one of the keys radiance, color, found \"colour\"; \
-//!      did you mean \"color\"?"
+//!     "line 2, column 1: lamp.colour: expected one of the keys radiance, color, \
+//!      found \"colour\"; did you mean \"color\"?"
 //! );
 //! ```
 //!

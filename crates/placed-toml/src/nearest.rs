@@ -1,8 +1,8 @@
 /// The candidate that is closest to a misspelt `name`, if one is close enough to be meant.
 ///
 /// The distance counts insertions, deletions, substitutions and swaps of neighbours, without regard to case
-/// ([`strsim::osa_distance`]). A candidate is accepted up to a third of the name's length, at least 2, but not beyond
-/// half of either name.
+/// ([`strsim::osa_distance`]). A candidate is accepted up to a third of the name's length, at least 2, but
+/// not beyond half of either name.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // A name out of a file may be of any length. What follows its first 80 characters cannot be meant.
     let wanted: String = name.chars().take(80).flat_map(char::to_lowercase).collect();

@@ -1,4 +1,4 @@
-//! What is read, and what is said about what cannot be.
+//! What is read, and the messages about what cannot be read.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -21,7 +21,7 @@ fn places_are_lines_and_characters() {
     let number = |text: &str| place(value(text, |entry| entry.number("a number")));
     assert_eq!(number("key = true"), (1, 7, "true".into()));
     assert_eq!(number("# é\n\nkey = \"é\""), (3, 7, "\"é\"".into()));
-    // The byte-order mark is no column.
+    // The byte-order mark does not count as a column.
     assert_eq!(number("\u{feff}key = []"), (1, 7, "an array of 0".into()));
     assert_eq!(number("\"é\" = 1\r\nkey = {}"), (2, 7, "a table".into()));
     // In characters, not in bytes.

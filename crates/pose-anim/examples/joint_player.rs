@@ -1,7 +1,8 @@
-//! What `JointPlayer` is for: rigs that are posed by whole joints rather than by controls, such as a body's neck or a prop.
+//! What `JointPlayer` is for: rigs that are posed by whole joints rather than by controls, such as a body's
+//! neck or a prop.
 //!
-//! A neck turns left, and is called back before it is there: its rotation, angular velocity and angular acceleration go on
-//! without a jump. Prints the angle and its rate.
+//! A neck turns left, and is called back before it is there: its rotation, angular velocity and angular
+//! acceleration go on without a jump. Prints the angle and its rate.
 //!
 //!     cargo run -p pose-anim --example joint_player
 

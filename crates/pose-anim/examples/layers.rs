@@ -1,7 +1,7 @@
 //! What `Layers` is for: a face that breathes and blinks by itself, whatever the poses below do.
 //!
-//! Each layer is a player of its own with a mask and a weight. Breathing is added to the base, a blink takes over the lids; the
-//! base never learns of either. Prints the head and a lid over three seconds.
+//! Each layer is a player of its own with a mask and a weight. Breathing is added to the base, a blink takes
+//! over the lids; the base never learns of either. Prints the head and a lid over three seconds.
 //!
 //!     cargo run -p pose-anim --example layers
 

@@ -83,8 +83,8 @@ impl ControlTable {
 }
 
 impl Binding {
-    /// Lets controls follow others: writes the effective values to `out`. Without couplings a copy. Allocates
-    /// nothing.
+    /// Lets controls follow others: writes the effective values to `out`. Without couplings, they are a copy
+    /// of `values`. Allocates nothing.
     ///
     /// For every coupling in order, with the raw values `v` of both controls, `d` their defaults:
     ///
@@ -181,7 +181,7 @@ impl Factor {
     }
 }
 
-/// How much of a coupling a follower at this value takes up, 0 to 1.
+/// How much of a coupling acts on a follower at this value, 0 to 1.
 fn fade(value: f32, follower: &Control) -> f32 {
     let end = if value >= follower.default { follower.max } else { follower.min };
     let way = end - follower.default;

@@ -7,18 +7,20 @@ const HALVINGS: i32 = 24;
 
 /// A quintic from `state` to rest anywhere in the range, that never leaves the range, as slow as possible.
 ///
-/// It always exists where there is room: as the duration `d` goes to 0, so do `v₀d` and `a₀d²`, and the
-/// quintic to an end nearby overshoots by no more than a share of those. The longest duration that works
-/// depends on how close to an end of the range, and how fast, the state is. The ends tried are the target
-/// that the motion had, the place where the least braking would stop it (the free end of a minimum-jerk move,
-/// `x₀ + v₀d/2 + a₀d²/12`), and points to both sides, because a state that is about to turn must be free to
-/// turn far; all the nearer, the shorter the duration, or the way out would be a leap.
+/// That one is found for the state of any motion that kept the range itself is tested, not proven. The reason
+/// to expect it: as the duration `d` goes to 0, so do `v₀d` and `a₀d²`, and a quintic to an end nearby
+/// overshoots by no more than a share of those. The longest duration that works depends on how close to an
+/// end of the range, and how fast, the state is. The ends tried are the target that the motion had, the place
+/// where the least braking would stop it (the free end of a minimum-jerk move, `x₀ + v₀d/2 + a₀d²/12`), and
+/// points to both sides, because a state that is about to turn must be free to turn far; all the nearer, the
+/// shorter the duration, or the way out would be a leap.
 ///
 /// A transition function that overshoots on purpose may have taken the state out of the range. Then the range
 /// is widened as far as needed, and a tenth of its width further.
 ///
-/// What finds no way runs against the very end of its range. A motion in range never does; a clip may end so.
-/// It is held there.
+/// Where none is found, the result rests at `state.value`, clamped to the range, so the velocity jumps. This
+/// happens to a clip that ends at speed at the very end of its range; no test has found a motion in range to
+/// which it happens.
 pub(crate) fn brake(state: Jet, target: f64, duration_secs: f64, range: Range) -> Quintic {
     let range = if !range.holds(state.value) {
         let margin = 0.1 * range.width();
@@ -56,7 +58,7 @@ pub(crate) mod tests {
     use std::cell::Cell;
 
     thread_local! {
-        /// How often no way was found.
+        /// How often no quintic was found.
         pub(crate) static FALLBACKS: Cell<u32> = const { Cell::new(0) };
     }
 
@@ -65,7 +67,7 @@ pub(crate) mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(5000))]
 
-        /// From every state of a motion in range there is a way on that stays there, and it begins with that
+        /// From states of random motions in range a quintic is found that stays in range and begins with that
         /// state.
         #[test]
         fn a_motion_in_range_finds_a_way(

@@ -87,7 +87,8 @@ impl Pace {
         Self::named("", drives)
     }
 
-    /// As [`Self::of`]; where the name of the joint or shape tells nothing, that of the control may.
+    /// As [`Self::of`]; if the name of the joint or shape contains none of these words, the name of the
+    /// control is tried.
     pub fn named(control: &str, drives: &Drive) -> Self {
         let (driven, otherwise) = match drives {
             Drive::Joint { joint, .. } => (joint, Self::OTHER),
@@ -160,11 +161,11 @@ pub struct Coupling {
     pub factor: f32,
 }
 
-/// Why controls are no [`ControlTable`].
+/// Why a list of controls cannot become a [`ControlTable`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("control {index}: expected {expected}, found {found}")]
 pub struct ControlError {
-    /// Its place in the list, from 0.
+    /// Its index in the list, from 0.
     pub index: usize,
     /// What would have been right.
     pub expected: &'static str,
@@ -214,8 +215,8 @@ impl ControlTable {
     /// A table of these controls, with couplings between them.
     ///
     /// # Errors
-    /// As [`ControlTable::new`], and a coupling of controls that there are not, of a control with itself, or
-    /// by a factor that is not finite; its place is then told after those of the controls.
+    /// As [`ControlTable::new`], and a coupling of controls that do not exist, of a control with itself, or
+    /// by a factor that is not finite. Its index in the error counts on from those of the controls.
     pub fn with_couplings(controls: Vec<Control>, couplings: Vec<Coupling>) -> Result<Self, ControlError> {
         let table = Self::new(controls)?;
         let count = table.controls.len();
@@ -233,7 +234,7 @@ impl ControlTable {
         }
     }
 
-    /// Only through here: the reader has checked names, ranges and indices.
+    /// For callers that have checked names, ranges and indices.
     pub(crate) fn checked(controls: Vec<Control>, couplings: Vec<Coupling>) -> Self {
         let mut by_name: Vec<usize> = (0..controls.len()).collect();
         by_name.sort_unstable_by(|a, b| controls[*a].name.cmp(&controls[*b].name));

@@ -101,8 +101,8 @@ impl Easing {
         Some(Self::Family(*family, *direction))
     }
 
-    /// Whether the numbers are such that a curve can be drawn through them: Bézier handles are finite, and no
-    /// further than [`Self::FURTHEST`] up or down. (Their x are clamped anyway.)
+    /// Whether the numbers make a usable curve: Bézier handles are finite, and no further than
+    /// [`Self::FURTHEST`] up or down. (Their x are clamped anyway.)
     pub fn is_sound(self) -> bool {
         match self {
             Self::Bezier([x1, y1, x2, y2]) => {
@@ -112,8 +112,8 @@ impl Easing {
         }
     }
 
-    /// The furthest that a Bézier handle may reach up or down: a thousand times the move's distance. What is
-    /// beyond has derivatives beyond the numbers, and no meaning.
+    /// The furthest that a Bézier handle may reach up or down: a thousand times the move's distance. Handles
+    /// beyond that would give derivatives that overflow.
     pub const FURTHEST: f64 = 1000.0;
 
     /// Whether the function goes beyond 0 or 1 on purpose.

@@ -62,7 +62,7 @@ pub enum MixError {
         /// The pose that is probably meant.
         nearest: Option<String>,
     },
-    /// A weight that is no finite number.
+    /// A weight that is not a finite number.
     #[error("pose {pose:?}: expected a finite number as weight, found {weight:?}")]
     Weight {
         /// Name of the pose.
@@ -70,16 +70,16 @@ pub enum MixError {
         /// The weight.
         weight: String,
     },
-    /// No pose at all.
+    /// A text without any pose.
     #[error("expected poses such as \"smile\" or \"smile:0.5 wink-left\", found none")]
     Empty,
 }
 
-/// Why a clip could not be made or edited so.
+/// Why a clip could not be made or edited.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ClipError {
-    /// A track without keys, or one that would lose its last.
+    /// A track without keys, or the removal of its last key.
     #[error("control {control}: expected a track with at least one key, found none")]
     NoKeys {
         /// Index of the control.
@@ -135,7 +135,7 @@ pub enum ClipError {
         /// Index of the key.
         key: usize,
     },
-    /// A factor of time that is none.
+    /// A factor of time that is not greater than 0, or too large.
     #[error("expected a factor greater than 0 that keeps the clip within 1000000 s, found {factor}")]
     Factor {
         /// The factor.
@@ -147,7 +147,7 @@ pub enum ClipError {
         /// The length.
         duration_secs: f64,
     },
-    /// An error bound that is none.
+    /// An error bound that is negative or NaN.
     #[error("expected an error bound of 0 or more, found {bound}")]
     Bound {
         /// The bound.
@@ -155,7 +155,7 @@ pub enum ClipError {
     },
 }
 
-/// Why time could not go on.
+/// Why time could not advance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AdvanceError {
@@ -165,7 +165,7 @@ pub enum AdvanceError {
         /// The time step.
         dt_secs: f64,
     },
-    /// A time step that is no number.
+    /// A time step that is NaN.
     #[error("expected a time step of 0 or more seconds, found NaN")]
     NotANumber,
 }
@@ -183,7 +183,7 @@ impl AdvanceError {
     }
 }
 
-/// Why a state could not be taken over.
+/// Why a player could not jump to values.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JumpError {

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// How a layer acts on what is below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerMode {
-    /// Adds its distance from the default: breathing, small movements of the head.
+    /// Adds the distance of the layer's value from the default: breathing, small movements of the head.
     Additive,
     /// Takes over: a blink, speech.
     Override,
@@ -33,11 +33,11 @@ static STACKS: AtomicUsize = AtomicUsize::new(0);
 /// Additive    x ← x + w · (y − d), bent smoothly where it would leave the range
 /// ```
 ///
-/// The result has derivatives as the players have, by the rules for sums and products, and is as continuous
-/// as they are: weights move as smoothly as values. Where no layer has any share, the base goes through to
-/// the last bit.
+/// Velocities and accelerations follow by the rules for sums and products, and the result is as smooth as the
+/// players are: weights move as smoothly as values. Where all shares are 0, the result is the base to the
+/// last bit.
 ///
-/// What overshoots its range on purpose is clamped at the very end only, after all layers, or not at all:
+/// Values that overshoot their range on purpose are clamped after all layers only, or not at all:
 /// [`Self::with_overshoot`].
 #[derive(Clone, Debug)]
 pub struct Layers {
@@ -88,16 +88,15 @@ impl Layers {
     }
 
     /// The same layers, whose combined values may leave their ranges where a transition function overshoots
-    /// on purpose (back, elastic). The offset of an additive layer still takes nothing beyond a range that is
-    /// not there already.
+    /// on purpose (back, elastic). The offset of an additive layer still moves no value out of its range.
     #[must_use]
     pub fn with_overshoot(self) -> Self {
         Self { confined: false, ..self }
     }
 
-    /// Puts a layer on top, with weight 0: a player with everything at its default, for the table that the
-    /// stack was made from. `mask` is its share per control, 0 to 1; controls beyond its end have none, and
-    /// neither have controls beyond the end of another, shorter table. This allocates; nothing after it does.
+    /// Puts a layer on top, with weight 0 and everything at its default. `controls` is the table that the
+    /// stack was made from. `mask` is the share of the layer per control, 0 to 1; controls beyond the end of
+    /// the mask, or of a shorter table, have a share of 0. This allocates; nothing after it does.
     pub fn add(&mut self, controls: &ControlTable, mode: LayerMode, mask: &[f32]) -> LayerId {
         let mask = &mask[..mask.len().min(controls.len())];
         let share = |index: usize| mask.get(index).map_or(0.0, |share| WEIGHTS.clamp(f64::from(*share)));
@@ -111,7 +110,7 @@ impl Layers {
         LayerId { stack: self.stack, index: self.layers.len() - 1 }
     }
 
-    /// The base, to be pressed.
+    /// The base, to press poses on.
     pub fn base(&mut self) -> &mut Player {
         &mut self.base
     }
@@ -137,7 +136,7 @@ impl Layers {
         Ok(())
     }
 
-    /// The player of a layer, to be pressed; `None` if the layer is of another [`Layers`].
+    /// The player of a layer, to press poses on; `None` if the layer is of another [`Layers`].
     pub fn layer(&mut self, layer: LayerId) -> Option<&mut Player> {
         self.find(layer).map(|layer| &mut layer.player)
     }
@@ -147,8 +146,8 @@ impl Layers {
     }
 
     /// Moves the weight of a layer to a value from 0 to 1, smoothly, in this many seconds (0.001 to 3600).
-    /// Like a press, it may come at any time. Weights beyond are clamped, and NaN or a layer of another
-    /// [`Layers`] changes nothing.
+    /// Like a press, it may come at any time. Other weights are clamped; NaN or a layer of another [`Layers`]
+    /// changes nothing.
     pub fn fade_to(&mut self, layer: LayerId, weight: f32, duration_secs: f64) {
         let Some(layer) = self.find(layer) else { return };
         if weight.is_nan() {
@@ -185,7 +184,7 @@ impl Layers {
             let weight = WEIGHTS.confine(layer.weight.advance(dt_secs, &mut layer.cold));
             let (mode, mask) = (layer.mode, &layer.mask);
             layer.player.advance_and(dt_secs, |control, own| {
-                // A table that is longer than the stack's has controls that it does not know.
+                // A layer's table may be longer than the stack's.
                 let Some(state) = states.get_mut(control) else { return };
                 *state = mode.over(*state, own, mask[control], weight, defaults[control], ranges[control]);
             });

@@ -50,9 +50,11 @@
 //!     "#,
 //!     &controls,
 //! )?;
-//! let matrix = "<Matrix>1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1</Matrix>";
-//! let xml = format!("<JointSet><Joint name=\"HeadJoint\">{matrix}</Joint></JointSet>");
-//! let rig = Rig::from_xml(xml.as_bytes())?;
+//! let rig = Rig::from_xml(
+//!     br#"<JointSet><Joint name="HeadJoint">
+//!         <Matrix>1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1</Matrix>
+//!     </Joint></JointSet>"#,
+//! )?;
 //! let binding = controls.bind(&rig, &["SSmile"])?;
 //! let (mut locals, mut weights) = (rig.locals(), [0.0]);
 //! let mut player = Player::new(&controls);

@@ -10,7 +10,7 @@ impl Pose {
     /// over the poses that name it, clamped to its range: poses add up, and half a pose is half way from the
     /// undeformed face. Duration and transition are those of the first pose that has one, the timing of a
     /// control that of the first pose that names the control and has one for it ([`Self::timing`]). Weights
-    /// that are not finite count as 0, values that are not as not named.
+    /// that are not finite count as 0; values that are not finite are ignored.
     pub fn mixed(name: impl Into<String>, parts: &[(&Self, f32)], controls: &ControlTable) -> Self {
         let mut mixed = Self::new(name, Vec::new());
         mixed.duration_secs = parts.iter().find_map(|(pose, _)| pose.duration_secs);

@@ -52,10 +52,9 @@ impl Player {
     /// Heads for a pose, from now on. The controls that the pose leaves out go on with whatever they do.
     ///
     /// Takes any pose: values are clamped to the ranges, and a control that does not exist or a value that is
-    /// not finite is passed over, as is a transition that is not sound ([`crate::Easing::is_sound`]).
-    /// Durations, after their factor, are clamped to 0.001 to 3600 s; delays to 0 to 3600 s. NaN stands for
-    /// what a control does by itself: its own pace, no delay. (Poses that were read from a text are right
-    /// already.)
+    /// not finite is ignored, as is a transition that is not sound ([`crate::Easing::is_sound`]). Durations,
+    /// after their factor, are clamped to 0.001 to 3600 s; delays to 0 to 3600 s. NaN means the default: the
+    /// control's own pace, no delay. Poses that were read from a text are within these limits already.
     pub fn press(&mut self, pose: &Pose) {
         let easing = pose.transition.filter(|easing| easing.is_sound());
         for (control, value) in &pose.values {
@@ -107,8 +106,8 @@ impl Player {
     }
 
     /// Lets time pass. 0 changes nothing; enough of it (even infinity) brings every control to its target. A
-    /// clip that repeats itself has none: it goes on from the phase that the time leads to, and after an
-    /// infinite time from its start.
+    /// clip that repeats has no target: it goes on from its phase at that time, and after an infinite time
+    /// from its start.
     ///
     /// # Errors
     /// A negative time step or NaN; then nothing changes.
@@ -123,8 +122,7 @@ impl Player {
         Ok(())
     }
 
-    /// Lets a time pass that is more than 0, and shows every control's state after it as it is before the end
-    /// of the pipeline.
+    /// Lets a time above 0 pass, and calls `look` with every control's new state before it is clamped.
     #[inline]
     pub(crate) fn advance_and(&mut self, dt_secs: f64, mut look: impl FnMut(usize, Jet)) {
         let outputs = self.values.iter_mut().zip(&mut self.velocities).zip(&mut self.accelerations);

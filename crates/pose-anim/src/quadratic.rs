@@ -1,5 +1,5 @@
-/// Real roots of `a·x² + b·x + c`; NaN where there are none. No cancellation (Press et al., Numerical
-/// Recipes, 5.6).
+/// Real roots of `a·x² + b·x + c`; NaN if there are none. No cancellation (Press et al., Numerical Recipes,
+/// 5.6).
 pub(crate) fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {

@@ -61,8 +61,8 @@ impl Quintic {
         let [c0, c1, c2] = self.c;
         // dx/ds = (1 − s)² · (q0 + q1·s + q2·s²)
         let (q0, q1, q2) = (c1 - 3.0 * c0, 2.0 * c2 - 4.0 * c1, -5.0 * c2);
-        // A move that touches an end of its range must not fail by rounding. What this lets through is cut
-        // off.
+        // A move that touches an end of its range must not fail by rounding. The excess that this allows is
+        // clamped at the end of the pipeline.
         let slack = ROUNDING * (max - min);
         roots(q2, q1, q0).iter().filter(|s| (0.0..1.0).contains(*s)).all(|s| {
             let u = 1.0 - s;

@@ -30,8 +30,8 @@ impl Range {
         (self.clamp(value) - value).abs() <= ROUNDING * self.width()
     }
 
-    /// The end of the pipeline: what is out of range rests at its end. What is so by rounding only keeps its
-    /// rates.
+    /// The end of the pipeline: a state out of range rests at the end of the range. A state that is out by
+    /// rounding only keeps its rates.
     pub(crate) fn confine(self, state: Jet) -> Jet {
         if self.holds(state.value) {
             Jet { value: self.clamp(state.value), ..state }

@@ -39,7 +39,7 @@ pub(crate) fn soft_limit(base: Jet, offset: Jet, range: Range) -> Jet {
     let (room, back, delta, sign) =
         if offset.value >= 0.0 { (up, down, offset, 1.0) } else { (down, up, Jet::rest(0.0) - offset, -1.0) };
     if room.value <= 1e-9 * range.width() {
-        // The offset has no effect beyond rounding, and dividing by nothing would make NaN of it.
+        // The offset has no effect beyond rounding, and a division by 0 would make NaN of it.
         return base;
     }
     let one = Jet::rest(1.0);

@@ -123,7 +123,8 @@ proptest! {
         for time_secs in times(&track) {
             let [before, here, after] = [-h, 0.0, h].map(|d| track.at(time_secs + d));
             let slope = (after.value - before.value) / (2.0 * h);
-            // Not where a bounce or half meets the next within these steps: there the second differences show it.
+            // Not where one half or bounce meets the next within these steps: second differences see the
+            // corner.
             let corner = (after.velocity - before.velocity).abs() > 1e-3 * (1.0 + here.velocity.abs());
             prop_assert!(corner || (slope - here.velocity).abs() < 1e-4 * (1.0 + slope.abs()), "{slope} {here:?}");
         }
@@ -170,7 +171,7 @@ proptest! {
 
     #[test]
     fn reduction_keeps_its_bound(track in track(), bound in 0.001f64..0.2) {
-        // As a recording would have it: sampled, with a gap.
+        // Like a recording: sampled, with a gap.
         let samples = (0..240).filter(|frame| !(80..95).contains(frame)).map(|frame| f64::from(frame) / 60.0);
         let recorded = Track::from_samples(4, samples.map(|time| (time, track.at(time).value))).unwrap();
         // What stays in a range still does: no cubic bulges beyond the highest or lowest sample.

@@ -22,7 +22,7 @@ fn target() -> impl Strategy<Value = JointTarget> {
     )
 }
 
-/// How far a quaternion has jumped. Lengths may differ by the rounding of a target in single precision.
+/// How far apart two quaternions are. Lengths may differ by the rounding of a target in single precision.
 fn jump(a: DQuat, b: DQuat) -> f64 {
     let (a, b) = (a.normalize(), b.normalize());
     DQuat::from_xyzw(a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w).length()
@@ -76,7 +76,7 @@ proptest! {
             let near = arrived.rotation();
             arrived.advance(2e-9).unwrap();
             prop_assert!(arrived.is_at_rest());
-            // Also the last moment is none of a jump; and the target is there, bit for bit, in either of its
+            // The last moment is no jump either, and the target is reached bit for bit, in one of its two
             // forms.
             prop_assert!(jump(near, arrived.rotation()) < 1e-12);
             let (found, given) = (arrived.rotation().as_quat(), target.rotation);
@@ -171,7 +171,7 @@ fn it_sets_a_joint_and_survives_anything() {
     player.apply(rig.joint("a").unwrap(), &mut locals).unwrap();
     let moved = locals.as_slice()[0].transform_point3(Vec3::Z);
     assert!((moved - Vec3::new(1.0, 0.0, -1.0)).length() < 1e-6);
-    // Another half turn, which has no short way, and things that are no targets.
+    // Another half turn, both ways of which are equally short, and rotations that are ignored.
     for rotation in
         [Quat::IDENTITY, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0), Quat::from_xyzw(f32::NAN, 0.0, 0.0, 1.0)]
     {

@@ -26,8 +26,8 @@ fn a_day_of_a_clip_at_60_hertz() {
         for _ in 0..ticks {
             player.advance(1.0 / 60.0).unwrap();
         }
-        // The step is not a sixtieth to the last bit either: that is no drift of the player's. The product
-        // has 2^-53 of a day.
+        // The step is not a sixtieth to the last bit either, which is not the player's drift. The product is
+        // exact to 2^-53 of a day.
         let expected = clip.at(0, f64::from(ticks) * (1.0 / 60.0)).unwrap();
         let found = player.state(0).unwrap();
         assert!((found.value - expected.value).abs() < 5e-10, "{found:?} {expected:?}");

@@ -1,4 +1,4 @@
-//! What a player promises, whatever is pressed whenever.
+//! What a player promises, whatever is pressed at any moment.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
@@ -84,7 +84,7 @@ fn poses_of_bad_numbers_give_good_ones() {
             assert_eq!((player.values()[0], player.values()[2]), (40.0, 0.5));
         }
     }
-    // A transition without sense is passed over: least jerk.
+    // An unsound transition is ignored: the move has the least jerk.
     let mut player = Player::new(&table);
     player.press(&Pose::new("p", vec![(2, 1.0)]).lasting(1.0).along(Easing::Bezier([f64::NAN; 4])));
     player.advance(0.25).unwrap();
@@ -173,7 +173,7 @@ fn mixtures() {
 fn mixtures_keep_to_ranges_and_to_poses_that_name_the_control() {
     let table = table();
     let timing = |delay_secs| Timing { delay_secs, factor: 2.0 };
-    // Timings, but no value: this pose has no say about the control.
+    // A timing without a value: the pose does not move this control.
     let silent = Pose::new("a", vec![(2, 0.5)]).timed(0, timing(0.1));
     // Two timings: the last one holds, as when the pose is pressed alone.
     let spoken = Pose::new("b", vec![(0, 500.0)]).timed(0, timing(0.2)).timed(0, timing(0.3));
@@ -234,7 +234,7 @@ fn clips_start_run_and_end() {
         player.advance(0.001).unwrap();
         assert!((0.0..=1.0).contains(&player.values()[2]));
     }
-    // Into the very end of the range there is no smooth way on; it is held.
+    // At speed into the very end of the range: no smooth way on exists, so the value is held.
     let keys = vec![Key { time_secs: 0.0, value: 0.0, transition }, Key::new(1.0, 1.0, Easing::Linear)];
     player.play(&Arc::new(Clip::new("c", vec![Track::new(2, keys).unwrap()]).unwrap()), Some(0.1));
     player.advance(1.0 + 1e-6).unwrap();

@@ -145,7 +145,7 @@ fn poses() {
     ];
     for (rest, expected) in rows {
         let found = poses_error(&format!("[[pose]]\n{rest}"));
-        // Which of two spellings of one key counts as the second is no matter.
+        // Either of two spellings of one key may count as the second.
         if expected.contains("each control once") {
             assert!(found.contains("expected each control once, found \"head.turn\" again"), "{found}");
         } else {
@@ -188,7 +188,7 @@ proptest! {
         let _ = ControlTable::from_toml(&text);
         let table = ControlTable::default_face();
         let _ = PoseSet::from_toml(&text, &table);
-        // A real file that breaks off, or in which something else stands.
+        // A real file that is cut off, or in which a byte is replaced.
         for file in [pose_anim::DEFAULT_POSES_TOML, pose_anim::DEFAULT_CONTROLS_TOML] {
             let cut = file.floor_char_boundary(cut);
             let _ = PoseSet::from_toml(&file[..cut], &table);

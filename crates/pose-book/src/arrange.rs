@@ -39,7 +39,7 @@ pub(crate) fn put(document: &mut DocumentMut, key: &str, head: &str, mut entries
         number(entry, &mut position);
     }
     if entries.is_empty() {
-        // What was said about the whole file is not lost with the last entry.
+        // Comments about the whole file are kept when the last entry is removed.
         let trailing = format!("{head}{}", document.trailing().as_str().unwrap_or_default());
         document.set_trailing(trailing);
         return;
@@ -66,8 +66,7 @@ fn number(table: &mut Table, position: &mut isize) {
 
 /// A text after a change of its entries.
 pub(crate) fn edited(text: &str, key: &str, change: impl FnOnce(&mut Vec<Table>)) -> String {
-    // A book's text is valid; were it not, what comes out of an empty document is refused by the one who
-    // asked.
+    // A book's text is valid. If it were not, the caller would refuse what comes out of an empty document.
     let mut document: DocumentMut = text.parse().unwrap_or_default();
     let (head, mut entries) = take(&mut document, key);
     change(&mut entries);

@@ -26,7 +26,7 @@ impl ClipBook {
     /// A text for clips that come from elsewhere.
     ///
     /// # Errors
-    /// Clips that no text can say: a name twice, a value beyond its control's range.
+    /// Clips that a text cannot hold: a name twice, a value beyond its control's range.
     pub fn of_set(clips: &ClipSet, controls: &ControlTable) -> Result<Self, BookError> {
         Self::read(&clips.to_toml(controls), controls)
     }
@@ -41,7 +41,7 @@ impl ClipBook {
         &self.clips
     }
 
-    /// Takes over a text that somebody else wrote. What was done before cannot be undone then; the same text
+    /// Takes over a text that another program wrote. Earlier edits cannot be undone afterwards. The same text
     /// changes nothing.
     ///
     /// # Errors
@@ -88,12 +88,12 @@ impl ClipBook {
         })
     }
 
-    /// The edit that [`Self::undo`] takes back.
+    /// Name of the edit that [`Self::undo`] takes back.
     pub fn can_undo(&self) -> Option<&str> {
         self.history.can_undo()
     }
 
-    /// The edit that [`Self::redo`] does again.
+    /// Name of the edit that [`Self::redo`] does again.
     pub fn can_redo(&self) -> Option<&str> {
         self.history.can_redo()
     }

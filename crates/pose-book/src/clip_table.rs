@@ -4,7 +4,7 @@ use crate::scalar::{easing, number, precise, put};
 use pose_anim::{Clip, ControlTable, Easing, Key, Track, Transition, Wrap};
 use toml_edit::{Array, InlineTable, Item, Table, Value, value};
 
-/// Makes a table say this clip. What it says already stays as it is written.
+/// Writes a clip into a table. Entries that already have the right value keep their text.
 pub(crate) fn set(table: &mut Table, clip: &Clip, before: Option<&Clip>, controls: &ControlTable) {
     put(table.entry("name").or_insert(Item::None), Value::from(&clip.name));
     let wrap = match clip.wrap {

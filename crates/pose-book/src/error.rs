@@ -1,17 +1,17 @@
 use pose_anim::TomlError;
 
-/// What keeps a text from being read or edited.
+/// Why a text could not be read or edited.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BookError {
-    /// A text that is not as its format demands.
+    /// A text that its format does not allow.
     #[error(transparent)]
     Text(Box<TomlError>),
-    /// An edit after which the text would not be as its format demands; the place is one in the text as it
-    /// would be.
+    /// An edit after which its format would not allow the text. The place in the error is one in the text
+    /// after the edit.
     #[error("cannot {edit}: {source}")]
     Refused {
-        /// What was to be done.
+        /// The edit.
         edit: String,
         /// What would be wrong.
         source: Box<TomlError>,

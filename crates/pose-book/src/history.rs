@@ -6,7 +6,7 @@ pub(crate) struct History {
     redo: Vec<(String, String)>,
 }
 
-/// More edits than this are not undone: a text is kept for each.
+/// How many edits can be undone: a text is kept for each.
 const KEPT: usize = 200;
 
 impl History {

@@ -26,8 +26,8 @@
 //! # Ok::<(), pose_book::BookError>(())
 //! ```
 //!
-//! The crate opens no files: who does writes [`PoseBook::text`] after an edit, and calls
-//! [`PoseBook::replace`] when somebody else has written.
+//! The crate opens no files: the caller writes [`PoseBook::text`] after an edit, and calls
+//! [`PoseBook::replace`] when another program has changed the file.
 
 mod error;
 mod history;

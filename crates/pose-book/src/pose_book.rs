@@ -129,12 +129,12 @@ impl PoseBook {
         })
     }
 
-    /// The edit that [`Self::undo`] takes back.
+    /// Name of the edit that [`Self::undo`] takes back.
     pub fn can_undo(&self) -> Option<&str> {
         self.history.can_undo()
     }
 
-    /// The edit that [`Self::redo`] does again.
+    /// Name of the edit that [`Self::redo`] does again.
     pub fn can_redo(&self) -> Option<&str> {
         self.history.can_redo()
     }

@@ -3,9 +3,9 @@
 use pose_anim::Easing;
 use toml_edit::{Array, Item, Value};
 
-/// A number: whole ones without a point, others with as few digits as say it.
+/// A number: whole ones without a point, others with as few digits as identify it.
 pub(crate) fn number(value: f32) -> Value {
-    // Beyond 2²⁴ not every whole number is one, so the digits would claim too much.
+    // Beyond 2²⁴ an f32 does not hold every whole number, so the digits would claim too much.
     if value.fract() == 0.0 && value.abs() < 16_777_216.0 {
         // Also takes the sign from zero.
         Value::from(value as i64)

@@ -271,7 +271,7 @@ proptest! {
     }
 }
 
-/// The order of a pose's values is the file's; it means nothing.
+/// The order of a pose's values follows the file and has no meaning.
 fn sorted(poses: &[Pose]) -> Vec<Pose> {
     let mut poses = poses.to_vec();
     poses.iter_mut().for_each(|pose| pose.values.sort_by_key(|(control, _)| *control));

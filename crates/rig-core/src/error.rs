@@ -51,7 +51,7 @@ pub struct XmlError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum XmlProblem {
-    /// The bytes are no text in UTF-8, UTF-16 (with a byte-order mark) or the declared Latin-1.
+    /// The bytes are not a text in UTF-8, UTF-16 (with a byte-order mark) or the declared Latin-1.
     #[error("expected XML text, found bytes that are no text ({0})")]
     NotText(String),
     /// The text is not well-formed XML.
@@ -98,7 +98,7 @@ pub enum XmlProblem {
         /// Where the first joint of this name stands.
         first: Place,
     },
-    /// An attribute that is neither `"true"` nor `"false"`.
+    /// An attribute whose value is neither `"true"` nor `"false"`.
     #[error("expected {attribute}=\"true\" or \"false\", found {found:?}")]
     NotABoolean {
         /// Name of the attribute.
@@ -128,7 +128,7 @@ pub enum XmlProblem {
         /// How many numbers there are.
         found: usize,
     },
-    /// A word in a matrix that is no finite number.
+    /// A word in a matrix that is not a finite number.
     #[error("expected a finite number in the matrix of joint {joint:?}, found {found:?}")]
     NotANumber {
         /// Name of the joint.
@@ -145,7 +145,7 @@ pub enum XmlProblem {
     /// A file without any joint.
     #[error("expected at least one <Joint>, found none")]
     NoJoint,
-    /// The tree is well-formed, but is no rig.
+    /// The tree is well-formed, but not a valid rig.
     #[error(transparent)]
     Rig(#[from] RigError),
 }
@@ -206,8 +206,8 @@ pub enum RigError {
         /// [`crate::TRANSLATION_LIMIT`].
         limit: f32,
     },
-    /// A name that the text format cannot hold: empty, blank, longer than [`crate::MAX_NAME_BYTES`], or with a
-    /// character that XML 1.0 forbids.
+    /// A name that the text format cannot hold: empty, blank, longer than [`crate::MAX_NAME_BYTES`], or with
+    /// a character that XML 1.0 forbids.
     #[error("joint {joint:?}: expected a name of 1 to {limit} bytes in characters that XML allows")]
     UnwritableName {
         /// The name.

@@ -164,7 +164,7 @@ fn rigid_inverse(a_from_b: Affine3A) -> Affine3A {
     Affine3A { matrix3: transposed, translation: -(transposed * a_from_b.translation) }
 }
 
-/// The matrix as an affine one, if it is one and has an inverse.
+/// The matrix as an affine one, if it is affine and has an inverse.
 fn affine(joint: &str, matrix: Mat4) -> Result<Affine3A, RigError> {
     if !matrix.is_finite() {
         return Err(RigError::NotFinite { joint: joint.to_owned() });

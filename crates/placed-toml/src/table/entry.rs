@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::DeValue;
 
-/// Numbers beyond this, either way, are none that a file about faces could mean.
+/// Numbers beyond this, positive or negative, are refused: no file about faces needs them.
 pub const LARGEST: f64 = 1e9;
 
 /// A key with its value, or an item of an array, which has the array's key.
@@ -39,7 +39,7 @@ impl<'t, 'a> Entry<'t, 'a> {
         self.error(expected, describe(self.value.get_ref()))
     }
 
-    /// An error at the key: a name that is none of `valid`, of which the nearest is suggested. `what` stands
+    /// An error at the key: a name that is not in `valid`, of which the nearest is suggested. `what` stands
     /// before their list: "one of the keys".
     pub fn unknown_name<'n>(
         &self,
@@ -73,7 +73,7 @@ impl<'t, 'a> Entry<'t, 'a> {
         TomlError { nearest, ..self.text.error(span, &self.path, expected, quote(name)) }
     }
 
-    /// The value as a text, if it is one.
+    /// The value as a text, if it is a text.
     pub fn as_str(&self) -> Option<&'t str> {
         match self.value.get_ref() {
             DeValue::String(text) => Some(text),
@@ -102,7 +102,7 @@ impl<'t, 'a> Entry<'t, 'a> {
     /// The value, which must be a table.
     ///
     /// # Errors
-    /// It is none.
+    /// The value has another type or is out of bounds.
     pub fn table(&self) -> Result<Table<'t, 'a>, TomlError> {
         self.as_table().ok_or_else(|| self.error_found("a table"))
     }
@@ -110,7 +110,7 @@ impl<'t, 'a> Entry<'t, 'a> {
     /// The items of the value, which must be an array.
     ///
     /// # Errors
-    /// It is none.
+    /// The value has another type or is out of bounds.
     pub fn array(&self) -> Result<Vec<Entry<'t, 'a>>, TomlError> {
         self.as_array().ok_or_else(|| self.error_found("an array"))
     }
@@ -118,7 +118,7 @@ impl<'t, 'a> Entry<'t, 'a> {
     /// The value, which must be a text with something in it.
     ///
     /// # Errors
-    /// It is none, or blank.
+    /// The value is not a text, or blank.
     pub fn string(&self, expected: &str) -> Result<&'t str, TomlError> {
         self.as_str().filter(|text| !text.trim().is_empty()).ok_or_else(|| self.error_found(expected))
     }
@@ -126,7 +126,7 @@ impl<'t, 'a> Entry<'t, 'a> {
     /// The value, which must be a finite number of at most [`LARGEST`], either way.
     ///
     /// # Errors
-    /// It is none.
+    /// The value has another type or is out of bounds.
     pub fn number(&self, expected: &str) -> Result<f32, TomlError> {
         self.precise(expected).map(|number| number as f32)
     }
@@ -150,7 +150,7 @@ impl<'t, 'a> Entry<'t, 'a> {
     /// The value, which must be a number in a range.
     ///
     /// # Errors
-    /// It is none, or outside.
+    /// The value is not a number, or outside the range.
     pub fn number_within(&self, range: RangeInclusive<f32>, expected: &str) -> Result<f32, TomlError> {
         let number = match self.value.get_ref() {
             // Not by way of f64: what was written from an f32 is to be read as the same.
@@ -163,7 +163,7 @@ impl<'t, 'a> Entry<'t, 'a> {
     /// The value, which must be a whole number from 0 to 2⁶⁴ − 1.
     ///
     /// # Errors
-    /// It is none.
+    /// The value has another type or is out of bounds.
     pub fn natural(&self, expected: &str) -> Result<u64, TomlError> {
         let number = match self.value.get_ref() {
             DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).ok(),

@@ -16,10 +16,10 @@ pub struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    /// Parses a text. Tools on some systems write a byte-order mark; it is no content.
+    /// Parses a text. A byte-order mark, which tools on some systems write, is skipped.
     ///
     /// # Errors
-    /// What is no TOML, at its place.
+    /// The first syntax error, with its place.
     pub fn parse(source: &'a str) -> Result<Self, TomlError> {
         let text = Text(source.strip_prefix('\u{feff}').unwrap_or(source));
         match DeTable::parse(text.0) {
@@ -38,7 +38,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// A table whose entries are taken one by one, so that what is left at the end is unknown.
+/// A table whose entries are taken one by one, so that the entries left at the end are the unknown ones.
 #[derive(Clone, Debug)]
 pub struct Table<'t, 'a> {
     text: Text<'a>,
@@ -73,7 +73,7 @@ impl<'t, 'a> Table<'t, 'a> {
     /// Takes the entry of this key, which must be there.
     ///
     /// # Errors
-    /// It is not: at the table's place, with what was `expected`.
+    /// The key is missing. The error has the place of the table and says what was `expected`.
     pub fn require(&mut self, key: &str, expected: &str) -> Result<Entry<'t, 'a>, TomlError> {
         let missing = self.error_here(key, expected, "none");
         self.take(key).ok_or(missing)
@@ -101,7 +101,7 @@ impl<'t, 'a> Table<'t, 'a> {
         self.left.into_iter()
     }
 
-    /// Nothing but the keys taken so far may stand here.
+    /// Checks that no entries are left.
     ///
     /// # Errors
     /// The first entry that was not taken; `known` lists the keys that may be here.

@@ -1,17 +1,17 @@
-//! What a channel needs only around interruptions, apart from what every tick reads.
+//! The part of a channel that is only needed around interruptions, kept apart from what every tick reads.
 
 use super::path::Path;
 use super::{Channel, MoveSpec};
 use crate::range::Range;
 
-/// How many fades may run one inside the other. Five presses within one move that all would leave the range
-/// are more than fingers do; what goes beyond is folded (see [`Channel`]).
+/// How many fades may run inside each other. More than five presses within one move that would all leave the
+/// range are rare; then the innermost fades are folded (see [`Channel`]).
 pub(crate) const MAX_FADES: usize = 4;
 
-/// What a channel needs only around interruptions.
+/// The part of a channel that is only needed around interruptions.
 #[derive(Clone, Debug)]
 pub(crate) struct Cold {
-    /// The innermost path, where it is no quintic.
+    /// The innermost path, if it is not a quintic.
     pub(crate) base: Path,
     pub(crate) fades: [Fade; MAX_FADES],
     pub(crate) waiting: Waiting,
@@ -24,11 +24,11 @@ pub(crate) struct Fade {
     /// Age at the last start.
     pub(crate) age_secs: f64,
     pub(crate) duration_secs: f64,
-    /// As old as the fade.
+    /// The path that is faded into. Its age is the age of the fade.
     pub(crate) towards: Path,
 }
 
-/// A move that is to start when `elapsed_secs` has come to a time.
+/// A move that starts when `elapsed_secs` reaches `at_secs`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Waiting {
     pub(crate) at_secs: f64,
@@ -54,7 +54,7 @@ impl Cold {
 }
 
 impl Fade {
-    /// Whether nothing of what is inside is left, `secs` after the last start.
+    /// Whether the fade has finished `secs` after the last start, so that nothing inside it matters any more.
     pub(crate) fn is_over(&self, secs: f64) -> bool {
         self.age_secs + secs >= self.duration_secs
     }

@@ -1,4 +1,4 @@
-//! Fades in fades: what they give, when they are over, and what becomes of them when they are too many.
+//! Fades inside fades: their state, their end, and how they are folded when there are too many.
 
 use super::Channel;
 use super::cold::{Cold, Fade};
@@ -30,7 +30,7 @@ impl Channel {
     pub(super) fn inner_state(&self, secs: f64, fades: usize, cold: &Cold) -> Jet {
         let now_secs = self.elapsed_secs + secs;
         let fades = &cold.fades[..fades];
-        // What is inside a fade that is over has no weight, whatever it may be.
+        // What is inside a finished fade has no weight.
         let over = fades.iter().rposition(|fade| fade.is_over(now_secs));
         let (state, outer) = match over {
             Some(over) => {
@@ -50,7 +50,7 @@ impl Channel {
         })
     }
 
-    /// Removes everything inside a fade that is over.
+    /// Removes everything inside a fade that has finished.
     pub(super) fn drop_faded_out(&mut self, cold: &mut Cold) {
         let over = self.running(cold).iter().rposition(|fade| fade.is_over(self.elapsed_secs));
         let Some(over) = over else { return };
@@ -66,8 +66,8 @@ impl Channel {
         self.fades -= over as u8 + 1;
     }
 
-    /// Where a clip that repeats itself runs alone, keeps its time within one repetition: beyond, every sum
-    /// would lose digits, and a day of ticks microseconds. An infinite time ends at its start.
+    /// Keeps the time of a repeating clip that runs alone within one repetition. Otherwise the sum would grow
+    /// and lose digits: microseconds in a day of ticks. After an infinite time the clip is at its start.
     pub(super) fn drop_repetitions(&mut self, cold: &Cold) {
         if self.fades > 0 || self.waits || !self.other_base {
             return;

@@ -35,13 +35,13 @@ pub(crate) use move_spec::MoveSpec;
 ///
 /// `x_old` may itself be such a fade. When [`MAX_FADES`] are running and another one is needed, the two
 /// innermost parts (the path and the first fade) are *folded*: a single quintic takes over from their present
-/// state. Where it comes to rest does not matter, because it is about to fade out anyway; so place and time
-/// are free, and there always is a quintic that stays in range: see [`brake`]. Whatever it changes in the
-/// further course is weighed down by the product of all fades around it. That keeps C², the range, the
-/// arrival time and a fixed size, for any number of presses.
+/// state. Where it comes to rest does not matter, because it is about to fade out anyway. So its place and
+/// time can be chosen such that it stays in range: see [`brake`]. Its effect on the further course is scaled
+/// by the product of all fades around it. This keeps C², the range, the arrival time and a fixed size, for
+/// any number of presses.
 ///
-/// What most moves do not need lies apart, in [`Cold`]: ten thousand faces are read from memory in every
-/// tick.
+/// What most moves do not need is kept apart, in [`Cold`], so that a tick of ten thousand faces reads less
+/// memory.
 #[derive(Clone, Debug)]
 pub(crate) struct Channel {
     range: Range,
@@ -120,9 +120,9 @@ impl Channel {
         Jet::rest(self.base.target)
     }
 
-    /// Lets time pass, through the start of a move that waits, and gives the state after it.
+    /// Lets time pass, also past the start of a move that waits, and returns the state after it.
     pub(crate) fn advance(&mut self, dt_secs: f64, cold: &mut Cold) -> Jet {
-        // Nearly always: a quintic, and no more.
+        // The usual case: only a quintic.
         if self.fades == 0 && !self.waits && !self.other_base && !self.fresh {
             self.elapsed_secs += dt_secs;
             let age_secs = self.base_age_secs + self.elapsed_secs;
@@ -187,8 +187,8 @@ impl Channel {
         self.state_after(0.0, cold)
     }
 
-    /// Heads for a spec from the present state after a delay, until when everything goes on as it is. A move
-    /// that still waits is dropped.
+    /// Starts a move from the state that the control has after a delay. Until then everything goes on as it
+    /// is. A move that still waits is dropped.
     pub(crate) fn press(&mut self, spec: MoveSpec, delay_secs: f64, cold: &mut Cold) {
         self.sleeps = false;
         if delay_secs > 0.0 {
@@ -217,7 +217,7 @@ impl Channel {
         self.fade_into(Path::Clip(path), clamp_duration(secs, pace.longest_secs), cold);
     }
 
-    /// Comes to rest about where the least braking leads, if anything moves.
+    /// Brings the control to rest about where it would come to rest by itself with the least jerk.
     pub(crate) fn stop(&mut self, pace: Pace, cold: &mut Cold) {
         self.take_back(cold);
         if self.is_at_rest(cold) {
@@ -254,22 +254,22 @@ impl Channel {
         self.fade_into(Path::rest(spec.target), duration_secs, cold);
     }
 
-    /// Forgets a direct move that has begun at this very moment: what begins now takes over from the motion
-    /// before it. The fades of that one are still there, because a direct move leaves [`Cold`] alone until
-    /// time passes.
+    /// Undoes a direct move that has begun at this very moment, so that the next move takes over from the
+    /// motion before it. The fades of that motion are still there, because a direct move does not change
+    /// [`Cold`] until time passes.
     fn take_back(&mut self, cold: &Cold) {
         if self.fresh && self.elapsed_secs == 0.0 {
             *self = Self { waits: false, sleeps: false, fresh: false, ..cold.before.clone() };
         }
     }
 
-    /// Lets the present motion go on and fades from it into another one, which begins now.
+    /// Lets the present motion go on and fades from it into another one that begins now.
     fn fade_into(&mut self, towards: Path, duration_secs: f64, cold: &mut Cold) {
         self.base_age_secs += self.elapsed_secs;
         cold.fades[..usize::from(self.fades)].iter_mut().for_each(|fade| fade.age_secs += self.elapsed_secs);
         (self.elapsed_secs, self.fresh) = (0.0, false);
         self.drop_faded_out(cold);
-        // What has begun at this very moment is replaced.
+        // A fade that has begun at this very moment is replaced.
         if self.running(cold).last().is_some_and(|fade| fade.age_secs == 0.0) {
             self.fades -= 1;
         }

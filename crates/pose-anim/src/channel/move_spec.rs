@@ -1,9 +1,9 @@
-//! What a move is asked to do, and the limits of what may be asked.
+//! Where a move goes and how, and the limits of its duration.
 
 use crate::range::Range;
 use crate::{Easing, Jet, Pace};
 
-/// Durations that a move may have: a shorter one has derivatives without meaning, a longer one no end.
+/// Durations that a move may have. In a shorter one the derivatives would be meaningless.
 const DURATIONS_SECS: std::ops::RangeInclusive<f64> = 0.001..=3600.0;
 
 /// Where to go and how.
@@ -24,7 +24,7 @@ impl MoveSpec {
     pub(crate) const NONE: Self =
         Self { target: 0.0, duration_secs: None, pace: Pace::OTHER, factor: 1.0, easing: None };
 
-    /// How long the move takes that starts in this state.
+    /// How long the move takes from this state.
     pub(crate) fn duration_from(&self, state: Jet, range: Range) -> f64 {
         let own_secs = self.pace.duration_secs(self.target - state.value, range.width());
         let secs = self.duration_secs.unwrap_or(own_secs) * self.factor;
@@ -32,7 +32,7 @@ impl MoveSpec {
     }
 }
 
-/// A duration within [`DURATIONS_SECS`]; `otherwise` if it is no number.
+/// The duration, clamped to [`DURATIONS_SECS`]; `otherwise_secs` if it is NaN.
 pub(crate) fn clamp_duration(secs: f64, otherwise_secs: f64) -> f64 {
     let secs = if secs.is_nan() { otherwise_secs } else { secs };
     secs.max(*DURATIONS_SECS.start()).min(*DURATIONS_SECS.end())

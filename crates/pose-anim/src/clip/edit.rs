@@ -2,8 +2,8 @@ use super::{Clip, Key, LATEST_SECS, Track, Transition, Wrap};
 use crate::{ClipError, Easing};
 
 impl Track {
-    /// Makes the in-between at a time a key of its own, without changing the curve: exactly up to rounding,
-    /// for every kind of transition. Returns the key's index; where there is a key already, its index.
+    /// Inserts a key at a time without changing the curve, up to rounding, for every kind of transition.
+    /// Returns the index of the new key, or of the key that is already there.
     ///
     /// # Errors
     /// A time below 0 or above 10⁶ s, or NaN.
@@ -60,7 +60,7 @@ impl Track {
         Ok(index)
     }
 
-    /// Moves a key in time, as far as its neighbours, and in value.
+    /// Moves a key in time, no further than its neighbours, and in value.
     ///
     /// # Errors
     /// No such key, a time beyond a neighbour's, a number that is not finite; then nothing changes.
@@ -112,7 +112,7 @@ impl Track {
         }
     }
 
-    /// Leaves what is before a time away, and makes it the start.
+    /// Removes everything before a time, which becomes the start.
     fn keep_from(&mut self, time_secs: f64) -> Result<(), ClipError> {
         let first = self.bake(time_secs)?;
         // Of keys at one time the last one says what follows.
@@ -122,7 +122,7 @@ impl Track {
         Ok(())
     }
 
-    /// Leaves what is after a time away.
+    /// Removes everything after a time.
     fn keep_until(&mut self, time_secs: f64) -> Result<(), ClipError> {
         let last = self.bake(time_secs)?;
         self.keys.truncate(last + 1);
@@ -154,7 +154,8 @@ impl Track {
         }
     }
 
-    /// Goes on with the keys of another track, `offset_secs` later; what is between stays at the last value.
+    /// Appends the keys of another track, `offset_secs` later. Until the first of them the track stays at its
+    /// last value.
     fn append(&mut self, other: &Self, offset_secs: f64) {
         let Some((last, first)) = self.keys.last_mut().zip(other.keys.first()) else { return };
         last.transition = Transition::STEP;
@@ -205,8 +206,8 @@ impl Clip {
         self.tracks.iter_mut().for_each(|track| track.reverse(duration_secs));
     }
 
-    /// Puts another clip after the end of this one. Where their values differ, they jump; a control of which
-    /// only the second clip has a track has its first value from the start.
+    /// Appends another clip to the end of this one. Where their values differ, they jump; a control that only
+    /// the second clip has a track for has its first value from the start.
     ///
     /// # Errors
     /// Together they are longer than 10⁶ s; then nothing changes.

@@ -47,9 +47,10 @@ pub struct JointTarget {
 /// There is a bound for any number of presses at any moments. Take all targets since the joint last rested,
 /// and the place where it rested. A coordinate of the translation leaves their span by no more than half its
 /// width, on either side. A component of the rotation vector, which is 0 at the target, stays within 1.5
-/// times the largest angle that a target was away when it was pressed, which is π at most. For a direct move
-/// is taken only where it stays in that range, `b(t)` stays in it, and a mean of two places in a range is in
-/// the range.
+/// times the largest angle that a target was away when it was pressed, which is π at most. The reason: a
+/// direct move is only taken if it stays in that range; otherwise `b(t)` is chosen to stay in it, and a
+/// weighted mean of two values in a range is in the range. (That such a `b(t)` is always found is tested, not
+/// proven.)
 #[derive(Clone, Debug)]
 pub struct JointPlayer {
     elapsed_secs: f64,
@@ -117,8 +118,8 @@ impl Way {
 }
 
 impl JointPlayer {
-    /// At rest. A rotation without length or with numbers that are not finite counts as none; a component of
-    /// the translation that is not finite as 0.
+    /// At rest. A rotation of length 0 or with numbers that are not finite counts as no rotation; a component
+    /// of the translation that is not finite counts as 0.
     pub fn new(at: JointTarget) -> Self {
         let (target, end) = unit(at.rotation).unwrap_or((DQuat::IDENTITY, Quat::IDENTITY));
         let place = at.translation.to_array().map(|at| if at.is_finite() { at.into() } else { 0.0 });
@@ -137,9 +138,8 @@ impl JointPlayer {
 
     /// Heads for a target, from now on, to arrive after `duration_secs` (0.001 to 3600; NaN counts as 0.001).
     ///
-    /// What is no target is passed over: a rotation without length or with numbers that are not finite, a
-    /// component of the translation that is not finite. There the former target stays, to be reached in the
-    /// new time.
+    /// A rotation of length 0 or with numbers that are not finite is ignored, and so is a component of the
+    /// translation that is not finite. The former target stays in its place, to be reached in the new time.
     pub fn press(&mut self, target: JointTarget, duration_secs: f64) {
         let duration_secs = if duration_secs.is_nan() { 0.001 } else { duration_secs.clamp(0.001, 3600.0) };
         let rotation = self.rotation_jets();
@@ -231,7 +231,7 @@ impl JointPlayer {
         Affine3A::from_rotation_translation(self.rotation().as_quat(), self.translation().as_vec3())
     }
 
-    /// Sets `L` of a joint.
+    /// Sets `L` of a joint to the present transform.
     ///
     /// # Errors
     /// The joint belongs to a larger rig.
@@ -253,7 +253,7 @@ impl JointPlayer {
 }
 
 /// A rotation at length 1 in double precision, and as it is at rest: as it was given, if it has that length
-/// up to the rounding of its single precision. `None` if it is none.
+/// up to the rounding of its single precision. `None` if it has no direction.
 fn unit(rotation: Quat) -> Option<(DQuat, Quat)> {
     let precise = rotation.as_dquat();
     let length = precise.length();

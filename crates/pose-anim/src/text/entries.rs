@@ -5,7 +5,7 @@ use placed_toml::{Entry, Table, TomlError, quote};
 
 const KEY: &str = r#"the name of one key, such as "1", "q" or "F5""#;
 
-/// A key that none of `taken`, pairs of key and owner, has.
+/// A key that does not occur in `taken`, which holds pairs of key and owner.
 pub(crate) fn key<'n>(
     entry: &Entry<'_, '_>,
     what: &str,

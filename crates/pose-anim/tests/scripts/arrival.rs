@@ -43,9 +43,9 @@ fn controls_arrive_when_their_pose_says() {
             };
             let secs = pose.duration_secs.unwrap_or_else(own) * timing.factor;
             let rest = Jet::rest(target.into());
-            // One that is all but there has nothing left to show.
+            // A move that has nearly arrived cannot be told from one that has.
             let far = (f64::from(target) - state.value).abs() > 1e-3 * f64::from(control.max - control.min);
-            // And a fade out of a motion to the same place is there when that one is.
+            // A fade out of a motion to the same place arrives when that motion does.
             let other = presses.iter().all(|(at, old)| at == pressed || old.value(index) != Some(target));
             if far && other && pose.transition != Some(Easing::StepStart) {
                 let early = at(start + 0.99 * secs);

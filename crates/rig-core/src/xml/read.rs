@@ -122,7 +122,7 @@ impl Parser<'_> {
     fn start(&mut self, element: &BytesStart<'_>, at: usize, finished: bool) -> Result<(), XmlError> {
         let name = element.name();
         let name: &str = name.as_ref();
-        // All of them, also those that nobody asks for: a repeated or damaged one is no XML.
+        // All attributes, also unknown ones: XML allows no repeated or damaged attribute.
         for attribute in element.attributes() {
             attribute.map_err(|error| self.malformed(self.place(at), &error))?;
         }
