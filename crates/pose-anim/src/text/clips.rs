@@ -24,7 +24,7 @@ impl ClipSet {
     ///     [clip.tracks]
     ///     "head.bow" = [
     ///         { t = 0.0, v = 0, transition = "sine-in-out" },    # a name, or [x1, y1, x2, y2] as in CSS
-    ///         { t = 0.3, v = 14, slopes = [0, 0] },              # cubic; its slopes here and at the next key
+    ///         { t = 0.3, v = 14, slopes = [0, 0] },              # cubic: its slopes here and at the next
     ///         { t = 0.8, v = 0 },                                # straight, if there were a next key
     ///         ## what a key baked into an eased span leaves on either side is a part of the whole:
     ///         ## { t = 0.9, v = 1, part = { of = "sine-in-out", from = 0.5, to = 1, rise = 14 } }

@@ -1,6 +1,5 @@
-//! Helpers of the tests. Every test program compiles this file and uses a part of it.
+//! Helpers of the tests.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
-#![allow(dead_code, reason = "each test program uses a part")]
 
 use rig_core::{Place, RawRig, Rig, XmlError, XmlProblem};
 

@@ -6,9 +6,7 @@
     reason = "a test: it may panic and read files"
 )]
 
-mod common;
-
-use common::shared_data;
+use crate::common::shared_data;
 use rig_core::{Axis, Elementary, RawRig, Rig};
 use serde_json::Value;
 

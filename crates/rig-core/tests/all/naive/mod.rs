@@ -1,6 +1,5 @@
 //! 4×4 matrices in f64, by the school book: the independent half of comparisons.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
-#![allow(dead_code, reason = "each test program uses a part")]
 
 use glam::Affine3A;
 

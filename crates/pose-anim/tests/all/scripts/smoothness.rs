@@ -1,7 +1,7 @@
 //! Every step of a script, at a fine rate, by itself: no change that its neighbours do not explain.
 
-use crate::generate::{Random, Stage, play, script, table};
-use crate::{parts, widths};
+use super::generate::{Random, Stage, play, script, table};
+use super::{parts, widths};
 use pose_anim::{Easing, Jet};
 
 /// Transition functions without corners and overshoot.

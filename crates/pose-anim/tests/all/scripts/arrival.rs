@@ -1,7 +1,7 @@
 //! Every control arrives when its pose says.
 
-use crate::easings;
-use crate::generate::{Random, pose, table};
+use super::easings;
+use super::generate::{Random, pose, table};
 use pose_anim::{Easing, Jet, Player, Pose};
 
 /// Partial, weighted, delayed, eased presses, direct or as fades: of the last one that names a control, the

@@ -1,9 +1,7 @@
 //! All the shapes that XML gives the same content: encodings, comments, line ends, references, layouts.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
-use common::{IDENTITY, without_places};
+use crate::common::{IDENTITY, without_places};
 use rig_core::{MatrixLayout, Place, RawRig, XmlError, XmlProblem};
 
 /// Two joints; the numbers of the first are all different, so that no mix-up goes unseen.
@@ -188,10 +186,11 @@ fn columns_count_characters() {
     let raw = RawRig::from_xml(text.as_bytes()).unwrap();
     for joint in &raw.joints {
         let start = format!("<Joint name='{}'", joint.name);
-        let (_, place) = common::marked(&text.replace(&start, &format!("{}{start}", common::MARK)));
+        let (_, place) =
+            crate::common::marked(&text.replace(&start, &format!("{}{start}", crate::common::MARK)));
         assert_eq!(joint.place, Some(place), "{}", joint.name);
     }
-    common::fails(
+    crate::common::fails(
         "<JointSet><!-- 関節 🦴 -->¦<Bone/></JointSet>",
         &XmlProblem::UnexpectedElement { found: "Bone".to_owned(), expected: "<Joint>" },
     );

@@ -3,11 +3,8 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
-#[path = "scripts/arrival.rs"]
 mod arrival;
-#[path = "scripts/generate.rs"]
 mod generate;
-#[path = "scripts/smoothness.rs"]
 mod smoothness;
 
 use generate::{Action, Event, Random, Stage, play, script, table, value};

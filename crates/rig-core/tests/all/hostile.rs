@@ -6,9 +6,7 @@
     reason = "a test: it may panic and look at the clock"
 )]
 
-mod common;
-
-use common::{IDENTITY, Random, error_of};
+use crate::common::{IDENTITY, Random, error_of};
 use rig_core::{MAX_DEPTH, Place, RawRig, Rig, XmlProblem};
 use std::time::{Duration, Instant};
 
@@ -31,7 +29,8 @@ fn cut_at_every_byte_is_an_error_with_a_place_inside_the_text() {
         match &error.problem {
             XmlProblem::Truncated { .. } | XmlProblem::NoJoint => {
                 // Only whole characters can be read so far, and the end is the place.
-                let (text, at_end) = common::marked(&format!("{}{}", &SMALL[..end], common::MARK));
+                let (text, at_end) =
+                    crate::common::marked(&format!("{}{}", &SMALL[..end], crate::common::MARK));
                 assert_eq!((text.len(), error.place), (end, at_end), "{error}");
             }
             XmlProblem::Malformed(_) => {
@@ -96,7 +95,7 @@ fn flipped_bytes_are_an_error_or_another_rig() {
                 let raw = RawRig::from_xml(&bytes).unwrap();
                 if let Ok(text) = raw.to_xml() {
                     let again = RawRig::from_xml(text.as_bytes()).unwrap();
-                    assert_eq!(common::without_places(again), common::without_places(raw));
+                    assert_eq!(crate::common::without_places(again), crate::common::without_places(raw));
                 }
             }
             Err(error) => {

@@ -1,9 +1,7 @@
 //! Writing and reading back gives the same rig to the last bit.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
-use common::without_places;
+use crate::common::without_places;
 use glam::Mat4;
 use proptest::prelude::*;
 use rig_core::{MAX_DEPTH, MAX_NAME_BYTES, MatrixLayout, RawJoint, RawRig, RigError};
@@ -40,7 +38,7 @@ prop_compose! {
                 place: None,
             })
             .collect();
-        let mut random = common::Random(shuffle);
+        let mut random = crate::common::Random(shuffle);
         for i in (1..joints.len()).rev() {
             joints.swap(i, random.below(i + 1));
         }

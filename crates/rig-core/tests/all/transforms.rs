@@ -2,11 +2,8 @@
 //! library.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-mod naive;
-
+use crate::naive::{M, relative_difference};
 use glam::{Affine3A, Mat4, Quat, Vec3};
-use naive::{M, relative_difference};
 use proptest::prelude::*;
 use rig_core::{Axis, Elementary, JointId, LengthMismatch, RawJoint, RawRig, Rig, UnknownJoint, product};
 
@@ -17,8 +14,9 @@ fn axis() -> impl Strategy<Value = [f64; 3]> {
 
 /// A rigid matrix, made in f64 and rounded to f32 once.
 fn rigid() -> impl Strategy<Value = M> {
-    (axis(), -4.0..4.0f64, prop::array::uniform3(-20.0..20.0f64))
-        .prop_map(|(axis, angle, offset)| naive::translation(offset).times(&naive::rotation(axis, angle)))
+    (axis(), -4.0..4.0f64, prop::array::uniform3(-20.0..20.0f64)).prop_map(|(axis, angle, offset)| {
+        crate::naive::translation(offset).times(&crate::naive::rotation(axis, angle))
+    })
 }
 
 fn f32_matrix(m: &M) -> Mat4 {
@@ -40,9 +38,9 @@ fn elementary() -> impl Strategy<Value = Elementary> {
 fn naive_elementary(factor: &Elementary) -> M {
     match *factor {
         Elementary::Rotation { axis, angle_rad } => {
-            naive::rotation(axis.to_array().map(f64::from), angle_rad.into())
+            crate::naive::rotation(axis.to_array().map(f64::from), angle_rad.into())
         }
-        Elementary::Translation(offset) => naive::translation(offset.to_array().map(f64::from)),
+        Elementary::Translation(offset) => crate::naive::translation(offset.to_array().map(f64::from)),
     }
 }
 
@@ -188,7 +186,7 @@ proptest! {
     fn the_order_of_the_list_changes_no_joint(case in case()) {
         let (rig, pose) = posed(&case.raw, &case);
         let mut shuffled = case.raw.clone();
-        let mut random = common::Random(case.shuffle);
+        let mut random = crate::common::Random(case.shuffle);
         for i in (1..shuffled.joints.len()).rev() {
             shuffled.joints.swap(i, random.below(i + 1));
         }

@@ -1,9 +1,7 @@
 //! Files that are not as the format demands: which error, and at which line and column.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
-mod common;
-
-use common::{IDENTITY, fails, malformed};
+use crate::common::{IDENTITY, fails, malformed};
 use rig_core::{MAX_NAME_BYTES, Place, RigError, XmlProblem};
 
 /// A joint named A with this inside, on lines 2 to 4.
@@ -209,11 +207,11 @@ fn what_is_no_rigid_matrix_is_refused_at_its_joint() {
         let text = matrix(numbers).replace("<Joint n", "¦<Joint n");
         fails(&text, &XmlProblem::Rig(rig));
         // The editable form takes it, so that it can be mended.
-        assert!(rig_core::RawRig::from_xml(common::marked(&text).0.as_bytes()).is_ok());
+        assert!(rig_core::RawRig::from_xml(crate::common::marked(&text).0.as_bytes()).is_ok());
     }
     let huge = matrix("3e38 3e38 0 0  3e38 -3e38 0 0  0 0 3e38 0  0 0 0 1").replace("<Joint n", "¦<Joint n");
-    let (xml, place) = common::marked(&huge);
-    let error = common::error_of(xml.as_bytes());
+    let (xml, place) = crate::common::marked(&huge);
+    let error = crate::common::error_of(xml.as_bytes());
     assert_eq!(error.place, place);
     assert!(
         matches!(error.problem, XmlProblem::Rig(RigError::NotRigid { deviation, .. }) if deviation == f32::INFINITY)
@@ -228,7 +226,7 @@ fn rigidity_has_a_tolerance_of_a_thousandth() {
         assert!(rig_core::Rig::from_xml(scaled(s).as_bytes()).is_ok(), "{s}");
     }
     for s in [0.000_501, -0.000_501] {
-        let error = common::error_of(scaled(s).as_bytes());
+        let error = crate::common::error_of(scaled(s).as_bytes());
         assert!(matches!(error.problem, XmlProblem::Rig(RigError::NotRigid { .. })), "{s}: {error}");
     }
     for (row, good) in
