@@ -23,7 +23,7 @@ proptest! {
             let translation = Vec3::new(x, y, z);
             player.press(JointTarget { rotation: Quat::from_xyzw(x, y, z, w), translation }, secs);
             let bound = 1.5 * player.widest_rad + 1e-9;
-            prop_assert!(player.widest_rad < 3.1416);
+            prop_assert!(player.widest_rad < std::f64::consts::PI + 1e-6);
             for step in 0..=100 {
                 let age_secs = f64::from(step) * 0.01 * secs;
                 let offset = player.offset.map(|way| way.at(age_secs, secs).value);
