@@ -55,7 +55,8 @@ fn sixty_four_of_one_model_in_different_poses_look_as_each_does_alone() {
     let distance = 400.0;
     let camera = Camera::orbit(Vec3::ZERO, distance, 0.0, 0.0, 2.0 * (8.0f32 / distance).atan(), 1.0);
     let scene = Scene { camera, ..scene(4.0) };
-    // Without shadows, which fall from one avatar onto others and are as coarse as all that casts them is large.
+    // Without shadows, which fall from one avatar onto others and are as coarse as all that casts them is
+    // large.
     let (_, plain) = shadings()[0];
     let stage = Stage::new(gpu, plain, SIZE as u32, FORMAT);
     let all: Vec<_> = states.iter().map(|state| (&model, state)).collect();

@@ -102,8 +102,8 @@ fn directions(count: u32) -> impl Iterator<Item = Vec3> {
     })
 }
 
-/// The share of light from everywhere that reaches the eye from the middle of the part. A lamp of radiance 1 lights a
-/// white matte surface to `max(n · l, 0)`, whose mean over all directions is 1/4.
+/// The share of light from everywhere that reaches the eye from the middle of the part. A lamp of radiance 1
+/// lights a white matte surface to `max(n · l, 0)`, whose mean over all directions is 1/4.
 fn reflected_share(terms: Terms, avatar: &(AvatarModel, AvatarState)) -> Vec3 {
     const COUNT: u32 = 156;
     // Without shadows the three lamps are alike: each frame stands for three directions.

@@ -13,7 +13,8 @@ use glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
 
 const SIZE: u32 = 128;
 
-/// Where the eye's flat front lies, how far the painting reaches on it, and the cornea's sphere in front of it.
+/// Where the eye's flat front lies, how far the painting reaches on it, and the cornea's sphere in front of
+/// it.
 const FRONT_Z: f32 = 0.2;
 const REACH: f32 = 2.0;
 const CORNEA_RADIUS: f32 = 1.3;
@@ -115,8 +116,8 @@ fn camera(yaw_degrees: f32) -> Camera {
     Camera::orbit(Vec3::new(0.0, 0.0, FRONT_Z), 20.0, yaw_degrees.to_radians(), 0.0, 0.14, 1.0)
 }
 
-/// Where a line of sight meets the plane of the iris, in double precision: in through the cornea's sphere, bent toward
-/// its normal so that sin i = n sin t.
+/// Where a line of sight meets the plane of the iris, in double precision: in through the cornea's sphere,
+/// bent toward its normal so that sin i = n sin t.
 fn seen_on_iris(from: Vec3, direction: Vec3, index: f64, plane_z: f64) -> Option<DVec3> {
     let (from, direction) = (from.as_dvec3(), direction.as_dvec3().normalize_or_zero());
     let to = from - CORNEA_CENTER.as_dvec3();
@@ -162,7 +163,8 @@ fn the_iris_is_seen_where_snells_law_says() {
                 Picture { size: SIZE, light: light.collect() }.centroid(|light| light.x)
             };
             let expected = by_rays(PLAIN_IRIS.refractive_index, plane_z);
-            // The painting's radii are known at 16 places, to 2 % (see `eye_shape`): 1 % of the iris' own radius.
+            // The painting's radii are known at 16 places, to 2 % (see `eye_shape`): 1 % of the iris' own
+            // radius.
             let radius = pixel_of(&camera, SIZE, Vec3::new(0.0, IRIS_RADIUS, FRONT_Z));
             let tolerance = 0.015 * (radius.y - SIZE as f32 / 2.0).abs() + 0.25;
             let error = found.distance(expected);

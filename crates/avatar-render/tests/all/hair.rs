@@ -1,4 +1,5 @@
-//! Hair as the GPU grew it, read back from the buffers that are drawn: on the deformed skin, as the CPU's twin says.
+//! Hair as the GPU grew it, read back from the buffers that are drawn: on the deformed skin, as the CPU's
+//! twin says.
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 #![allow(clippy::disallowed_methods, reason = "it reads the built-in avatar")]
 
@@ -142,7 +143,8 @@ fn strands_stand_on_the_deformed_skin_and_are_those_of_the_cpu_in_every_pose() {
             let strands = head.strands(&values);
             head.assert_stands(&groom, &strands, &pose);
             let bones = head.face.bones();
-            // Of the very skin that the GPU grows on: what rounding does to hair that stands on end is not growth's.
+            // Of the very skin that the GPU grows on: what rounding does to hair that stands on end is not
+            // growth's.
             let posed = head.posed_by_gpu();
             let of = |strand: usize| triangle(&posed, &groom.strands()[strand].root);
             for (i, points) in strands.iter().enumerate() {

@@ -157,7 +157,8 @@ fn hair_is_still_until_time_passes_and_after_it_is_told() {
     let mut stage = Stage::new(gpu, &head, Style::LONG);
     stage.turn(0.0);
     let still = stage.strands();
-    // A first call begins with hair that hangs still; a frame without time changes nothing, and neither does a second view.
+    // A first call begins with hair that hangs still; a frame without time changes nothing, and neither does
+    // a second view.
     stage.state.advance_hair(&gpu.queue, 0.1);
     assert!(most(&apart(&still, &stage.strands())) < 1e-4);
     assert!(most(&apart(&still, &stage.strands())) < 1e-4);

@@ -95,8 +95,8 @@ fn left(shadows: Shadows, avatar: &mut (AvatarModel, AvatarState)) -> [f32; 2] {
     })
 }
 
-/// What strands leave behind them at these places: those in random places leave e to the minus of what all of them
-/// together cover (S. Poisson), and where they are, the buffer that is drawn says.
+/// What strands leave behind them at these places: those in random places leave e to the minus of what all of
+/// them together cover (S. Poisson), and where they are, the buffer that is drawn says.
 fn expected((model, state): &(AvatarModel, AvatarState)) -> f32 {
     let gpu = gpu().expect("asked before");
     let (deformer, grower) = (Deformer::new(&gpu.device), Grower::new(&gpu.device));

@@ -1,4 +1,5 @@
-//! Where frames end: rings of uniforms, limits of the device, what belongs to whom, and what a frame allocates.
+//! Where frames end: rings of uniforms, limits of the device, what belongs to whom, and what a frame
+//! allocates.
 
 use crate::common::head::Head;
 use crate::common::stage::Stage;
@@ -156,7 +157,8 @@ fn buffers_may_be_as_large_as_the_adapter_allows() {
     assert_eq!(device.max_texture_dimension_2d, wgpu::Limits::default().max_texture_dimension_2d);
 }
 
-/// A pass that read something before the passes of its own frame wrote it would find there what another frame left.
+/// A pass that read something before the passes of its own frame wrote it would find there what another frame
+/// left.
 #[test]
 fn passes_read_nothing_that_another_frame_left() {
     let Some(gpu) = gpu() else { return };
@@ -189,7 +191,8 @@ fn passes_read_nothing_that_another_frame_left() {
     }
 }
 
-/// What is allocated is wgpu's: as much for parts that are sorted by their distance as for parts that are not.
+/// What is allocated is wgpu's: as much for parts that are sorted by their distance as for parts that are
+/// not.
 #[test]
 fn a_frame_allocates_no_list_of_what_it_draws() {
     let Some(gpu) = gpu() else { return };

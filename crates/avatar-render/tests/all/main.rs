@@ -1,5 +1,5 @@
-//! All tests of the crate from outside, in one program: it opens the adapter once, and tests share the shaders they
-//! compile.
+//! All tests of the crate from outside, in one program: it opens the adapter once, and tests share the
+//! shaders they compile.
 //!
 //! `cargo test -p avatar-render --test all eyes` runs those of one module.
 

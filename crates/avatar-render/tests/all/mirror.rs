@@ -145,7 +145,8 @@ fn a_mirrored_head_in_mirrored_light_is_a_mirrored_picture() {
     for (name, shading) in shadings() {
         let here = light_of(shading, SIZE, &scene(yaw, light), &one);
         let there = light_of(shading, SIZE, &scene(-yaw, mirror_light(&light)), &other).flipped();
-        // Three of 255 steps where the light is 1. Edges of triangles, shadows and tones may fall to either side.
+        // Three of 255 steps where the light is 1. Edges of triangles, shadows and tones may fall to either
+        // side.
         let share = here.difference_share(&there, 0.012);
         assert!(share < 0.01, "{name}, yaw {yaw}: {share}");
         // The same head from the same side is something else: the comparison can tell.

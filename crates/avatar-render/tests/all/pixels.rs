@@ -116,8 +116,8 @@ fn occlusion_darkens_and_keeps_the_colour_of_light_that_bounces() {
         ..Material::of(PartKind::Skin)
     };
     let seen = 60.0 / 255.0f32;
-    // J. Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016, eq. 10: bounces between
-    // walls of the colour that they have.
+    // J. Jimenez et al., "Practical Real-Time Strategies for Accurate Indirect Occlusion", 2016, eq. 10:
+    // bounces between walls of the colour that they have.
     let bounced = albedo.map(|albedo| {
         let (a, b, c) = (2.0404 * albedo - 0.3324, -4.7951 * albedo + 0.6417, 2.7552 * albedo + 0.6903);
         seen.max(((seen * a + b) * seen + c) * seen)

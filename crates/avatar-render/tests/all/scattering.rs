@@ -48,8 +48,8 @@ fn balls() -> (AvatarModel, AvatarState) {
     avatar
 }
 
-/// A ball lit from the right and seen from the front, so that the edge of light is in the middle, and where it is seen
-/// head on: cosines with the lamp and light.
+/// A ball lit from the right and seen from the front, so that the edge of light is in the middle, and where
+/// it is seen head on: cosines with the lamp and light.
 fn across_the_edge(terms: Terms, place: usize, avatar: &(AvatarModel, AvatarState)) -> Vec<(f32, Vec3)> {
     let (center, radius) = BALLS[place];
     let camera = Camera::orbit(center, 20.0 * radius, 0.0, 0.0, 0.11, 1.0);
@@ -148,8 +148,9 @@ fn lamps_brighter_than_halves_can_be_are_as_bright_as_their_exposure_shows_them(
     }
 }
 
-/// The share of light that arrives beside an edge, at `x` times Burley's parameter from it, toward the light positive: the
-/// profile `(exp(−r) + exp(−r/3)) / (8π r)` summed over the half plane that is lit (P. Christensen and B. Burley, 2015).
+/// The share of light that arrives beside an edge, at `x` times Burley's parameter from it, toward the light
+/// positive: the profile `(exp(−r) + exp(−r/3)) / (8π r)` summed over the half plane that is lit (P.
+/// Christensen and B. Burley, 2015).
 fn beside_an_edge(x: f64) -> f64 {
     // By rings: the share of each that lies in the light.
     const RINGS: i32 = 20_000;
@@ -188,7 +189,8 @@ fn blurred_light_fades_beside_an_edge_as_the_profile_says() {
     let picture = light_of(Shading::Natural(terms(Scattering::Separable)), SIZE, &scene, &avatar);
     let row: Vec<f32> = (0..SIZE).map(|x| picture.pixel(x, SIZE / 2).x).collect();
     let full = row[SIZE as usize - 1];
-    // An edge that sharp shows the 17 samples as steps: what is between the same distances is compared as a whole.
+    // An edge that sharp shows the 17 samples as steps: what is between the same distances is compared as a
+    // whole.
     for (from, to) in [(-14.0, -8.0), (-8.0, -3.0), (-3.0, 0.0), (0.0, 3.0), (3.0, 8.0), (8.0, 14.0)] {
         let within = row.iter().enumerate().filter_map(|(x, light)| {
             let at = (x as f64 + 0.5 - f64::from(SIZE) / 2.0) * 30.0 / f64::from(SIZE);
@@ -198,8 +200,8 @@ fn blurred_light_fades_beside_an_edge_as_the_profile_says() {
             (n + 1.0, sum + light, twin + expected)
         });
         let (found, expected) = (found / count, expected / count);
-        // Two Gaussians stand for the profile: they have its width and its tail, not the point of its peak, which leaves
-        // 3 % more of the light right beside the edge.
+        // Two Gaussians stand for the profile: they have its width and its tail, not the point of its peak,
+        // which leaves 3 % more of the light right beside the edge.
         let tolerance = if from == -3.0 || to == 3.0 { 0.035 } else { 0.01 };
         assert!((found - expected).abs() < tolerance, "{found} for {expected} from {from} to {to}");
     }
@@ -265,8 +267,9 @@ fn thin_parts_glow_red_from_behind_and_thick_ones_do_not() {
         (Scattering::Separable, true),
     ] {
         let terms = Terms { shadows: Shadows::Soft, transmission: true, ..terms(scattering) };
-        // Beer and Lambert over the mean free path, which is measured by the height, 2. Half the light at most comes
-        // through, spread around the far pole where a texture knows of thin parts: (1 + 0.3) / 1.3².
+        // Beer and Lambert over the mean free path, which is measured by the height, 2. Half the light at
+        // most comes through, spread around the far pole where a texture knows of thin parts: (1 + 0.3) /
+        // 1.3².
         let wrap = if texture { 1.0 / 1.3 } else { 1.0 };
         let expected = |thickness: f32| {
             Vec3::from_array(white_skin().scatter.map(|path| 0.5 * wrap * (-thickness / (2.0 * path)).exp()))

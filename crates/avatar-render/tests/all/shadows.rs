@@ -163,7 +163,8 @@ fn nothing_that_faces_a_lamp_alone_is_in_its_own_shadow() {
     }
 }
 
-/// The plate and its ball, seen together with a larger avatar whose bones are moved by this and which is given first.
+/// The plate and its ball, seen together with a larger avatar whose bones are moved by this and which is
+/// given first.
 fn beside_another(shadows: Shadows, toward: Vec3, by: Option<Vec3>) -> Picture {
     let gpu = gpu().expect("asked before");
     let (one, mut other) = (avatar(), avatar_of(2.5));
@@ -220,8 +221,8 @@ fn the_drawn_rim_is_hidden_by_what_stands_before_its_lamp() {
     assert!(open > 0.45 && hidden < 0.1, "{hidden} of {open}");
 }
 
-/// The width over which a straight edge's shadow rises from 10 % to 90 %, in the world, and its largest step from pixel
-/// to pixel.
+/// The width over which a straight edge's shadow rises from 10 % to 90 %, in the world, and its largest step
+/// from pixel to pixel.
 fn edge(shadows: Shadows) -> (f32, f32) {
     const PIXELS: u32 = 256;
     let gpu = gpu().expect("asked before");
@@ -250,8 +251,9 @@ fn edge(shadows: Shadows) -> (f32, f32) {
 fn edges_are_as_soft_as_designed() {
     let Some(_) = gpu() else { return };
     let [hard, soft, softer] = [Shadows::Hard, Shadows::Soft, Shadows::Softer].map(edge);
-    // Seen from the lamp, the box of the scene is as wide as the plate is high, with 6 % around it: what a texel of the
-    // finest map, of 2048, covers. Softness is 0.7 % of the height to each side, but no more than nine texels.
+    // Seen from the lamp, the box of the scene is as wide as the plate is high, with 6 % around it: what a
+    // texel of the finest map, of 2048, covers. Softness is 0.7 % of the height to each side, but no more
+    // than nine texels.
     let texel = 1.06 * 2.0 * PLATE / 2048.0;
     let reach = (0.007 * 2.0 * PLATE).min(9.0 * texel) / 0.8;
     // Of a sum of Gaussian weights exp(−1.5 x²), −1 to 1, the middle 80 % span 1.4.

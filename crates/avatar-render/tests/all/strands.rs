@@ -1,4 +1,5 @@
-//! Strands in pictures: thin lines are what many samples would show, fewer ones cover as much, and nothing flickers.
+//! Strands in pictures: thin lines are what many samples would show, fewer ones cover as much, and nothing
+//! flickers.
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use crate::common::head::{Head, PLAIN, canvas, encoded, linear, luma, shrunk, ssim};
@@ -135,8 +136,9 @@ fn far_heads_have_a_quarter_of_the_strands_and_look_alike() {
             println!("{name}, {samples} samples, yaw {yaw}: area {area}, light {light}");
             // Wider strands reach a little beyond the outline of the hair.
             assert!((area - 1.0).abs() < 0.05, "{name}, {samples} samples, yaw {yaw}: area {area}");
-            // All strands of a model stand more evenly than some of them, which leave a few more gaps.
-            // In locks more so: strands of a lock hide one another, and thin ones are widened where there are four samples.
+            // All strands of a model stand more evenly than some of them, which leave a few more gaps. In
+            // locks more so: strands of a lock hide one another, and thin ones are widened where there are
+            // four samples.
             assert!((light - 1.0).abs() < 0.2, "{name}, {samples} samples, yaw {yaw}: light {light}");
         }
     }

@@ -66,7 +66,8 @@ fn a_crease_is_darker_the_nearer_and_only_as_far_as_the_renderer_looks() {
         for along in [Vec3::Z, Vec3::Y] {
             let at = |distance: f32| picture.at(&camera, along * distance).x;
             let shares = [0.02, 0.05, 0.08, 0.15, 0.25].map(at);
-            // An endless wall hides half of the light from all of the floor; one that is looked for only nearby, less.
+            // An endless wall hides half of the light from all of the floor; one that is looked for only
+            // nearby, less.
             assert!((0.5..0.9).contains(&shares[0]), "{kind:?}, {along}: {shares:?}");
             assert!(shares.is_sorted(), "{kind:?}, {along}: {shares:?}");
             assert!(at(1.2 * radius) > 0.97 && shares[4] > 0.99, "{kind:?}, {along}: {shares:?}");
@@ -189,8 +190,8 @@ fn highlights_are_those_of_one_lobe_or_two() {
                     false => specular(cosines, 0.2, lobes.roughness * lobes.roughness),
                 };
                 let expected = PI * brdf * cosines.n_dot_l.max(0.0);
-                // A ball of triangles: its normals are off by up to a thousandth, as much as the sharp lobe's slope
-                // makes 2 % of.
+                // A ball of triangles: its normals are off by up to a thousandth, as much as the sharp lobe's
+                // slope makes 2 % of.
                 let said = format!("{light} for {expected}, at {normal}: {scattering:?}, {sharp_lobe}");
                 assert!((light.x - expected).abs() < 0.02 * expected + 0.01, "{said}");
                 peak = peak.max(light.x);

@@ -11,8 +11,8 @@ use glam::Vec3;
 const SHADING: Shading = Shading::Natural(Terms::NONE);
 const SIZE: u32 = 4;
 
-/// Light, and what Neutral and AgX make of it: computed in double precision from the definitions, by a program that knows
-/// none of these crates.
+/// Light, and what Neutral and AgX make of it: computed in double precision from the definitions, by a
+/// program that knows none of these crates.
 fn chart() -> impl Iterator<Item = [Vec3; 3]> {
     include_str!("../../../avatar-look/tests/tone_chart.csv").lines().skip(1).map(|line| {
         let numbers: Vec<f32> = line.split(',').map_while(|number| number.parse().ok()).collect();

@@ -1,4 +1,5 @@
-//! What faces the camera is seen and what does not is culled, from all sides, in every shading, whichever way a mesh winds.
+//! What faces the camera is seen and what does not is culled, from all sides, in every shading, whichever way
+//! a mesh winds.
 
 use crate::common::stage::{bare_light, key_light, light_of, lit_scene};
 use crate::common::{ball, gpu, mirrored, model, part, plain, shadings, square};
@@ -37,8 +38,8 @@ fn every_view_shows_the_side_that_faces_it() {
         (0.0, 0.0, Some(0)),
         (FRAC_PI_2, 0.0, Some(1)),
         (0.0, FRAC_PI_2, Some(2)),
-        // From behind, from the right and from below only backs are there, which eyeballs do not show; behind them
-        // are the insides of the opposite plates, culled as well.
+        // From behind, from the right and from below only backs are there, which eyeballs do not show; behind
+        // them are the insides of the opposite plates, culled as well.
         (PI, 0.0, None),
         (-FRAC_PI_2, 0.0, None),
         (0.0, -FRAC_PI_2, None),
@@ -106,7 +107,8 @@ fn skin_and_teeth_are_seen_from_behind_and_teeth_are_lit_there() {
                 };
                 let (teeth, skin) = (seen(PartKind::Surface), seen(PartKind::Skin));
                 assert!(teeth > 0.6, "{name}, {way}, {yaw}: {teeth}");
-                // The inside of the skin is a hollow that lamps do not reach: dark, but there, and not all outline.
+                // The inside of the skin is a hollow that lamps do not reach: dark, but there, and not all
+                // outline.
                 assert!((0.04..0.15).contains(&skin), "{name}, {way}, {yaw}: {skin}");
             }
         }

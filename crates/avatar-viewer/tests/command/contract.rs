@@ -251,7 +251,8 @@ fn keys_name_every_pose_with_a_key() {
 #[test]
 fn help_explains_every_verb() {
     let help = run(&["--help"]).ok();
-    // As the program lists them, each with a sentence, up to an empty line; sentences go on farther to the right.
+    // As the program lists them, each with a sentence, up to an empty line; sentences go on farther to the
+    // right.
     let listed = help.split("Commands:\n").nth(1).and_then(|rest| rest.split("\n\n").next()).expect("a list");
     let starts =
         listed.lines().filter_map(|line| line.strip_prefix("  ")).filter(|line| !line.starts_with(' '));

@@ -77,8 +77,8 @@ pub fn real_face() -> Option<PathBuf> {
     shared_data("avatar-course-format-makehuman")
 }
 
-/// A file or folder of the data beside the repository, where there is any; else the reason is printed, or under
-/// `MIMIK_REQUIRE_DATA` the test fails.
+/// A file or folder of the data beside the repository, where there is any; else the reason is printed, or
+/// under `MIMIK_REQUIRE_DATA` the test fails.
 pub fn shared_data(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
     if !path.exists() {

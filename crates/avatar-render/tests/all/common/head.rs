@@ -120,8 +120,9 @@ pub(crate) fn luma(light: &[[f32; 4]]) -> Vec<f64> {
     light.iter().map(of).collect()
 }
 
-/// The structural similarity of two square pictures at each pixel: Z. Wang et al., "Image Quality Assessment: From Error
-/// Visibility to Structural Similarity", 2004, over Gaussian windows of 11×11 with a deviation of 1.5.
+/// The structural similarity of two square pictures at each pixel: Z. Wang et al., "Image Quality Assessment:
+/// From Error Visibility to Structural Similarity", 2004, over Gaussian windows of 11×11 with a deviation of
+/// 1.5.
 pub(crate) fn ssim(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
     let (c1, c2) = ((0.01f64 * 255.0).powi(2), (0.03f64 * 255.0).powi(2));
     let weight = |d: i32| (-0.5 * f64::from(d * d) / (1.5 * 1.5)).exp();

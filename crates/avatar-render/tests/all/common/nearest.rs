@@ -63,8 +63,8 @@ impl<'a> Nearest<'a> {
         self.split(children + 1, half, to);
     }
 
-    /// How deep a point is inside, 0 outside. Two rays that both cross the mesh an odd number of times say inside; they go
-    /// up, because heads are open below.
+    /// How deep a point is inside, 0 outside. Two rays that both cross the mesh an odd number of times say
+    /// inside; they go up, because heads are open below.
     pub(crate) fn depth(&self, p: Vec3) -> f32 {
         let rays = [Vec3::new(0.013, 1.0, 0.007), Vec3::new(-0.21, 1.0, -0.17)];
         if rays.iter().any(|ray| self.crossings(0, p, *ray).is_multiple_of(2)) {

@@ -1,4 +1,5 @@
-//! Pictures of light instead of bytes: a float target, read back, nothing clipped and nothing rounded to 8 bits.
+//! Pictures of light instead of bytes: a float target, read back, nothing clipped and nothing rounded to 8
+//! bits.
 
 use super::gpu;
 use avatar_render::headless::Gpu;
@@ -15,8 +16,8 @@ pub(crate) struct Stage {
     pub(crate) renderer: Renderer,
     pub(crate) targets: Targets,
     pub(crate) texture: wgpu::Texture,
-    /// Locked while a frame is recorded, submitted and read: tests that run at once share stages, and frames that are
-    /// submitted together share an environment.
+    /// Locked while a frame is recorded, submitted and read: tests that run at once share stages, and frames
+    /// that are submitted together share an environment.
     readable: Mutex<wgpu::Buffer>,
     size: u32,
 }
@@ -30,8 +31,8 @@ pub(crate) struct Picture {
 
 const FLOAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
-/// A stage with a float target and one sample per pixel. Programs are compiled when they are first drawn with, which
-/// takes software longer than the picture: tests of one program share their stages.
+/// A stage with a float target and one sample per pixel. Programs are compiled when they are first drawn
+/// with, which takes software longer than the picture: tests of one program share their stages.
 pub(crate) fn stage(shading: Shading, size: u32) -> Option<&'static Stage> {
     static STAGES: Mutex<Vec<(Shading, u32, &'static Stage)>> = Mutex::new(Vec::new());
     let gpu = gpu()?;
