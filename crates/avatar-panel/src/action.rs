@@ -34,9 +34,9 @@ pub enum Action {
     Play(usize),
     /// Plays a clip of [`crate::Model::file_clips`]: from where it was paused, or else from its start.
     PlayFileClip(usize),
-    /// Lets go of the file's clip: the face goes back to its controls.
+    /// Leaves the file's clip: the face goes back to the values of its controls.
     LeaveFileClip,
-    /// Halts what plays where it is.
+    /// Pauses what plays.
     Pause,
     /// Ends the clip and goes to its start.
     Stop,
@@ -50,7 +50,7 @@ pub enum Action {
     /// Begins to record the face's motion into a new clip.
     StartRecording,
 
-    /// Lets the eyes follow the pointer, or no longer.
+    /// Lets the eyes follow the pointer, or ends that.
     Gaze,
     /// Gives the face other hair.
     Hair {
@@ -62,7 +62,7 @@ pub enum Action {
     OpenFile,
     /// Opens a file again.
     OpenRecent(usize),
-    /// Takes a message away.
+    /// Removes a message.
     Dismiss(usize),
     /// Saves the picture.
     Picture,
@@ -77,7 +77,7 @@ pub enum Action {
     StopFilm,
     /// Takes the camera to a place: the index in [`crate::Model::cameras`].
     Camera(usize),
-    /// Fills the screen, or no longer.
+    /// Enters or leaves full screen.
     FullScreen,
     /// The theme has changed. The panel has told egui already; this is for the window and its background.
     Theme(Theme),
@@ -98,14 +98,14 @@ pub enum Edit {
     EditPose {
         /// Index of the pose.
         index: usize,
-        /// What it is to be.
+        /// Its new name, key and duration.
         form: PoseForm,
     },
     /// Gives a pose the values of the present face.
     UpdatePose(usize),
     /// Moves a pose in the order.
     MovePose {
-        /// Where it is.
+        /// Its index now.
         from: usize,
         /// Its index afterwards.
         to: usize,
@@ -117,11 +117,11 @@ pub enum Edit {
     /// Does again what [`crate::Model::can_redo`] names.
     Redo,
 
-    /// Sets what follows the end of a clip.
+    /// Sets what happens after the end of a clip.
     SetWrap {
         /// Index of the clip.
         clip: usize,
-        /// What follows.
+        /// What happens after the end.
         wrap: Wrap,
     },
     /// Bakes the in-between at a time into a key; where the control has no track, the present value begins

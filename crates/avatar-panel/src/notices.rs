@@ -1,4 +1,4 @@
-//! What has to be seen whatever else is shown: messages, loading, films.
+//! Notices above everything else: messages, the progress of loading and of films.
 
 use crate::widgets::{Icon, icon_button};
 use crate::{Action, FilmProgress, Loading, Message, Model, Severity, style};
@@ -39,7 +39,7 @@ pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
     }
 }
 
-/// Whether it is to be dismissed.
+/// Returns whether the user dismisses it.
 fn banner(ui: &mut Ui, message: &Message<'_>) -> bool {
     let (word, color) = match message.severity {
         Severity::Error => ("Error", ui.visuals().error_fg_color),

@@ -84,7 +84,7 @@ fn grouped(number: u64) -> String {
     text
 }
 
-/// The line for those who are here for the first time. Where there is no room for it, it waits.
+/// A hint for the first use. It waits until there is room for it.
 pub(crate) fn hint(ctx: &Context, free: Rect, help_keys: &[&str], state: &mut PanelState) {
     if free.width() < 180.0 || free.height() < 120.0 {
         return;

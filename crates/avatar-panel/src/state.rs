@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PanelState {
-    /// Whether only the button is left that opens the panel.
+    /// Whether the panel is folded away, except for the button that opens it.
     pub folded: bool,
     /// What the panel shows.
     pub tab: Tab,

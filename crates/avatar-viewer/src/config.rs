@@ -16,7 +16,7 @@ pub(crate) fn folder() -> Option<PathBuf> {
 const RECENT: usize = 10;
 const FILE: &str = "viewer.toml";
 
-/// What is remembered from run to run.
+/// Settings that are kept from run to run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Config {

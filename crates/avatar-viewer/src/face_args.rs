@@ -195,7 +195,7 @@ impl FaceArgs {
         Ok(choice)
     }
 
-    /// Takes over what the clip sets, but for what single controls do.
+    /// Takes over what the clip sets, except for joints and shapes that single controls were set for.
     fn start_from_clip(&self, pack: &Pack, choice: &mut FaceChoice) -> Result<()> {
         let Some(clip) = &self.clip else { return Ok(()) };
         let at = clips::find(pack, clip)?.at(pack, self.time.into(), &mut choice.values)?;

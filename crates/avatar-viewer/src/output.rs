@@ -92,7 +92,7 @@ impl OutputFile {
         Ok(())
     }
 
-    /// The name and what it should be, for errors.
+    /// The path and what was expected there, for error messages.
     pub(crate) fn expected(&self) -> String {
         format!("{}: expected a file that can be written", self.path.display())
     }
@@ -103,7 +103,7 @@ impl OutputFile {
 pub(crate) struct OutputFolder(PathBuf);
 
 impl OutputFolder {
-    /// Checks that there is nothing of that name but an empty folder.
+    /// Checks that the name is free, or that of an empty folder.
     pub(crate) fn check(named: &Path) -> Result<Self> {
         // Without the separator at its end, which would hide the name of what is beside it.
         let path: PathBuf = named.components().collect();
@@ -158,13 +158,13 @@ impl OutputFolder {
         self.commit(draft)
     }
 
-    /// The name and what it should be, for errors.
+    /// The path and what was expected there, for error messages.
     pub(crate) fn expected(&self) -> String {
         format!("{}: expected a folder that can be written", self.0.display())
     }
 }
 
-/// How names of what is not ready begin.
+/// Names of unfinished files begin with this.
 const DRAFT: &str = ".avatar-viewer-";
 
 /// Writes what a file holds to a device.
@@ -200,7 +200,7 @@ pub(crate) fn stream(write: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> 
     out.flush().context("standard output")
 }
 
-/// Whether the error is that nobody reads our output any more.
+/// Whether the error says that the reader of our output has closed the pipe.
 pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     let io = error.chain().find_map(|cause| cause.downcast_ref::<std::io::Error>());
     io.is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)

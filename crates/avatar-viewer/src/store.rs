@@ -17,7 +17,7 @@ pub(crate) struct Store {
     paths: [Option<PathBuf>; 2],
     /// The texts that were taken over or written last.
     taken: [String; 2],
-    /// Texts of somebody else that the user knows of, and may replace.
+    /// Texts written by another program that the user was told of, and may replace.
     known: [Option<String>; 2],
 }
 
@@ -56,7 +56,7 @@ impl Store {
     /// Writes the file, whole or not at all.
     ///
     /// # Errors
-    /// The file holds what somebody else wrote, and the user does not know of: nothing is lost by writing.
+    /// The file was changed by another program and the user was not told yet: writing would lose that change.
     pub(crate) fn write(&mut self, which: usize, text: &str) -> Result<()> {
         if text == self.taken[which] {
             return Ok(());

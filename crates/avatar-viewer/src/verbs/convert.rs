@@ -68,7 +68,7 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
     }
 }
 
-/// A rig is written at rest: who asks for a pose has to hear that it is not in the file.
+/// A rig is written at rest, so a pose in the options is reported as an error.
 fn at_rest(args: &ConvertArgs) -> Result<()> {
     match args.face.is_given() {
         true => {

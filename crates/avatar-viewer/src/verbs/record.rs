@@ -60,7 +60,7 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
     film.finish()
 }
 
-/// Whether somebody wants the program to end: then what is half written is to go first.
+/// Whether the program was asked to end: unfinished files are removed first.
 fn watch_interrupts() -> Result<Arc<AtomicBool>> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);

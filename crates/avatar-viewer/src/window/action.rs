@@ -15,9 +15,9 @@ pub(crate) enum Action {
     PlayOrPause,
     /// Begins to record a clip, or ends it.
     Record,
-    /// Shows the keys, or no longer.
+    /// Shows or hides the keys.
     Help,
-    /// Folds the panel, or unfolds it.
+    /// Folds or unfolds the panel.
     FoldPanel,
 }
 

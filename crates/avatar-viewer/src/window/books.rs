@@ -29,7 +29,7 @@ impl Order {
         self.undone.clear();
     }
 
-    /// A text was read anew: its edits are no more.
+    /// Forgets the edits of a text that was read again.
     fn forget(&mut self, book: Book) {
         self.done.retain(|other| *other != book);
         self.undone.retain(|other| *other != book);

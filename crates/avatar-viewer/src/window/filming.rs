@@ -39,7 +39,7 @@ pub(super) struct Filming {
 }
 
 impl Drop for Filming {
-    /// Whoever closes the window ends the film, and waits until its half-written file is gone.
+    /// Closing the window ends the film, and waits until its unfinished file is removed.
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {

@@ -59,7 +59,7 @@ impl App {
         }
     }
 
-    /// Plants what is chosen now, if it is not as `before`.
+    /// Plants the chosen hair, if it differs from `before`.
     fn change_hair(&mut self, before: Option<Hair>) {
         let hair = self.presenter.hair(&self.session);
         let Some(stage) = self.presenter.stage.as_mut().filter(|_| hair != before) else { return };

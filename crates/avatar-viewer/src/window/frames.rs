@@ -12,7 +12,7 @@ const SOON: Duration = Duration::from_millis(150);
 /// Frames whose times are kept.
 const HISTORY: usize = 120;
 
-/// When frames were drawn, and what was seen in them.
+/// The times of frames, their measurements, and the small pictures of poses.
 #[derive(Default)]
 pub(super) struct Frames {
     /// When the last frame of a running motion was drawn; `None` while nothing moves.
@@ -30,7 +30,7 @@ pub(super) struct Frames {
     miniatures: Vec<Miniature>,
 }
 
-/// A small picture of a pose, and what it shows.
+/// A small picture of a pose, with the pose and the background that it shows.
 struct Miniature {
     pose: Pose,
     background: [u8; 4],

@@ -61,7 +61,7 @@ const NAMED: [NamedKey; 30] = [
 ];
 
 impl KeyName {
-    /// Reads a name; `None` if it is none.
+    /// Reads the name of a key; `None` if no key has this name.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let (mut ctrl, mut alt, mut shift) = (false, false, false);
         let mut rest = text;

@@ -12,7 +12,7 @@ use pose_anim::{Clip, Pose, PoseSet};
 use winit::event::Modifiers;
 use winit::keyboard::{Key, KeyCode, PhysicalKey};
 
-/// The file that binds keys anew.
+/// The file in which the user binds other keys.
 const FILE: &str = "keys.toml";
 
 /// A row of the table.
@@ -139,7 +139,7 @@ impl Default for Keys {
 }
 
 impl Keys {
-    /// The usual keys, but for those that a `keys.toml` says: `id = "key"` or `id = ["key", "other"]`.
+    /// The usual keys, replaced where a `keys.toml` says so: `id = "key"` or `id = ["key", "other"]`.
     ///
     /// # Errors
     /// A name that no row has, a key that cannot be, a key twice; with its place.
@@ -185,7 +185,7 @@ impl Keys {
     /// The keys as the user has bound them in `keys.toml`, among the settings.
     ///
     /// # Errors
-    /// What is wrong with the file, and where.
+    /// A mistake in the file, with its place.
     pub(crate) fn load() -> Result<Self> {
         let Some(path) = config::folder().map(|folder| folder.join(FILE)) else { return Ok(Self::default()) };
         match reading::text(&path)? {

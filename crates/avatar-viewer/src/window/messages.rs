@@ -47,7 +47,7 @@ impl Messages {
         self.tell(about, Severity::Error, title, text);
     }
 
-    /// Tells of what failed, under this title; where it was done, what was told about the same goes.
+    /// Shows an error under this title; on success removes the earlier message about the same thing.
     pub(super) fn report(&mut self, about: About, title: &str, done: anyhow::Result<()>) {
         match done {
             Ok(()) => self.settle(about),
@@ -77,7 +77,7 @@ impl Messages {
         self.all.retain(|told| told.about != about);
     }
 
-    /// When the next one goes by itself.
+    /// When the next message disappears by itself.
     pub(super) fn next(&self) -> Option<Instant> {
         self.all.iter().filter_map(|told| told.until).min()
     }

@@ -111,7 +111,7 @@ fn no_display() -> anyhow::Error {
     anyhow!("expected a display (X11 or Wayland) to open a window on, found {x11} and {wayland}")
 }
 
-/// What is shown, what shows it, and what the user does.
+/// The program behind the window: the session, its presentation and the user's input.
 struct App {
     session: Session,
     presenter: Presenter,
@@ -255,16 +255,22 @@ impl App {
         self.messages.error(About::Device, "A frame was not drawn.", error);
         match self.failed_frames {
             1 => self.presenter.frames.soon(),
-            2 => {
-                if let Err(error) = self.reopen(event_loop) {
-                    self.fail(event_loop, error);
+            2 => match self.presenter.reopen(event_loop, &self.session) {
+                Ok(_) => {
+                    let advice = format!("{error:#}");
+                    self.messages.warn(
+                        About::Device,
+                        "The graphics device failed, and was opened again.",
+                        advice,
+                    );
                 }
-            }
+                Err(error) => self.fail(event_loop, error),
+            },
             _ => {}
         }
     }
 
-    /// Everything on the device is gone: the same face on another one.
+    /// Opens another device and uploads the same face, after the device was lost.
     fn reopen(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         let opened =
             self.presenter.reopen(event_loop, &self.session).context("the graphics device was lost")?;
@@ -306,7 +312,7 @@ impl App {
         face.advance(self.presenter.frames.catch_up(Instant::now(), face.recorded_secs().is_some()));
     }
 
-    /// Stores what is remembered from run to run.
+    /// Stores the settings that the next run starts with.
     fn remember(&mut self) {
         let Some(overlay) = &self.presenter.overlay else { return };
         self.config.panel = overlay.panel.state();

@@ -20,7 +20,7 @@ impl App {
         self.presenter.redraw();
     }
 
-    /// Takes over what was read; a broken file leaves everything as it is.
+    /// Shows the avatar that was read. If its file is broken, the one before stays.
     pub(super) fn take_loaded(&mut self) {
         let Some(loading) = &mut self.session.loading else { return };
         let loaded = loading.take();

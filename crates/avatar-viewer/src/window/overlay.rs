@@ -25,7 +25,7 @@ pub(super) struct Overlay {
 pub(super) struct Painted {
     triangles: Vec<egui::ClippedPrimitive>,
     pixels_per_point: f32,
-    /// What is left for the face: left, top, right and bottom in pixels.
+    /// The part of the window that the panel leaves to the face: left, top, right and bottom in pixels.
     pub(super) free: [f32; 4],
     /// When the panel wants to be drawn again.
     pub(super) again: Duration,
@@ -115,7 +115,7 @@ impl Overlay {
         painted.triangles.splice(0..0, marks);
     }
 
-    /// Draws over what is there, through a view of this format.
+    /// Draws the panel over the picture, through a view of this format.
     pub(super) fn draw(
         &mut self,
         gpu: &Gpu,

@@ -51,7 +51,7 @@ impl Pointing {
         }
     }
 
-    /// Takes over what was found out.
+    /// Takes over the result of the thread, if it is ready.
     pub(super) fn take(&mut self) {
         if let Ok(reach) = self.coming.try_recv() {
             self.reach = Some(reach);
@@ -63,7 +63,7 @@ impl Pointing {
         self.moved = true;
     }
 
-    /// Nobody looks at where the pointer has moved to.
+    /// Ignores that the pointer has moved.
     pub(super) fn ignore_move(&mut self) {
         self.moved = false;
     }

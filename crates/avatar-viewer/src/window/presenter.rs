@@ -24,7 +24,7 @@ use winit::dpi::PhysicalSize;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window};
 
-/// Ground of the light theme.
+/// Background in the light theme.
 const LIGHT_BACKGROUND: [u8; 4] = [0xc9, 0xcd, 0xd4, 255];
 
 /// What shows the session: the window with its device, the panel over it, where the camera stands, and when
@@ -87,7 +87,8 @@ impl Presenter {
         Ok(())
     }
 
-    /// Everything on the device is gone: the same face on another one. Returns whether there was a window.
+    /// Opens another device and uploads the same face, after the device was lost. Returns whether there was a
+    /// window.
     pub(super) fn reopen(&mut self, event_loop: &ActiveEventLoop, session: &Session) -> Result<bool> {
         let Some(window) = self.stage.take().map(Stage::into_window) else { return Ok(false) };
         if let Some(overlay) = &mut self.overlay {
@@ -111,7 +112,7 @@ impl Presenter {
         }
     }
 
-    /// Fills the screen, or no longer.
+    /// Enters or leaves full screen.
     pub(super) fn toggle_full_screen(&self) {
         if let Some(stage) = &self.stage {
             let fills = stage.window().fullscreen().is_some();
@@ -132,7 +133,7 @@ impl Presenter {
         self.overlay.as_ref().is_some_and(Overlay::takes_pointer)
     }
 
-    /// The colour of the window's ground.
+    /// The window's background in sRGB.
     pub(super) fn background(&self) -> [u8; 4] {
         let Some(overlay) = &self.overlay else { return BACKGROUND };
         match overlay.panel.state().theme {

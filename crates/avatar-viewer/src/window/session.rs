@@ -212,7 +212,7 @@ impl Session {
         Ok(())
     }
 
-    /// What is shown follows what is edited.
+    /// Shows an edited clip again at the playhead.
     fn show_edited(&mut self, index: usize) {
         if !self.face.is_playing() && self.face.playback.clip == Some(index) {
             self.scrub(index, self.face.playhead_secs());

@@ -34,7 +34,7 @@ impl Shot<'_> {
     }
 }
 
-/// A picture of the face, and what it shows.
+/// A picture of the face, with the bones, weights and view that it shows.
 pub(super) struct Kept {
     pub(super) texture: wgpu::Texture,
     bones: Vec<Affine3A>,

@@ -30,7 +30,7 @@ pub(super) struct Stage {
     look: LookArgs,
     /// The format through which the panel is drawn.
     panel_format: wgpu::TextureFormat,
-    /// Measures passes while somebody looks at the numbers.
+    /// Measures passes while the statistics are shown.
     timer: Option<PassTimer>,
     /// Draws small pictures of poses.
     miniatures: Option<Miniatures>,
@@ -193,7 +193,7 @@ impl Stage {
         self.is_lost()
     }
 
-    /// Size of what is drawn on, in pixels.
+    /// Size of the surface in pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         (self.config.width, self.config.height)
     }

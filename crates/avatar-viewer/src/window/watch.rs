@@ -16,7 +16,7 @@ pub(super) enum Wake {
     Chosen(PathBuf),
     /// The system has no dialog to choose one in.
     NoDialog,
-    /// Somebody reads the window to the user, or acts for the user.
+    /// A screen reader asks for something, or acts for the user.
     Accessibility(accesskit_winit::Event),
 }
 

@@ -74,7 +74,7 @@ impl Face {
         Ok(())
     }
 
-    /// Leads the face back to what its controls say.
+    /// Leads the face from the clip back to the values of its controls.
     pub(in crate::window) fn leave_file_clip(&mut self) {
         if let Some(motion) = &mut self.motion {
             motion.leaving = true;

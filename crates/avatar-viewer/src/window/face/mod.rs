@@ -103,7 +103,7 @@ impl Face {
         }
     }
 
-    /// What is shown, in words of the command line.
+    /// The shown face, as options of the command line would say it.
     pub(in crate::window) fn choice(&self) -> FaceChoice {
         match (&self.motion, &self.start) {
             (Some(motion), _) if motion.is_wanted() => {
@@ -114,7 +114,7 @@ impl Face {
         }
     }
 
-    /// The user wants another face: what moved it so far ends, or is left alone from now on.
+    /// Ends clips and forgets the active pose, because the user wants another face.
     fn turn_away(&mut self) {
         self.start = None;
         self.leave_file_clip();
@@ -122,7 +122,7 @@ impl Face {
         self.active_pose = None;
     }
 
-    /// As [`Self::turn_away`], while the controls come to rest by themselves.
+    /// Forgets the face of the command line and the active pose.
     pub(in crate::window) fn forget_wishes(&mut self) {
         self.start = None;
         self.active_pose = None;

@@ -132,8 +132,8 @@ impl Face {
         self.recording.as_ref().is_some_and(|recording| recording.secs > LONGEST_RECORDING_SECS)
     }
 
-    /// Makes a clip of what was recorded: of those controls that moved, with as few keys as say it.
-    /// Without a recording there is none.
+    /// Makes a clip of the recording: one track for each control that moved, with as few keys as possible.
+    /// Returns `None` if nothing was recorded.
     pub(in crate::window) fn stop_recording(&mut self, name: String) -> Result<Option<Clip>> {
         let Some(Recording { samples, .. }) = self.recording.take() else { return Ok(None) };
         let controls = self.controls().controls();
