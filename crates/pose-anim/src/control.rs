@@ -169,7 +169,7 @@ pub struct ControlError {
     pub index: usize,
     /// What would have been right.
     pub expected: &'static str,
-    /// What is there.
+    /// What is there instead.
     pub found: String,
 }
 

@@ -49,7 +49,7 @@ impl PoseSet {
     /// weight (1 if absent), separated by blanks, commas or plus signs. See [`Pose::mixed`].
     ///
     /// # Errors
-    /// An unknown pose, a weight that is no finite number, no pose at all.
+    /// An unknown pose, a weight that is not a finite number, a text without poses.
     pub fn mix(&self, text: &str, controls: &ControlTable) -> Result<Pose, MixError> {
         let words = text.split(|c: char| c.is_whitespace() || c == ',' || c == '+');
         let mut parts = Vec::new();

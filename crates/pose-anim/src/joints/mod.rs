@@ -41,8 +41,8 @@ pub struct JointTarget {
 /// A move that is much slower than the one that it interrupts would fly far past its target first. A control
 /// has a range that forbids it; a joint has none. So it keeps the time scale in which its speed arose, and a
 /// move that is more than 1.5 times slower than that first brakes the old speed within the old time, `b(t)`,
-/// and fades into the target meanwhile: `x(t) = (1 − r(t)) · b(t) + r(t) · target`, as controls do. Many
-/// presses in quick succession keep the time scale of the first of them.
+/// and fades into the target meanwhile: `x(t) = (1 − r(t)) · b(t) + r(t) · target`, as controls do. Presses
+/// in quick succession keep the shortest time scale among them.
 ///
 /// There is a bound for any number of presses at any moments. Take all targets since the joint last rested,
 /// and the place where it rested. A coordinate of the translation leaves their span by no more than half its

@@ -19,9 +19,9 @@ const AXES: [(&str, Vec3); 6] = [
 ];
 
 impl ControlTable {
-    /// A text that [`ControlTable::from_toml`] reads as these controls and couplings; an axis that is none of
-    /// the frame's own may come back changed in its last digit. Names have to be fit for files: not empty,
-    /// numbers within 1e9.
+    /// A text that [`ControlTable::from_toml`] reads as these controls and couplings; an axis other than ±x,
+    /// ±y and ±z may come back changed in its last digit. Names have to be fit for files: not empty, numbers
+    /// within 1e9.
     ///
     /// ```
     /// use pose_anim::ControlTable;
