@@ -112,7 +112,8 @@ def write_rig():
         return out + ["</Joint>"]
 
     columns, rows, also_rows = ' transposed="true"', "", ' transposed="false"'
-    # Neither the order of the bones nor one layout throughout: names decide, and each matrix says how it runs.
+    # Neither the order of the bones nor one layout throughout: names decide, and each matrix says how it
+    # runs.
     head = [joint("RtEyeJoint", "HeadJoint", rows, ' omit="true"'),
             joint("JawJoint", "HeadJoint", columns),
             joint("LtLowerLidJoint", "HeadJoint", columns),

@@ -62,8 +62,9 @@ impl Check {
         for (k, expected) in expected.as_array().unwrap().iter().enumerate() {
             let found: f64 = points.iter().map(|p| f64::from(p[k])).sum();
             let expected = expected.as_f64().unwrap();
-            // A tenth of what one vertex may be off, for each: a bone matrix is the product of some five matrices in
-            // f32, whose steps at these coordinates are 1e-6, and its error moves all its vertices alike.
+            // A tenth of what one vertex may be off, for each: a bone matrix is the product of some five
+            // matrices in f32, whose steps at these coordinates are 1e-6, and its error moves all its
+            // vertices alike.
             let tolerance = 0.1 * TOLERANCE * points.len() as f64;
             assert!((found - expected).abs() <= tolerance, "{what}: sum: expected {expected}, found {found}");
             self.compared += 1;
@@ -165,7 +166,8 @@ fn compare_all(pack: &Pack, expected: &Path) -> (usize, usize) {
 #[test]
 fn the_small_pack_agrees_in_every_pose() {
     let pack = load(&golden().join("pack"), "Transformations.xml");
-    // Per pose: 9 joints × 19, the skin's box and sum, 48 vertices × 6, six parts × (box, sum, sum of normals).
+    // Per pose: 9 joints × 19, the skin's box and sum, 48 vertices × 6, six parts × (box, sum, sum of
+    // normals).
     let numbers = 9 * 19 + 9 + 48 * 6 + 6 * 12;
     assert_eq!(compare_all(&pack, &golden().join("expected.json")), (9, 9 * numbers));
 }
@@ -190,7 +192,8 @@ fn a_real_face_agrees_in_every_pose() {
     assert_eq!(compare_all(&pack, &data.join("expected/makehuman.expected.json")), (6, 6 * numbers));
 }
 
-/// What the small pack is there for: mirror copies with the left one's triangles, an order of joints of its own.
+/// What the small pack is there for: mirror copies with the left one's triangles, an order of joints of its
+/// own.
 #[test]
 fn the_small_pack_has_the_quirks_of_the_original() {
     let pack = load(&golden().join("pack"), "Transformations.xml");
