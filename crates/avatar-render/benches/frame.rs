@@ -1,4 +1,5 @@
-//! What a frame costs: 1280×720 at 4 samples, a skin of 63,488 vertices and 30,000 triangles, on the adapter at hand.
+//! What a frame costs: 1280×720 at 4 samples, a skin of 63,488 vertices and 30,000 triangles, on the adapter
+//! at hand.
 //!
 //! `floor` clears and resolves and draws nothing: what remains of the others is the avatars' share.
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark stops at the first surprise")]
@@ -30,7 +31,8 @@ fn gpu() -> &'static Gpu {
     GPU.get_or_init(|| open_blocking(GpuOptions::default()).expect("an adapter"))
 }
 
-/// A head-sized ball, stored far from welded as the original skin is: most triangles have corners of their own.
+/// A head-sized ball, stored far from welded as the original skin is: most triangles have corners of their
+/// own.
 fn skin() -> Mesh {
     let (columns, rows) = (150usize, 100usize);
     let point = |row: usize, column: usize| {

@@ -1,7 +1,9 @@
-//! What hair costs: growth and drawing per strand at 1280×720 and four samples, and how close growth comes to a plain
-//! kernel that copies, vec4 by vec4, so that it reads and writes as many bytes as growth must, in the same run.
+//! What hair costs: growth and drawing per strand at 1280×720 and four samples, and how close growth comes to
+//! a plain kernel that copies, vec4 by vec4, so that it reads and writes as many bytes as growth must, in the
+//! same run.
 //!
-//! `cargo bench -p avatar-render --bench hair [-- ROUNDS] [bob|curly|…] [STRANDS] [growth]`; `growth`: nothing is drawn.
+//! `cargo bench -p avatar-render --bench hair [-- ROUNDS] [bob|curly|…] [STRANDS] [growth]`; `growth`:
+//! nothing is drawn.
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
@@ -101,8 +103,8 @@ fn print_growth(gpu: &Gpu, model: &AvatarModel, state: &AvatarState, bytes: usiz
     );
 }
 
-/// The built-in avatar's skin with hair, so large that the head fills the picture's height, and the bytes that its
-/// growth must read and write.
+/// The built-in avatar's skin with hair, so large that the head fills the picture's height, and the bytes
+/// that its growth must read and write.
 fn avatar(
     gpu: &Gpu,
     pack: &Pack,
@@ -224,7 +226,8 @@ fn timed(gpu: &Gpu, record: impl Fn(&mut wgpu::CommandEncoder)) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// Seconds that growth and a plain kernel take that reads and writes as many bytes, medians of rounds in turns.
+/// Seconds that growth and a plain kernel take that reads and writes as many bytes, medians of rounds in
+/// turns.
 fn growth_and_copy(
     gpu: &Gpu,
     model: &AvatarModel,

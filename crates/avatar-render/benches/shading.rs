@@ -1,6 +1,6 @@
-//! What each quality level and each term of the shading costs: frames of the built-in avatar at 1280×720 and four
-//! samples, all configurations in turns in one run, so that what else the machine does hits all alike. Prints medians,
-//! ratios to plain, and the times of passes where the adapter has timestamps.
+//! What each quality level and each term of the shading costs: frames of the built-in avatar at 1280×720 and
+//! four samples, all configurations in turns in one run, so that what else the machine does hits all alike.
+//! Prints medians, ratios to plain, and the times of passes where the adapter has timestamps.
 //!
 //! `cargo bench -p avatar-render --bench shading [-- ROUNDS]`
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
@@ -71,7 +71,8 @@ fn main() {
     }
 }
 
-/// Quality levels, then each term of medium and high on its own switched off, and each affordable one added to low.
+/// Quality levels, then each term of medium and high on its own switched off, and each affordable one added
+/// to low.
 fn configurations() -> Vec<(&'static str, Shading)> {
     let natural = |quality: Quality| quality.shading(Style::Natural);
     let (low, medium, high) = (Terms::LOW, Terms::MEDIUM, Terms::HIGH);

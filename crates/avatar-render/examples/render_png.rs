@@ -1,4 +1,5 @@
-//! Saves a picture of a face made of three balls: `cargo run -p avatar-render --example render_png -- OUT.png`.
+//! Saves a picture of a face made of three balls: `cargo run -p avatar-render --example render_png --
+//! OUT.png`.
 #![allow(clippy::disallowed_methods, reason = "a program: it reads its arguments")]
 
 use avatar_mesh::{Mesh, PartKind};

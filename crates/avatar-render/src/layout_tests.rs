@@ -1,4 +1,5 @@
-//! Every struct that Rust writes and WGSL reads must lie in memory alike: naga's offsets against `offset_of!`.
+//! Every struct that Rust writes and WGSL reads must lie in memory alike: naga's offsets against
+//! `offset_of!`.
 
 use crate::deform::posed::GpuDeformedVertex;
 use crate::hair::detail::GpuHairView;

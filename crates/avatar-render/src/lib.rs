@@ -7,19 +7,21 @@
 //!  camera, light ─────▶ Scene ───────┘
 //! ```
 //!
-//! The caller brings the device, the queue, the encoder and the view; nothing beyond WebGPU's default limits and no
-//! optional feature is needed. This crate opens no files and windows, reads neither clock nor environment, starts no
-//! threads and knows neither joints nor poses: a pose arrives as bone matrices and blend weights.
+//! The caller brings the device, the queue, the encoder and the view; nothing beyond WebGPU's default limits
+//! and no optional feature is needed. This crate opens no files and windows, reads neither clock nor
+//! environment, starts no threads and knows neither joints nor poses: a pose arrives as bone matrices and
+//! blend weights.
 //!
 //! # Conventions
 //!
-//! Spaces are those of the [rig](../rig_core/index.html#conventions): right-handed, +Y up, the face looks along +Z, the
-//! character's left is +X. Matrices are called `a_from_b`, here and in WGSL, so that neighbours cancel. Clip space is
-//! wgpu's, with reversed depth ([`Camera`]). Triangles run counter-clockwise seen from outside; a part that is mostly
-//! inside out is turned around. Colours are linear unless they are 8-bit; a target holds them premultiplied by alpha.
+//! Spaces are those of the [rig](../rig_core/index.html#conventions): right-handed, +Y up, the face looks
+//! along +Z, the character's left is +X. Matrices are called `a_from_b`, here and in WGSL, so that neighbours
+//! cancel. Clip space is wgpu's, with reversed depth ([`Camera`]). Triangles run counter-clockwise seen from
+//! outside; a part that is mostly inside out is turned around. Colours are linear unless they are 8-bit; a
+//! target holds them premultiplied by alpha.
 //!
-//! [`wgpu`], [`glam`] and [`avatar_mesh`], whose types stand in this interface, are reexported: a program that names them
-//! through this crate cannot mix versions.
+//! [`wgpu`], [`glam`] and [`avatar_mesh`], whose types stand in this interface, are reexported: a program
+//! that names them through this crate cannot mix versions.
 //!
 //! # One frame
 //!
@@ -39,16 +41,16 @@
 //!    skin back          what shows at the rim of the neck, lids and lips: a hollow in ambient light
 //!    outlines           toon only
 //!  hair                 strands as ribbons, where a model has hair
-//!  corneas              front sides, blended, far to near, depth tested but not written; without hair in one pass
-//!                       with the avatars
+//!  corneas              front sides, blended, far to near, depth tested but not written; without hair
+//!                       in one pass with the avatars
 //! ```
 //!
-//! Which passes run and which terms programs have, [`Shading`] says; [`Quality`] and [`Style`] choose one.
+//! [`Shading`] decides which passes run and which terms programs have; [`Quality`] and [`Style`] choose a shading.
 //!
-//! Bind groups of passes that draw change rarely in front and often behind: 0 frame (camera, light, tables), 1 view (what
-//! earlier passes left), 2 part looks (material, textures). The vertices are buffers that the deform pass has written;
-//! its twin on the CPU is [`avatar_mesh::deform()`]. Materials, lights and their mathematics are those of
-//! [`avatar_look`], whose types are reexported here.
+//! Of the bind groups of passes that draw, the first change rarely and the last often: 0 frame (camera, light, tables),
+//! 1 view (what earlier passes left), 2 part looks (material, textures). The vertices are buffers that the
+//! deform pass has written; its twin on the CPU is [`avatar_mesh::deform()`]. Materials, lights and their
+//! mathematics are those of [`avatar_look`], whose types are reexported here.
 //!
 //! # Example
 //!
@@ -114,5 +116,6 @@ pub use view::camera::Camera;
 pub use view::config::RendererConfig;
 pub use view::scene::Scene;
 pub use view::shading::{Quality, Scattering, Shading, Shadows, Style, Terms};
-/// The crate of devices, queues and views that this one was built with: types of another version of it do not fit.
+/// The crate of devices, queues and views that this one was built with: types of another version of it do not
+/// fit.
 pub use wgpu;

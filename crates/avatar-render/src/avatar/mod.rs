@@ -1,4 +1,4 @@
-//! Avatars as callers have them: a model, states of it, and what is drawn, read back.
+//! The public types of avatars: a model, its states, and reading back what is drawn.
 
 pub(crate) mod model;
 pub(crate) mod read_back;

@@ -14,24 +14,24 @@ use avatar_mesh::PartKind;
 /// What many avatars share: vertices, triangles, shapes, textures and materials.
 #[derive(Debug)]
 pub struct AvatarModel {
-    /// What a state must have been made for.
+    /// States remember the identity of the model that they were made for.
     pub(crate) id: Identity,
     pub(crate) parts: Vec<ModelPart>,
     palette_len: usize,
     shape_count: usize,
-    /// Height of the skin at bind pose: what materials are measured by, and softness of shadows and reach of occlusion where
-    /// this avatar looks largest.
+    /// Height of the skin at bind pose: the unit of lengths in materials and, if this avatar looks largest,
+    /// of the softness of shadows and the reach of ambient occlusion.
     pub(crate) height: f32,
     pub(crate) hair: Option<HairModel>,
 }
 
 impl AvatarModel {
-    /// Uploads parts whose bones are positions in a palette of `palette_len` matrices. Needs no renderer: a model can be
-    /// drawn by any renderer of the device, and deformed without one.
+    /// Uploads parts whose bones are positions in a palette of `palette_len` matrices. Needs no renderer: a
+    /// model can be drawn by any renderer of the device, and deformed without one.
     ///
     /// # Errors
-    /// A mesh that contradicts itself or the palette, a picture with the wrong number of bytes, or more data than the
-    /// device binds. A picture that is only too large is halved until it fits.
+    /// A mesh that contradicts itself or the palette, a picture with the wrong number of bytes, or more data
+    /// than the device binds. A picture that is only too large is halved until it fits.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -80,11 +80,12 @@ impl AvatarModel {
         self.parts.iter().enumerate().filter(move |(_, part)| seen(part))
     }
 
-    /// Plants hair on a part, or takes it away: `groom` was made from the part's mesh. States that were made
-    /// before have no room for it; make them anew.
+    /// Plants hair on a part, or removes it (`None`). `groom` must have been made from the part's mesh.
+    /// States that were made before do not fit the model any more: make new ones.
     ///
     /// # Errors
-    /// No such part, roots that do not belong to it, or more strands than the device binds; nothing changes then.
+    /// No such part, roots that do not belong to it, or more strands than the device binds; nothing changes
+    /// then.
     pub fn set_hair(
         &mut self,
         device: &wgpu::Device,
@@ -106,8 +107,8 @@ impl AvatarModel {
         self.hair.as_ref().map_or(0, |hair| hair.strand_count as usize)
     }
 
-    /// Replaces the looks of a part in all avatars of this model, from the next submission on. `part` is its place among
-    /// the parts that the model was made of.
+    /// Replaces the looks of a part in all avatars of this model, from the next submission on. `part` is its
+    /// place among the parts that the model was made of.
     ///
     /// # Errors
     /// No such part; nothing changes then.

@@ -1,4 +1,4 @@
-//! What is drawn, read back: deformed vertices and strands.
+//! Reads back what is drawn: deformed vertices and strands.
 
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
@@ -44,7 +44,8 @@ pub enum GrowerError {
 }
 
 impl Deformer {
-    /// Deforms an avatar and waits for one part of it: one position and normal per vertex of the mesh, in its order.
+    /// Deforms an avatar and waits for one of its parts. Returns one position and normal per vertex of the
+    /// mesh, in its order.
     ///
     /// # Errors
     /// A part or state that does not belong to the model, or a lost device.
@@ -106,15 +107,16 @@ impl Deformer {
 }
 
 impl Grower {
-    /// Records the growth of all strands of an avatar on its skin as it was deformed last. Frames do that by themselves;
-    /// alone it can be measured. A state of another model is left as it is.
+    /// Records the growth of all strands of an avatar on its skin as it was deformed last.
+    /// [`Renderer::draw`](crate::Renderer::draw) does this by itself; this method is for measuring it. Does
+    /// nothing with the state of another model.
     pub fn grow(&self, encoder: &mut wgpu::CommandEncoder, model: &AvatarModel, state: &AvatarState) {
         let growing = state.fits(model).then(|| state.growing_all(model)).flatten();
         self.record(encoder, None, growing.into_iter());
     }
 
-    /// Deforms an avatar, grows its hair and waits for it: the points of each strand, from the root to the tip, from the
-    /// very buffer that is drawn.
+    /// Deforms an avatar, grows its hair and waits for it. Returns the points of each strand, from the root
+    /// to the tip, from the buffer that is drawn.
     ///
     /// # Errors
     /// A state that does not belong to the model, or a lost device.

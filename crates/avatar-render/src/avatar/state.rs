@@ -35,31 +35,31 @@ impl AvatarState {
         self.hair_detail = detail;
     }
 
-    /// Lets hair move: as many seconds pass from the last frame to the next one, in which locks lag behind the head, swing
-    /// and settle within about a second. Set the pose as well; the order of the two does not matter. Frames of any rate
-    /// show the same motion. Seconds below 0, above a half, or that are no number leave hair still where the head is then: after
-    /// a pause, or where the avatar is put elsewhere. Until the first call, and after [`AvatarState::still_hair`], hair
-    /// hangs still, as pictures want it. A style says how its hair swings
-    /// ([`RegionStyle::swing`](avatar_groom::RegionStyle::swing)).
+    /// Lets hair move: `seconds` pass from the last frame to the next one. Locks lag behind the head, swing,
+    /// and settle within about a second. Set the pose as well, before or after this call. Frames of any rate
+    /// show the same motion. If `seconds` is negative, above 0.5 or NaN, hair hangs still where the head is
+    /// then; use that after a pause, or when the avatar is put elsewhere. Until the first call, and after
+    /// [`AvatarState::still_hair`], hair hangs still, as single pictures need it. A style says how its hair
+    /// swings ([`RegionStyle::swing`](avatar_groom::RegionStyle::swing)).
     pub fn advance_hair(&mut self, queue: &wgpu::Queue, seconds: f32) {
         if let Some(hair) = &mut self.hair {
             hair.swing.advance(queue, seconds);
         }
     }
 
-    /// Lets hair hang still, from the next frame on.
+    /// Stops the motion of hair, from the next frame on.
     pub fn still_hair(&mut self) {
         if let Some(hair) = &mut self.hair {
             hair.swing.stop();
         }
     }
 
-    /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a
-    /// placement in the world, if there is one, which must not scale where there is hair), `weights` one blend weight per shape; shapes with weight 0 cost
-    /// nothing. Allocates nothing here.
+    /// Sets the pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order;
+    /// they may include a placement in the world, which must not scale if the model has hair. `weights` has
+    /// one blend weight per shape; shapes with weight 0 cost nothing. Allocates nothing.
     ///
     /// # Errors
-    /// Lengths that do not fit the model; the state is unchanged then.
+    /// Another number of bones or weights than the model has; the state is unchanged then.
     pub fn set(
         &mut self,
         queue: &wgpu::Queue,
@@ -77,18 +77,18 @@ impl AvatarState {
         self.model == model.id && hair.0 == hair.1
     }
 
-    /// What the deform pass makes of it.
+    /// The input of the deform pass.
     pub(crate) fn deforming<'a>(&'a self, model: &'a AvatarModel) -> (&'a [ModelPart], &'a Pose) {
         (&model.parts, &self.pose)
     }
 
-    /// What the growing pass makes of it: all of its strands.
+    /// The input of the growing pass, for all strands.
     pub(crate) fn growing_all(&self, model: &AvatarModel) -> Option<(&Pose, &HairState, u32)> {
         let strands = u32::try_from(model.strand_count()).unwrap_or(u32::MAX);
         Some((&self.pose, self.hair.as_ref()?, strands))
     }
 
-    /// A box around the avatar as it is now, `None` where it has no finite one.
+    /// A box around the avatar as it is now; `None` if no part has a finite one.
     pub(crate) fn bounds(&self, model: &AvatarModel) -> Option<Bounds> {
         self.pose.bounds(&model.parts)
     }

@@ -9,8 +9,8 @@ use crate::model::part::ModelPart;
 use crate::model::shape_blocks::{PART, SHAPE_BLOCK};
 use avatar_mesh::MIN_NORMAL_LENGTH;
 
-/// Vertices per workgroup: a block of blend shapes. The number of workgroups that WebGPU promises reaches the largest binding of
-/// vertices that it promises but for one block; larger parts are refused.
+/// Vertices per workgroup: one block of blend shapes. With WebGPU's default limits, one row of workgroups
+/// covers the largest binding of vertices except for one block; larger parts are refused.
 pub(crate) const DEFORM_WORKGROUP_SIZE: u32 = SHAPE_BLOCK;
 
 const DEFORM: Module = Module { text: include_str!("shaders/deform.wgsl"), constants };
@@ -29,7 +29,7 @@ pub(crate) const DEFORM_PASS: Program = Program {
     modules: &[AVATAR, PART, DEFORM, Module::of(include_str!("shaders/deform_pass.wgsl"))],
 };
 
-/// Deforms avatars: the first pass of every frame. By itself it reads back what is drawn.
+/// The pass that deforms avatars, the first one of every frame. [`Deformer::run`] reads its results back.
 #[derive(Debug)]
 pub struct Deformer {
     pipeline: wgpu::ComputePipeline,

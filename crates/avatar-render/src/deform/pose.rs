@@ -13,7 +13,7 @@ use bytemuck::Zeroable;
 use glam::{Affine3A, Vec3};
 use wgpu::util::DeviceExt;
 
-/// A pose in WGSL.
+/// WGSL of a pose.
 pub(crate) const AVATAR: Module = Module::of(include_str!("shaders/avatar.wgsl"));
 
 /// Why a state could not be set.
@@ -44,7 +44,7 @@ pub(crate) struct Pose {
     bones: Vec<GpuBone>,
     active_shapes: Vec<GpuActiveShape>,
     shape_count: usize,
-    /// Also read by eyeballs, which turn the view back to bind pose.
+    /// Also a vertex buffer of eyeballs, whose shader turns the view back to bind pose.
     pub(crate) bone_buffer: wgpu::Buffer,
     shape_buffer: wgpu::Buffer,
     pub(crate) bind_group: wgpu::BindGroup,
@@ -103,12 +103,12 @@ impl Pose {
         }
     }
 
-    /// Takes over a pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order (times a
-    /// placement in the world, if there is one, which must not scale where there is hair), `weights` one blend weight per shape; shapes with weight 0 cost
-    /// nothing. Allocates nothing here.
+    /// Sets the pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order;
+    /// they may include a placement in the world, which must not scale if the model has hair. `weights` has
+    /// one blend weight per shape; shapes with weight 0 cost nothing. Allocates nothing.
     ///
     /// # Errors
-    /// Lengths that do not fit the model; the state is unchanged then.
+    /// Another number of bones or weights than the model has; the state is unchanged then.
     pub(crate) fn set(
         &mut self,
         queue: &wgpu::Queue,
@@ -137,8 +137,9 @@ impl Pose {
         Ok(())
     }
 
-    /// A box around all parts as they are now. A cell that is nowhere, or endless, has none: it must not take the
-    /// shadows of other avatars with it. What f32 rounds is left out: shadow maps have more room around avatars.
+    /// A box around all parts as they are now. Boxes that are not finite are ignored, so that they cannot
+    /// take the shadows of other avatars away. Rounding in f32 is not added: shadow maps leave more room
+    /// around avatars.
     pub(crate) fn bounds(&self, parts: &[ModelPart]) -> Option<Bounds> {
         // Ascending by index.
         let weight = |shape: usize| {
@@ -167,11 +168,12 @@ fn is_somewhere(bounds: &Bounds) -> bool {
     bounds.size().is_finite() && bounds.center().is_finite()
 }
 
-/// Bone weights that are off by less than this carry no vertex out of the room that shadow maps have around avatars.
+/// Smaller errors of bone weights are ignored: shadow maps leave more room around avatars than they move a
+/// vertex.
 const NEGLIGIBLE_EXCESS: f32 = 1e-3;
 
-/// The union of what bones move, as much wider as bone weights below 0 and sums other than 1 carry vertices out of it; see
-/// [`DeformBounds::excess`](avatar_mesh::DeformBounds::excess).
+/// The union of the boxes that bones move, enlarged by how far weights below 0 and sums of weights other than
+/// 1 carry vertices out of it; see [`DeformBounds::excess`](avatar_mesh::DeformBounds::excess).
 fn widened(union: Bounds, excess: [f32; 2]) -> Bounds {
     let [overshoot, sum_off] = excess.map(|excess| if excess > NEGLIGIBLE_EXCESS { excess } else { 0.0 });
     let furthest = union.min.abs().max(union.max.abs());

@@ -1,4 +1,4 @@
-//! Parts in their pose of now: what the deform pass writes and everything else draws from.
+//! Deformed parts: the deform pass writes their vertices, and all other passes draw from them.
 
 use crate::gpu::bindings::storage_entry;
 use crate::model::part::ModelPart;
@@ -21,7 +21,7 @@ pub(crate) fn deformed_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-/// A part in its pose of now, on the GPU.
+/// A deformed part on the GPU.
 #[derive(Debug)]
 pub(crate) struct PosedPart {
     pub(crate) vertex_count: u32,

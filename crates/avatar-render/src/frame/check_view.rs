@@ -5,10 +5,11 @@ use crate::frame::renderer::Renderer;
 use crate::frame::targets::Targets;
 
 impl Renderer {
-    /// Whether [`Renderer::draw`] can draw into this view. `draw` itself checks all that wgpu tells of a view, which is
-    /// everything but its format: a view in the sRGB twin of the renderer's format passes there, and is an error
-    /// of the device when the encoder is finished, which ends the program unless it is listened for. This method
-    /// lets the device try, without drawing anything. Call it once for each way in which a program makes its views.
+    /// Checks that [`Renderer::draw`] can draw into this view. `draw` checks everything that wgpu tells of a
+    /// view, which is all but its format: a view in the sRGB twin of the renderer's format passes there, and
+    /// becomes an error of the device when the encoder is finished, which panics unless the program listens
+    /// for such errors. This method lets the device try, without drawing anything. Call it once for each way
+    /// in which a program makes views.
     ///
     /// # Errors
     /// A view or targets that do not belong to this renderer.

@@ -19,13 +19,13 @@ use crate::view::uniforms::{GpuFrame, pixels_per_unit};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DrawError {
-    /// The state of another model.
+    /// The state of another model, or one from before the model got its present hair.
     #[error("avatar {avatar}: expected the state of its model, found that of another one")]
     StateOfAnotherModel {
         /// Position in the slice of avatars.
         avatar: usize,
     },
-    /// More heads of hair than can be told apart.
+    /// More heads of hair than one frame can hold.
     #[error("expected at most {limit} avatars with hair in view, found {found}")]
     TooManyHeads {
         /// Avatars with hair of which strands would be drawn.
@@ -65,19 +65,24 @@ pub enum DrawError {
 }
 
 impl Renderer {
-    /// Records one frame: clears `view`, then draws all avatars. Colours are premultiplied by alpha in the view.
+    /// Records one frame: clears `view`, then draws all avatars. Colours are premultiplied by alpha in the
+    /// view.
     ///
-    /// Shadow maps are fitted around the avatars in the picture, but for those that look less than an eighth as large as the
-    /// largest; what is beyond the map is in no cast shadow. All in a lamp's way cast shadows, in the picture or not. How soft
-    /// shadows are and how far hollows darken follows from the height of the avatar that looks largest.
+    /// Shadow maps are fitted around the avatars in the picture, except for those that look less than an
+    /// eighth as large as the largest; outside of the map nothing casts shadows. All avatars between a lamp
+    /// and the map cast shadows, in the picture or not. The softness of shadows and the reach of ambient
+    /// occlusion follow from the height of the avatar that looks largest.
     ///
-    /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be recorded before a
-    /// submission, with 6144 heads of hair in all; they share one environment, the last one's. A change of the environment takes some milliseconds.
+    /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be
+    /// recorded before a submission, with 6144 heads of hair in all. They share one environment, that of the
+    /// last; a change of the environment takes some milliseconds.
     ///
-    /// The view must have the renderer's format, which wgpu lets nobody ask a view for: see [`Renderer::check_view`].
+    /// The view must have the renderer's format. wgpu does not tell the format of a view: see
+    /// [`Renderer::check_view`].
     ///
     /// # Errors
-    /// A view, targets or states that do not belong together, or too many heads of hair; nothing is recorded then.
+    /// A view, targets or states that do not belong together, or too many heads of hair; nothing is recorded
+    /// then.
     pub fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -170,7 +175,7 @@ impl Renderer {
             return Err(DrawError::TargetsOfAnotherRenderer);
         }
         let texture = view.texture();
-        // A view of a smaller mip level does not tell its size.
+        // A view of a smaller mip level has another size than its texture, which wgpu does not tell.
         let size_fits = texture.mip_level_count() > 1
             || (texture.width() == targets.width && texture.height() == targets.height);
         // A view may differ from its texture in being sRGB.

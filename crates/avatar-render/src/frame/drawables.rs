@@ -5,7 +5,7 @@ use crate::gpu::program::Program;
 use crate::view::shading::Shading;
 use avatar_mesh::PartKind;
 
-/// What of the picture is drawn with one pipeline.
+/// A kind of part in the picture, and the pipeline that draws it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drawable {
     /// Which parts.
@@ -14,14 +14,14 @@ pub(crate) struct Drawable {
     pub(crate) label: &'static str,
     pub(crate) program: Program,
     pub(crate) cull_mode: Option<wgpu::Face>,
-    /// Blended over what is there, and hiding nothing.
+    /// Whether it is blended over what is there, without writing depth.
     pub(crate) is_transparent: bool,
 }
 
-/// The order in which the picture is drawn, all avatars step by step. The skin comes first because it hides most of the
-/// rest; its back sides after everything that hides them, by a program of their own: software renderers shade hidden
-/// pixels when there are several samples, and one full program for both sides doubled the cost of a frame there. What
-/// is transparent comes last, from far to near.
+/// The order in which the picture is drawn, all avatars step by step. The skin comes first because it hides
+/// most of the rest; its back sides after everything that hides them, by a program of their own: software
+/// renderers shade hidden pixels when there are several samples, and one full program for both sides doubled
+/// the cost of a frame there. What is transparent comes last, from far to near.
 pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
     let programs: Programs = match shading {
         Shading::Plain => PLAIN,

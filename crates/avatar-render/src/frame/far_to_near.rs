@@ -1,11 +1,12 @@
-//! The order in which what is clear is drawn.
+//! The order in which transparent parts are drawn.
 
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use avatar_mesh::PartKind;
 use glam::Vec3;
 
-/// Sorts parts of avatars by their distance. Keeps its list from frame to frame, so that a frame allocates nothing.
+/// Sorts parts of avatars by their distance. Keeps its list from frame to frame, so that a frame allocates
+/// nothing.
 #[derive(Debug, Default)]
 pub(crate) struct FarToNear {
     parts: Vec<FarPart>,
@@ -16,12 +17,12 @@ struct FarPart {
     distance_squared: f32,
     avatar: usize,
     part: usize,
-    /// Of parts as far away as one another, the one that was found first comes first.
+    /// Parts at equal distances keep the order in which they were found.
     found: usize,
 }
 
 impl FarToNear {
-    /// The parts of this kind that have triangles, from far to near: the numbers of their avatar and of the part.
+    /// The parts of this kind that have triangles, from far to near, as the indices of avatar and part.
     pub(crate) fn sort(
         &mut self,
         avatars: &[(&AvatarModel, &AvatarState)],

@@ -94,7 +94,7 @@ impl PassPipelines {
         };
         let on_skin = |program| Recipe {
             program,
-            // What the depth pass saw, and nothing behind it.
+            // Only what the depth pass saw.
             depth: Some((wgpu::CompareFunction::GreaterEqual, false)),
             target: color_target(SKIN_LIGHT_FORMAT, None),
             ..front.clone()
@@ -145,7 +145,7 @@ impl PassPipelines {
     }
 }
 
-/// Builds the pipeline of something in the picture.
+/// Builds the pipeline of a drawable.
 pub(crate) fn picture_pipeline(
     device: &wgpu::Device,
     layouts: &Layouts,

@@ -5,13 +5,13 @@ use crate::view::shading::Terms;
 /// A pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pass {
-    /// Compute: all parts of all avatars into their pose.
+    /// Compute: deforms all parts of all avatars.
     Deform,
-    /// Compute: every strand of hair anew on the deformed skin.
+    /// Compute: grows every strand anew on the deformed skin.
     GrowHair,
     /// What the key and rim lamps see: depth.
     Shadows,
-    /// How much of the key's light hair keeps off.
+    /// How much of the key's light hair blocks.
     HairShadow,
     /// Depth and normals, one sample a pixel.
     Prepass,
@@ -21,11 +21,11 @@ pub(crate) enum Pass {
     SkinLight,
     /// That light, spread sideways below the skin.
     ScatterAcross,
-    /// The picture: what is opaque, and what is clear as well where no hair comes in between.
+    /// The picture: opaque parts, and transparent ones unless hair lies between them.
     Picture,
-    /// Strands, over what is opaque.
+    /// Strands, over opaque parts.
     Hair,
-    /// What is clear, over hair.
+    /// Transparent parts, over hair.
     Clear,
 }
 

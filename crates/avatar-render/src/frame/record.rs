@@ -34,7 +34,7 @@ pub(crate) struct Recording<'a> {
     pub(crate) queue: &'a wgpu::Queue,
 }
 
-/// Where among the passes that draw into the picture one stands.
+/// The position of a pass among those that draw into the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PictureStep {
     /// There is no other.
@@ -99,7 +99,7 @@ impl<'a> Recording<'a> {
         }
     }
 
-    /// A pass that covers just the skin that is seen.
+    /// A pass over the skin that is seen.
     fn on_skin(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -184,7 +184,8 @@ impl<'a> Recording<'a> {
         }
     }
 
-    /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's view.
+    /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's
+    /// view.
     pub(crate) fn begin_picture<'e>(
         &self,
         encoder: &'e mut wgpu::CommandEncoder,

@@ -52,7 +52,7 @@ pub struct Renderer {
     pub(crate) hair_views: HairViews,
     pub(crate) shadow_views: Ring<GpuShadowView>,
     pub(crate) shadow_group: wgpu::BindGroup,
-    /// Room for the order of what is clear.
+    /// Memory for the order of transparent parts.
     pub(crate) far_to_near: Mutex<FarToNear>,
 }
 

@@ -16,7 +16,7 @@ use avatar_groom::SEGMENTS;
 /// Corners of a ribbon.
 const CORNERS: u32 = 2 * (SEGMENTS as u32 + 1);
 
-/// What of an avatar's hair a pass draws that affords `most` strands; `None` without any.
+/// Which strands of an avatar a pass draws that draws at most `most`; `None` without any.
 pub(crate) fn strands_in_view<'a>(
     (model, state): (&AvatarModel, &'a AvatarState),
     camera: &Camera,
@@ -31,7 +31,7 @@ pub(crate) fn strands_in_view<'a>(
     (view.count() > 0).then_some((view, grown))
 }
 
-/// Which strands of all avatars passes draw: as many as `most` of each.
+/// The strands that a pass draws: at most `most` of each avatar.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrawnStrands {
     most: f32,
@@ -40,7 +40,7 @@ pub(crate) struct DrawnStrands {
 }
 
 impl<'a> Recording<'a> {
-    /// Avatars with hair of which a pass draws as many as `most` strands each.
+    /// The avatars with hair in view, and which of their strands are drawn if at most `most` are.
     fn with_hair(&self, most: f32) -> impl Iterator<Item = (GpuHairView, &'a HairState)> {
         self.avatars.iter().filter_map(move |avatar| {
             strands_in_view(*avatar, &self.scene.camera, self.pixels_per_unit, most)
@@ -56,7 +56,7 @@ impl<'a> Recording<'a> {
         })
     }
 
-    /// Tells the passes that draw as many as `most` strands of each head which ones.
+    /// Writes the uniforms of a pass that draws at most `most` strands of each head.
     fn choose_strands(&self, most: f32) -> DrawnStrands {
         let ring = &self.renderer.hair_views.ring;
         let views = ring.reserve(self.with_hair(most).count() as u32);
@@ -75,7 +75,7 @@ impl<'a> Recording<'a> {
         }
     }
 
-    /// What the key sees of hair.
+    /// Draws the map of hair that the key lamp sees.
     pub(crate) fn hair_shadow(&self, encoder: &mut wgpu::CommandEncoder) {
         let Some(pipeline) = &self.renderer.hair.shadow else { return };
         let map = &self.renderer.resources.hair_map;
@@ -112,7 +112,7 @@ impl<'a> Recording<'a> {
         }
     }
 
-    /// Where strands lie in each pixel.
+    /// Draws where strands lie in each pixel.
     fn strand_layers(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -131,7 +131,7 @@ impl<'a> Recording<'a> {
         self.draw_strands(&mut pass, drawn);
     }
 
-    /// How much strands cover at each depth.
+    /// Draws how much strands cover at each depth.
     fn strand_slices(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -154,7 +154,7 @@ impl<'a> Recording<'a> {
         self.draw_strands(&mut pass, drawn);
     }
 
-    /// The depth of what is opaque, not to be written.
+    /// The depth of opaque parts, for comparing only.
     fn depth_to_compare(&self) -> wgpu::RenderPassDepthStencilAttachment<'a> {
         wgpu::RenderPassDepthStencilAttachment {
             view: &self.targets.depth,

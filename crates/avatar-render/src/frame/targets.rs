@@ -8,8 +8,8 @@ use crate::gpu::pipeline::DEPTH_FORMAT;
 use crate::hair::targets::HairTargets;
 use crate::view::inputs::{PictureInputs, view_group};
 
-/// Depth, multisampled colour where there are several samples, and what earlier passes of a frame leave for later ones,
-/// for pictures of one size by one renderer.
+/// Depth, multisampled colour where there are several samples, and what earlier passes of a frame leave for
+/// later ones, for pictures of one size by one renderer.
 #[derive(Debug)]
 pub struct Targets {
     pub(crate) renderer: Identity,
@@ -24,7 +24,7 @@ pub struct Targets {
     pub(crate) skin_light: wgpu::TextureView,
     pub(crate) scattered: wgpu::TextureView,
     pub(crate) hair: HairTargets,
-    /// What passes read, each without what it writes.
+    /// The inputs of each pass, without what it writes itself.
     pub(crate) for_prepass: wgpu::BindGroup,
     pub(crate) for_occlusion: wgpu::BindGroup,
     pub(crate) for_skin_light: wgpu::BindGroup,
@@ -74,7 +74,7 @@ impl Targets {
         let occlusion = read("ambient occlusion", OCCLUSION_FORMAT, of_occlusion);
         let skin_light = read("light on skin", SKIN_LIGHT_FORMAT, of_scattering);
         let scattered = read("light on skin, scattered", SKIN_LIGHT_FORMAT, of_scattering);
-        // Bound in the place of what the pass itself writes, and of what is not there yet.
+        // Bound instead of textures that the pass itself writes, or that are not written yet.
         let no_depth = read("nothing", DEPTH_FORMAT, one_pixel);
         let no_normals = read("nothing", NORMAL_FORMAT, one_pixel);
         let no_occlusion = read("nothing", OCCLUSION_FORMAT, one_pixel);

@@ -3,7 +3,8 @@
 use crate::frame::passes::{FRAME_PASSES, Pass};
 use crate::gpu::readback::{ReadbackError, mapped};
 
-/// Measures how long the passes of a frame take on the GPU, where the device has [`wgpu::Features::TIMESTAMP_QUERY`].
+/// Measures how long the passes of a frame take on the GPU, where the device has
+/// [`wgpu::Features::TIMESTAMP_QUERY`].
 #[derive(Debug)]
 pub struct PassTimer {
     queries: wgpu::QuerySet,
@@ -12,7 +13,7 @@ pub struct PassTimer {
     nanoseconds_per_tick: f32,
 }
 
-/// Which share of a pass of the frame a render pass is.
+/// Which part of a pass of the frame a render pass covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Span {
     /// All of it.
@@ -38,7 +39,7 @@ impl Span {
 }
 
 const QUERIES: u32 = 2 * FRAME_PASSES.len() as u32;
-/// The times of a pass lie where a resolution may start.
+/// Bytes from the times of one pass to those of the next: queries are resolved to aligned offsets only.
 const PASS_BYTES: u64 = wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
 
 impl PassTimer {
@@ -104,7 +105,7 @@ impl PassTimer {
         })
     }
 
-    /// Keeps the times of the passes that ran and forgets those of other frames.
+    /// Records that the times of these passes are kept, and those of earlier frames cleared.
     pub(crate) fn finish(&self, encoder: &mut wgpu::CommandEncoder, passes: impl Iterator<Item = Pass>) {
         encoder.clear_buffer(&self.resolved, 0, None);
         for (start, end) in passes.map(Self::slots) {
@@ -114,8 +115,8 @@ impl PassTimer {
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, self.readable.size());
     }
 
-    /// Waits for the last frame that was submitted with this timer: names of its passes and how many nanoseconds each
-    /// took. Passes that the shading does not need are missing.
+    /// Waits for the last frame that was submitted with this timer: names of its passes and how many
+    /// nanoseconds each took. Passes that the shading does not need are missing.
     ///
     /// # Errors
     /// A lost device.
@@ -133,7 +134,7 @@ impl PassTimer {
         let ticks: &[u64] = bytemuck::cast_slice(&view);
         let period = f64::from(self.nanoseconds_per_tick);
         let per_pass = ticks.chunks_exact(PASS_BYTES as usize / size_of::<u64>());
-        // Those of passes that did not run are cleared.
+        // The times of passes that did not run are 0.
         let ran = FRAME_PASSES.iter().zip(per_pass).filter(|(_, pair)| pair[1] != 0);
         let times = ran.map(|(pass, pair)| (pass.label(), pair[1].saturating_sub(pair[0]) as f64 * period));
         let times = times.collect();

@@ -25,7 +25,7 @@ fn buffer_entry(
     wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }
 
-/// One of several values in a uniform buffer, at binding 0: which of them, the dynamic offset of the draw says.
+/// A uniform buffer with several values, at binding 0: the dynamic offset of a draw chooses one of them.
 pub(crate) fn dynamic_uniform_entry(
     visibility: wgpu::ShaderStages,
     bytes: Option<NonZeroU64>,
@@ -66,7 +66,7 @@ pub(crate) fn sampler_entry(
     wgpu::BindGroupLayoutEntry { binding, visibility, ty: wgpu::BindingType::Sampler(ty), count: None }
 }
 
-/// What a texture entry gets.
+/// A bind group entry with this texture.
 pub(crate) fn texture_binding(binding: u32, view: &wgpu::TextureView) -> wgpu::BindGroupEntry<'_> {
     wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) }
 }

@@ -1,7 +1,8 @@
-//! Buffers.
+//! Buffers that the queue writes.
 
-/// Zeros to be written by the queue. wgpu would clear what was never written when a submission first binds it, and where another
-/// thread writes in just that moment, it would clear what was written: this buffer is whole from the start.
+/// A buffer of zeros for the queue to write. It is mapped at creation, and so initialised from the start:
+/// otherwise wgpu clears a buffer that was never written when a submission first binds it, and if another
+/// thread writes at that moment, what it wrote is cleared as well.
 pub(crate) fn written_buffer(
     device: &wgpu::Device,
     label: &str,

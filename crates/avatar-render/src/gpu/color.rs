@@ -28,8 +28,8 @@ pub(crate) fn unorm8(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
 }
 
-/// `unorm8(srgb_from_linear(linear))` from a table: pictures have millions of values. 2¹⁶ steps are finer than the
-/// steepest 8-bit step by a factor of 20.
+/// `unorm8(srgb_from_linear(linear))` from a table: pictures have millions of values. 2¹⁶ steps are finer
+/// than the steepest 8-bit step by a factor of 20.
 pub(crate) fn srgb8_from_linear(linear: f32) -> u8 {
     static TABLE: OnceLock<Vec<u8>> = OnceLock::new();
     let table =
@@ -37,7 +37,7 @@ pub(crate) fn srgb8_from_linear(linear: f32) -> u8 {
     table.get((linear.clamp(0.0, 1.0) * 65535.0 + 0.5) as usize).copied().unwrap_or(255)
 }
 
-/// The nearest half; what is brighter than halves can be stays finite.
+/// The bits of the nearest f16; numbers beyond its range become its largest finite one.
 pub(crate) fn half_bits(value: f32) -> u16 {
     f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32())).to_bits()
 }

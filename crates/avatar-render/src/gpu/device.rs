@@ -4,22 +4,23 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// An opened GPU.
 #[derive(Clone, Debug)]
 pub struct Gpu {
-    /// Where surfaces come from.
+    /// The instance that the adapter and all surfaces come from.
     pub instance: wgpu::Instance,
     /// The chosen adapter.
     pub adapter: wgpu::Adapter,
-    /// Its device: WebGPU's default limits, but buffers and storage bindings as large as the adapter allows, and no
-    /// optional features but timestamps.
+    /// Its device: WebGPU's default limits, but buffers and storage bindings as large as the adapter allows,
+    /// and no optional features but timestamps.
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
     /// Name, kind and driver of the adapter.
     pub info: wgpu::AdapterInfo,
-    /// What went wrong on the device outside of any call, such as running out of memory.
+    /// Errors of the device that no call returns, such as running out of memory.
     pub errors: GpuErrors,
 }
 
-/// The first error of a device that no call returned (wgpu alone would panic), and whether the device is lost.
+/// The first error of a device that no call returned (wgpu alone would panic), and whether the device is
+/// lost.
 #[derive(Clone, Debug, Default)]
 pub struct GpuErrors {
     first: Arc<Mutex<Option<String>>>,
@@ -32,7 +33,8 @@ impl GpuErrors {
         self.slot().take()
     }
 
-    /// Whether the device is lost, for whatever reason: nothing on it can be used any more, and another has to be opened.
+    /// Whether the device is lost, for whatever reason: nothing on it can be used any more, and another has
+    /// to be opened.
     pub fn is_lost(&self) -> bool {
         self.lost.load(Ordering::Relaxed)
     }
@@ -64,7 +66,7 @@ pub struct GpuOptions {
 }
 
 impl Default for GpuOptions {
-    /// Everything that this build knows; hardware is preferred, software accepted.
+    /// All backends of this build; hardware is preferred, software is accepted.
     fn default() -> Self {
         Self { backends: wgpu::Instance::enabled_backend_features(), software: false }
     }
@@ -82,7 +84,7 @@ pub enum NoAdapter {
         /// What wgpu says.
         reason: String,
     },
-    /// The adapter has less than WebGPU promises.
+    /// A limit of the adapter is below WebGPU's default.
     #[error("adapter {adapter:?}: expected {limit} of {expected}, as WebGPU promises, found {found}")]
     Limit {
         /// Name of the adapter.
@@ -185,10 +187,11 @@ async fn open_with(
     if let Some(missing) = missing {
         return Err(missing);
     }
-    // Nothing needs timestamps, but where there are some, passes can be measured.
+    // Timestamps are optional: with them, passes can be measured.
     let required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
     let offered = adapter.limits();
-    // What an avatar needs may be larger than what every device promises; nothing else depends on these two.
+    // Large avatars need larger buffers than WebGPU's defaults allow. No other limit is raised: sizes of
+    // textures and pictures are the same on all adapters.
     let required_limits = wgpu::Limits {
         max_buffer_size: offered.max_buffer_size,
         max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
@@ -208,7 +211,8 @@ async fn open_with(
     Ok(Gpu { instance, adapter, device, queue, info, errors })
 }
 
-/// The GPU of tests of this crate, or `None` after a note that there is none; with `MIMIK_REQUIRE_GPU=1` none is a failure.
+/// The GPU for tests of this crate. Without one it prints why and returns `None`; with `MIMIK_REQUIRE_GPU=1`
+/// it panics.
 #[cfg(test)]
 #[allow(clippy::disallowed_methods, reason = "a test may ask the environment how strict it is to be")]
 pub(crate) fn gpu_for_tests() -> Option<Gpu> {

@@ -1,13 +1,13 @@
-//! Telling things apart that may look alike.
+//! Numbers that tell objects apart which may look alike.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Different for each thing that gets one.
+/// A number that no other object of the process has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Identity(u64);
 
 impl Identity {
-    /// One that nothing else has.
+    /// The next number.
     pub(crate) fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))

@@ -27,7 +27,7 @@ impl Image {
     /// Checks that there are pixels, and exactly those that the size promises.
     ///
     /// # Errors
-    /// The size is 0, or the number of bytes is another.
+    /// The size is 0, or the number of bytes does not match it.
     pub fn check(&self) -> Result<(), ImageSizeError> {
         let (width, height) = (self.width, self.height);
         let expected = (u64::from(width) * u64::from(height)).saturating_mul(4);

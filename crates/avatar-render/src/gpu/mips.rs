@@ -8,11 +8,12 @@ use crate::gpu::image::Image;
 pub(crate) enum Encoding {
     /// sRGB colour; colours are weighted by their alpha, which itself is linear.
     Srgb,
-    /// Plain numbers.
+    /// Linear numbers.
     Linear,
 }
 
-/// How much of each source pixel along one axis goes into a target pixel. Halving `2n + 1` pixels to `n` spans up to three.
+/// The weights of source pixels along one axis in one target pixel. Halving `2n + 1` pixels to `n` takes up
+/// to three.
 struct Tap {
     first: usize,
     weights: [f32; 3],
@@ -31,7 +32,8 @@ fn taps(from: u32, to: u32) -> Vec<Tap> {
         .collect()
 }
 
-/// The picture at half the size (rounded down, at least 1): each pixel is the mean of the area that it covers.
+/// The picture at half the size (rounded down, at least 1): each pixel is the mean of the area that it
+/// covers.
 pub(crate) fn half(image: &Image, encoding: Encoding) -> Image {
     let (width, height) = ((image.width / 2).max(1), (image.height / 2).max(1));
     let (columns, rows) = (taps(image.width, width), taps(image.height, height));
@@ -44,7 +46,7 @@ pub(crate) fn half(image: &Image, encoding: Encoding) -> Image {
             for (dy, wy) in row.weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
                 for (dx, wx) in column.weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
                     let at = 4 * ((row.first + dy) * image.width as usize + column.first + dx);
-                    // Rounding of the weights may leave a sliver beyond the last pixel.
+                    // Rounding may give a tiny weight to a pixel beyond the last one.
                     let Some([r, g, b, a]) = image.rgba.get(at..at + 4) else { continue };
                     let decode = |byte: u8| match encoding {
                         Encoding::Srgb => linear[usize::from(byte)],

@@ -1,4 +1,5 @@
-//! What all rooms need of the GPU: devices, buffers, textures, bindings, programs and pipelines. Knows nothing of faces.
+//! Devices, buffers, textures, bindings, programs and pipelines, for all other modules. Nothing here knows of
+//! faces.
 
 pub(crate) mod attachment;
 pub(crate) mod bindings;

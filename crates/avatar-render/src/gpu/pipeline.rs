@@ -2,10 +2,10 @@
 
 use crate::gpu::program::{Constant, Program};
 
-/// The depth buffer's format; nothing beyond WebGPU's core.
+/// The format of depth buffers; every WebGPU device has it.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// What distinguishes a pipeline that draws.
+/// The settings in which pipelines that draw differ.
 #[derive(Clone)]
 pub(crate) struct Recipe<'a> {
     pub(crate) program: &'a Program,

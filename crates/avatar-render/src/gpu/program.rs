@@ -1,6 +1,6 @@
-//! WGSL programs: modules of text behind the constants that Rust hands to them, so that each fact stands once.
+//! WGSL programs: modules of text, preceded by constants from Rust, so that each number is written once.
 
-/// A number that Rust owns and WGSL reads.
+/// The value of a constant that Rust defines and WGSL reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Value {
     /// `bool`.
@@ -16,11 +16,12 @@ pub(crate) enum Value {
 /// A constant of a program: its name in WGSL, and its value.
 pub(crate) type Constant = (&'static str, Value);
 
-/// A piece of WGSL that programs are joined of.
+/// A piece of WGSL; a program is several of them joined.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Module {
     pub(crate) text: &'static str,
-    /// What it reads of Rust. A constant that several modules of a program read belongs to the one that all of them build on.
+    /// The constants that it needs from Rust. If several modules of a program need the same constant, only
+    /// the one that the others build on lists it: WGSL forbids a second definition.
     pub(crate) constants: fn() -> Vec<Constant>,
 }
 
@@ -36,14 +37,15 @@ pub(crate) struct Program {
 }
 
 impl Module {
-    /// One that reads no constants, or only those of others.
+    /// A module without constants of its own.
     pub(crate) const fn of(text: &'static str) -> Self {
         Self { text, constants: Vec::new }
     }
 }
 
 impl Program {
-    /// The whole text. `choices` are the constants that differ from renderer to renderer.
+    /// The text of the whole program. `choices` are the constants that depend on the renderer's
+    /// configuration.
     pub(crate) fn source(&self, choices: &[Constant]) -> String {
         let of_modules = self.modules.iter().flat_map(|module| (module.constants)());
         let mut source: String = choices.iter().copied().chain(of_modules).map(declaration).collect();
@@ -54,7 +56,7 @@ impl Program {
         source
     }
 
-    /// The program on a device.
+    /// Compiles the program for a device.
     pub(crate) fn compiled(&self, device: &wgpu::Device, choices: &[Constant]) -> wgpu::ShaderModule {
         device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(self.label),

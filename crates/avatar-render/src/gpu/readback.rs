@@ -5,7 +5,7 @@ use std::pin::Pin;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll, Waker};
 
-/// The GPU did not hand a buffer over.
+/// A buffer could not be read back from the GPU.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected to read a buffer back, found: {reason}")]
 pub struct ReadbackError {
@@ -50,7 +50,8 @@ impl Future for Mapped {
     }
 }
 
-/// Maps a whole buffer for reading. Natively this waits for the GPU; in a browser it yields to the event loop.
+/// Maps a whole buffer for reading. Natively this waits for the GPU; in a browser it yields to the event
+/// loop.
 pub(crate) async fn mapped(
     device: &wgpu::Device,
     buffer: &wgpu::Buffer,

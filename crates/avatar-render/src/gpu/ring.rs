@@ -4,8 +4,8 @@ use super::buffers::written_buffer;
 use std::num::NonZeroU64;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Room for several values in one uniform buffer, bound with a dynamic offset. A write to a buffer takes effect before
-/// the whole submission, so two draws that are submitted together must not share a slot.
+/// Room for several values in one uniform buffer, bound with a dynamic offset. A write to a buffer takes
+/// effect before the whole submission, so two draws that are submitted together must not share a slot.
 #[derive(Debug)]
 pub(crate) struct Ring<T> {
     pub(crate) buffer: wgpu::Buffer,
@@ -13,10 +13,10 @@ pub(crate) struct Ring<T> {
     of: std::marker::PhantomData<fn(T)>,
 }
 
-/// Frames per submission that are told apart.
+/// Frames that may be recorded before one submission.
 pub(crate) const FRAME_SLOTS: u32 = 256;
 
-/// Slots of a ring that belong together: the number of the first.
+/// A run of slots in a ring, by the number of the first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reserved(u64);
 
@@ -34,7 +34,7 @@ impl<T: bytemuck::Pod> Ring<T> {
         Self { buffer, next: AtomicU64::new(0), of: std::marker::PhantomData }
     }
 
-    /// The binding of one slot; which one, its dynamic offset says.
+    /// The binding of one slot; the dynamic offset chooses it.
     pub(crate) fn binding(&self) -> wgpu::BindingResource<'_> {
         let buffer = &self.buffer;
         wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size: Self::BYTES })
@@ -46,7 +46,7 @@ impl<T: bytemuck::Pod> Ring<T> {
         self.write(queue, first, 0, value)
     }
 
-    /// Takes as many slots as a frame needs; no more than there are.
+    /// Reserves the next `count` slots, which must not be more than the ring has.
     pub(crate) fn reserve(&self, count: u32) -> Reserved {
         Reserved(self.next.fetch_add(count.into(), Ordering::Relaxed))
     }
@@ -58,7 +58,7 @@ impl<T: bytemuck::Pod> Ring<T> {
         offset
     }
 
-    /// Where the value that was written there is.
+    /// The offset of a reserved slot.
     pub(crate) fn offset(&self, reserved: Reserved, index: u32) -> u32 {
         let slots = self.buffer.size() / u64::from(Self::SLOT_BYTES);
         ((reserved.0 + u64::from(index)) % slots) as u32 * Self::SLOT_BYTES

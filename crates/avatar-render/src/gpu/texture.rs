@@ -1,4 +1,4 @@
-//! Pictures on the GPU, with all their smaller copies.
+//! Textures from pictures, with mip levels.
 
 use crate::gpu::image::{Image, ImageSizeError};
 use crate::gpu::mips::{Encoding, half};

@@ -1,10 +1,10 @@
 //! Lists of four numbers each, as textures: software adapters read textures seven times faster than storage.
 
-/// Texels per row: a power of two whose bytes are a multiple of what copies want.
+/// Texels per row: a power of two, so that a row has as many bytes as copies need for their alignment.
 pub(crate) const VEC4S_PER_ROW: u32 = 2048;
 const VEC4_BYTES: u32 = size_of::<[f32; 4]>() as u32;
 
-/// A texture that holds as much as a buffer.
+/// A texture that holds a list of vec4s, row by row.
 #[derive(Debug)]
 pub(crate) struct Vec4Texture {
     texture: wgpu::Texture,
@@ -13,18 +13,19 @@ pub(crate) struct Vec4Texture {
 }
 
 impl Vec4Texture {
-    /// How many vec4s a texture of the device holds.
+    /// The most vec4s that one texture of the device holds.
     pub(crate) fn most(limits: &wgpu::Limits) -> usize {
         VEC4S_PER_ROW as usize * limits.max_texture_dimension_2d as usize
     }
 
-    /// Room for what passes write to a buffer that is no larger than [`Vec4Texture::most`]; of a larger one for its beginning.
+    /// A texture for the contents of a buffer. If the buffer is larger than [`Vec4Texture::most`], the
+    /// texture holds its beginning.
     pub(crate) fn new(device: &wgpu::Device, label: &str, buffer: &wgpu::Buffer) -> Self {
         let vec4s = (buffer.size() / u64::from(VEC4_BYTES)).min(Self::most(&device.limits()) as u64) as u32;
         Self::of(device, label, vec4s, wgpu::TextureFormat::Rgba32Float)
     }
 
-    /// A list that does not change, of no more than [`Vec4Texture::most`].
+    /// A texture with a constant list; elements beyond [`Vec4Texture::most`] are left out.
     pub(crate) fn with(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, list: &[[u32; 4]]) -> Self {
         let most = Self::most(&device.limits());
         let list = list.get(..most).unwrap_or(list);
@@ -57,14 +58,14 @@ impl Vec4Texture {
         Self { texture, view, vec4s }
     }
 
-    /// Records the copy of the buffer.
+    /// Records a copy of the buffer into the texture.
     pub(crate) fn fill(&self, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) {
         for (layout, to, size) in self.pieces() {
             encoder.copy_buffer_to_texture(wgpu::TexelCopyBufferInfo { buffer, layout }, to, size);
         }
     }
 
-    /// Copies that fill it: of whole rows, then of what is left for the last one.
+    /// The copies that fill the texture: first all whole rows, then the rest of the last row.
     fn pieces(
         &self,
     ) -> impl Iterator<Item = (wgpu::TexelCopyBufferLayout, wgpu::TexelCopyTextureInfo<'_>, wgpu::Extent3d)>

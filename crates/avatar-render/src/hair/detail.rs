@@ -2,34 +2,35 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// How much of an avatar's hair is grown and drawn. May change from frame to frame: nothing is allocated, and what is not
-/// drawn costs nothing. Fewer strands are wider, so that they cover the same area.
+/// How much of an avatar's hair is grown and drawn. May change from frame to frame: nothing is allocated, and
+/// what is not drawn costs nothing. Fewer strands are wider, so that they cover the same area.
 ///
-/// The strands of a model come in a fixed random order, and the first ones of them are drawn: any number of them is a
-/// fair sample of the whole. The last of those that are drawn are narrower the nearer they are to the cut, so that
-/// strands fade in and out where the number changes.
+/// The strands of a model come in a fixed random order, and the first ones of them are drawn: any number of
+/// them is a fair sample of the whole. The last of those that are drawn are narrower the nearer they are to
+/// the cut, so that strands fade in and out where the number changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HairDetail {
-    /// Share of the model's strands, 0 (bald) to 1; what is no number counts as 1. Strands become wider by up to
-    /// eight times to make up for those that are missing.
+    /// Share of the model's strands, 0 (bald) to 1; NaN counts as 1. Strands become wider by up to eight
+    /// times to make up for those that are missing.
     pub share: f32,
-    /// Fewer strands where the head is small in the picture: 200 for each pixel of its height, but at least 1000. As
-    /// many stand behind one another in a pixel then as up close, and are as wide in pixels.
+    /// Draws fewer strands where the head is small in the picture: 200 for each pixel of its height, but at
+    /// least 1000. The number of strands per pixel, and their width in pixels, are then the same as up close.
     pub is_automatic: bool,
-    /// Width in pixels below which a strand fades instead of getting thinner. 1 is right for pictures that are looked
-    /// at; 0 draws strands as thin as they are, for pictures that are made larger than needed and averaged.
+    /// Width in pixels below which a strand fades instead of getting thinner. 1 is right for pictures that
+    /// are looked at; 0 draws strands as thin as they are, for pictures that are made larger than needed and
+    /// averaged.
     pub least_pixels: f32,
 }
 
-/// WGSL `HairView`: what of the hair of one avatar one pass of one view draws.
+/// WGSL `HairView`: which strands of one avatar a pass draws.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub(crate) struct GpuHairView {
-    /// Where the strands end, not rounded.
+    /// Number of strands, not rounded.
     pub(crate) strands: f32,
-    /// Number of strands that fade before the end.
+    /// How many of the last strands fade.
     pub(crate) fading: f32,
-    /// Widths by those that the model has for all its strands.
+    /// Factor on the widths that strands have if all are drawn.
     pub(crate) width: f32,
     pub(crate) least_pixels: f32,
 }
@@ -38,7 +39,7 @@ const STRANDS_PER_PIXEL: f32 = 200.0;
 const FEWEST_STRANDS: f32 = 1000.0;
 /// Share of the strands that fade.
 const FADING: f32 = 0.15;
-/// The widest strands become for a small share.
+/// The largest factor on widths for a small share.
 const WIDEST: f32 = 8.0;
 
 impl Default for HairDetail {
@@ -53,7 +54,7 @@ impl HairDetail {
         self.view(of as u32, head_pixels, f32::INFINITY).count()
     }
 
-    /// The same for a pass that affords no more than `most` strands.
+    /// The same for a pass that draws at most `most` strands.
     pub(crate) fn view(self, of: u32, head_pixels: f32, most: f32) -> GpuHairView {
         let all = of as f32;
         let share = if self.share.is_nan() { 1.0 } else { self.share.clamp(0.0, 1.0) };
@@ -64,7 +65,7 @@ impl HairDetail {
         };
         let strands = kept.min(needed).min(most);
         let fading = (strands * FADING).min(all - strands);
-        // What is left of them on the whole, as those that fade are half as wide on average.
+        // The sum of widths: strands that fade are half as wide on average.
         let whole = (strands - 0.5 * fading).max(1.0);
         let for_share = if kept > 0.0 { (all / kept).min(WIDEST) } else { 1.0 };
         let least_pixels = if self.least_pixels >= 0.0 { self.least_pixels.min(16.0) } else { 1.0 };

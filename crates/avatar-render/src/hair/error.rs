@@ -1,6 +1,6 @@
 //! What can be wrong with hair.
 
-/// Why a head can have no such hair.
+/// Why hair could not be planted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HairError {

@@ -8,7 +8,7 @@ use crate::hair::state::HairState;
 use crate::hair::swing::swing_pipeline;
 use crate::hair::uniforms::GROW_WORKGROUP_SIZE;
 
-/// Grows hair: a pass of every frame. By itself it reads back what is drawn.
+/// The passes that grow hair in every frame. [`Grower::run`] reads their results back.
 #[derive(Debug)]
 pub struct Grower {
     still: wgpu::ComputePipeline,
@@ -27,14 +27,14 @@ impl Grower {
         Self { still: pipeline(false), swinging: pipeline(true), swing: swing_pipeline(device) }
     }
 
-    /// Grows as many strands of avatars on their deformed skins.
+    /// Grows the given numbers of strands on the deformed skins of avatars.
     pub(crate) fn record<'a>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
         growing: impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone,
     ) {
-        // What passes write to buffers and growth reads from textures is copied in between.
+        // Growth reads textures: what earlier passes wrote to buffers is copied in between.
         growing.clone().for_each(|(_, hair, _)| hair.take_skin(encoder));
         let (start, end) = match timestamps {
             Some(times) => (

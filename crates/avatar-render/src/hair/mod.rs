@@ -1,4 +1,4 @@
-//! Hair: strands that grow on the deformed skin every frame, swing, and are drawn from where they grew.
+//! Hair: strands grow on the deformed skin in every frame, swing, and are drawn.
 
 pub(crate) mod detail;
 pub(crate) mod error;

@@ -11,7 +11,8 @@ use avatar_groom::{COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, OTHER_BONES, 
 use bytemuck::Zeroable;
 use wgpu::util::DeviceExt;
 
-/// Strands over a square of the skin's height that styles give their radii for; fewer are wider in proportion.
+/// The radii of styles are for this many strands in a square whose side is the skin's height; fewer are wider
+/// in proportion.
 const REFERENCE_STRANDS: f32 = 100_000.0;
 const WIDEST: f32 = 5.0;
 const VEC4S_PER_VERTEX: usize = size_of::<GpuDeformedVertex>() / size_of::<[f32; 4]>();
@@ -19,17 +20,17 @@ const VEC4S_PER_VERTEX: usize = size_of::<GpuDeformedVertex>() / size_of::<[f32;
 /// The hair that all avatars of a model share.
 #[derive(Debug)]
 pub(crate) struct HairModel {
-    /// Tells hair apart that other hair was planted in the place of.
+    /// Differs from that of hair which was planted before or after it.
     pub(crate) id: Identity,
     /// The part that it grows on.
     pub(crate) part: usize,
     pub(crate) strand_count: u32,
     pub(crate) guide_count: u32,
-    /// Swings a second of the tips of guides.
+    /// Swings per second of the tips of guides.
     pub(crate) swing: f32,
     pub(crate) hair: wgpu::Buffer,
     pub(crate) roots: Vec4Texture,
-    /// The roots of the guides once more, without guides of their own.
+    /// The roots of guides once more, marked as guides.
     pub(crate) guide_roots: Vec4Texture,
     pub(crate) field: wgpu::TextureView,
     pub(crate) head_bone: u32,

@@ -15,7 +15,7 @@ use crate::view::resources::HAIR_MAP_FORMAT;
 /// The pipelines of all passes that draw strands.
 #[derive(Debug)]
 pub(crate) struct HairPipelines {
-    /// What the key sees of hair, where the shading has shadows.
+    /// For the map of hair that the key lamp sees, if the shading has shadows.
     pub(crate) shadow: Option<wgpu::RenderPipeline>,
     pub(crate) strands: Strands,
 }
@@ -25,8 +25,8 @@ pub(crate) struct HairPipelines {
 pub(crate) enum Strands {
     /// Each covers some of a pixel's samples.
     Masked(wgpu::RenderPipeline),
-    /// Where pixels have one sample: where they lie, how much they cover at each depth, all of them blended, and
-    /// the two steps that lay them over the picture: colour and depth.
+    /// With one sample per pixel: where strands lie, how much they cover at each depth, all of them blended,
+    /// and the two steps that lay them over the picture: colour and depth.
     Layered {
         layers: wgpu::RenderPipeline,
         slices: wgpu::RenderPipeline,
@@ -50,7 +50,7 @@ impl HairPipelines {
             layout: &strands_layout,
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             buffers: &[],
-            // Ribbons have no sides.
+            // Ribbons are seen from both sides.
             cull_mode: None,
             depth: Some((Greater, true)),
             bias: Default::default(),
@@ -118,7 +118,7 @@ impl HairPipelines {
     }
 }
 
-/// Which strands each draw of a frame draws: group 3 of the passes that draw them.
+/// Group 3 of passes that draw strands: which of them.
 #[derive(Debug)]
 pub(crate) struct HairViews {
     pub(crate) ring: Ring<GpuHairView>,
@@ -128,7 +128,7 @@ pub(crate) struct HairViews {
 /// One for the shadow of a head of hair and one for the hair itself.
 const VIEWS_PER_HEAD: u32 = 2;
 const HEADS_PER_FRAME: u32 = 24;
-/// Heads of hair that are told apart in all frames of a submission.
+/// The most heads of hair in all frames before one submission.
 pub(crate) const MOST_HEADS: u32 = HEADS_PER_FRAME * FRAME_SLOTS;
 
 impl HairViews {
@@ -161,7 +161,7 @@ fn largest() -> wgpu::BlendComponent {
     wgpu::BlendComponent { src_factor: One, dst_factor: One, operation: Max }
 }
 
-/// What is there, by what the source leaves clear.
+/// The target times what the source leaves clear.
 fn multiplied() -> wgpu::BlendComponent {
     use wgpu::{BlendFactor, BlendOperation::Add};
     let dst_factor = BlendFactor::OneMinusSrc;

@@ -50,7 +50,7 @@ const COVERAGE: Module = Module::of(include_str!("shaders/coverage.wgsl"));
 const LAYERS: Module = Module::of(include_str!("shaders/layers.wgsl"));
 const COMPOSE: Module = Module::of(include_str!("shaders/compose.wgsl"));
 
-/// The choice between strands that hang still and strands that go with guides that swing.
+/// Whether strands follow guides that swing; otherwise they hang still.
 pub(crate) fn swinging(is_swinging: bool) -> Constant {
     ("SWINGING", Value::Flag(is_swinging))
 }
@@ -84,7 +84,7 @@ macro_rules! strand_program {
     };
 }
 
-/// Where pixels have several samples.
+/// For several samples per pixel.
 pub(crate) const MASKED_STRANDS: Program = strand_program!(
     "hair",
     "strand_main",
@@ -92,7 +92,7 @@ pub(crate) const MASKED_STRANDS: Program = strand_program!(
     [OUTPUT, AMBIENT, BRDF, DRAW, Module::of(include_str!("shaders/masked.wgsl"))]
 );
 
-/// Where they have one.
+/// For one sample per pixel.
 pub(crate) const LAYERED_STRANDS: Program = strand_program!(
     "hair in layers",
     "strand_main",

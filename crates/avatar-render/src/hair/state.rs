@@ -14,18 +14,19 @@ use wgpu::util::DeviceExt;
 /// The hair of one avatar.
 #[derive(Debug)]
 pub(crate) struct HairState {
-    /// That of the model's hair.
+    /// The identity of the model's hair for which it was made.
     pub(crate) id: Identity,
     pub(crate) points: wgpu::Buffer,
     pub(crate) guide_count: u32,
-    /// How guides swing; still until time passes.
+    /// The motion of guides; they hang still until time passes.
     pub(crate) swing: SwingState,
     /// Group 0 of the growing pass: of guides, and of all strands.
     pub(crate) grow_guides: wgpu::BindGroup,
     pub(crate) grow: wgpu::BindGroup,
     /// Group 2 of the growing pass: the deformed skin, and the bones that hair moves with.
     pub(crate) skin: wgpu::BindGroup,
-    /// What the guides' growth writes, how far they swing from there, the deformed skin; and where strands read that.
+    /// The points of guides, their offsets by swinging, and the deformed skin: buffers that passes write, and
+    /// the textures from which growth reads them.
     guides: (wgpu::Buffer, Vec4Texture),
     offsets: Vec4Texture,
     vertices: (wgpu::Buffer, Vec4Texture),
@@ -92,7 +93,7 @@ impl HairState {
         Self {
             id: hair.id,
             guide_count: hair.guide_count,
-            // Guides follow no guides: they do not read what is bound for the strands.
+            // Guides follow no guides: they do not read the textures of guides that are bound here.
             grow_guides: grow("grow guides of hair", &hair.guide_roots, &guides),
             grow: grow("grow hair", &hair.roots, &points),
             skin: group(
@@ -112,13 +113,13 @@ impl HairState {
         }
     }
 
-    /// Records the copy of the deformed skin to where growth reads it.
+    /// Records the copy of the deformed skin into the texture that growth reads.
     pub(crate) fn take_skin(&self, encoder: &mut wgpu::CommandEncoder) {
         let (vertices, texture) = &self.vertices;
         texture.fill(encoder, vertices);
     }
 
-    /// Records the copy of the guides to where strands read them.
+    /// Records the copy of the guides into the textures that strands read.
     pub(crate) fn take_guides(&self, encoder: &mut wgpu::CommandEncoder) {
         let (guides, texture) = &self.guides;
         texture.fill(encoder, guides);
@@ -127,7 +128,7 @@ impl HairState {
         }
     }
 
-    /// Takes over the bones of a pose.
+    /// Sets the bones of the pose.
     pub(crate) fn set_pose(&self, queue: &wgpu::Queue, bones: &[Affine3A]) {
         let Some(head) = bones.get(self.head_bone as usize) else { return };
         let others = self.other_bones.map(|bone| bones.get(bone as usize).copied().unwrap_or(*head));

@@ -1,4 +1,4 @@
-//! Hair that lags behind the head: guides swing, and their locks with them.
+//! Motion of hair: guides swing behind the head, and the strands of their locks follow.
 
 use crate::gpu::bindings::{storage_entry, uniform_entry};
 use crate::gpu::buffers::written_buffer;
@@ -45,14 +45,14 @@ pub(crate) struct SwingState {
     group: wgpu::BindGroup,
     guide_count: u32,
     oscillators: [[f32; 4]; SEGMENTS + 1],
-    /// As of the last frame that was drawn.
+    /// The clock at the last frame that was drawn.
     drawn: TickClock,
-    /// Seconds since then; no number where hair is to hang still.
+    /// Seconds since then; NaN if hair is to hang still.
     seconds: f32,
     /// Whether the motes are where the guides were at the last frame.
     has_begun: bool,
     is_moving: bool,
-    /// Whether the passes of the time that is written have still to be recorded.
+    /// Whether time was set for which no pass is recorded yet.
     is_due: AtomicBool,
 }
 
@@ -133,12 +133,13 @@ impl SwingState {
         (self.has_begun, self.is_moving) = (false, false);
     }
 
-    /// Time passes until the next frame. Seconds that are none leave hair still where the head is then.
+    /// Lets time pass until the next frame. If `seconds` is negative, above 0.5 or NaN, hair hangs still
+    /// where the head is then.
     pub(crate) fn advance(&mut self, queue: &wgpu::Queue, seconds: f32) {
         let seconds = if self.has_begun { seconds } else { f32::NAN };
         self.has_begun = true;
         if self.is_due.swap(true, Ordering::Relaxed) {
-            // What was told last was never drawn: the time adds up.
+            // The last time was never drawn: both add up.
             self.seconds += seconds;
         } else {
             self.drawn.advance(self.seconds);
@@ -159,7 +160,7 @@ impl SwingState {
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&swing));
     }
 
-    /// Moves the guides, once for each time that was told.
+    /// Records the motion of guides, once after each change of the time.
     pub(crate) fn record(&self, pass: &mut wgpu::ComputePass<'_>, pipeline: &wgpu::ComputePipeline) {
         if self.is_due.swap(false, Ordering::Relaxed) {
             pass.set_pipeline(pipeline);

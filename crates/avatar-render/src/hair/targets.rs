@@ -1,4 +1,4 @@
-//! What passes over hair draw into, and what they read of one another.
+//! The textures that passes over hair draw into and read.
 
 use crate::gpu::attachment::{Purpose, attachment};
 use crate::gpu::bindings::texture_binding;
@@ -12,7 +12,8 @@ pub(crate) const HAIR_SUM_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgb
 /// What strands leave clear.
 pub(crate) const HAIR_CLEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
-/// Textures of one picture; single pixels where pixels have several samples, since strands cover samples then.
+/// Textures of one picture. With several samples per pixel they are single pixels, because strands cover
+/// samples then.
 #[derive(Debug)]
 pub(crate) struct HairTargets {
     /// Where strands lie.
@@ -23,7 +24,7 @@ pub(crate) struct HairTargets {
     pub(crate) sum: wgpu::TextureView,
     /// What they leave clear.
     pub(crate) clear: wgpu::TextureView,
-    /// What passes read, each without what it writes. The shadow and the layers read nothing of hair.
+    /// The inputs of each pass. The shadow and the layers read nothing of hair.
     pub(crate) for_shadow: wgpu::BindGroup,
     pub(crate) for_slices: wgpu::BindGroup,
     pub(crate) for_strands: wgpu::BindGroup,
@@ -45,7 +46,7 @@ impl HairTargets {
             [texture("hair: front slices", HAIR_SUM_FORMAT), texture("hair: back slices", HAIR_SUM_FORMAT)];
         let sum = texture("hair", HAIR_SUM_FORMAT);
         let clear = texture("hair: what it leaves clear", HAIR_CLEAR_FORMAT);
-        // Bound in the place of what the pass itself writes, and of what is not there yet.
+        // Bound instead of textures that the pass itself writes, or that are not written yet.
         let nothing = attachment(device, "nothing", HAIR_SUM_FORMAT, 1, (1, 1), Purpose::DrawnAndRead);
         let layout = inputs_layout(device);
         let group = |label, hair_map, [layers, front, back]: [&wgpu::TextureView; 3]| {

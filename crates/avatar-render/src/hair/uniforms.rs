@@ -1,4 +1,4 @@
-//! What Rust writes and WGSL reads of hair.
+//! The structs of hair that Rust writes and WGSL reads.
 
 use crate::model::bone::GpuBone;
 use avatar_groom::{OTHER_BONES, RegionStyle, SEGMENTS, offset_from_head};
@@ -77,7 +77,7 @@ pub(crate) struct GpuRoot {
 }
 
 impl GpuHairRegion {
-    /// Lengths of styles are shares of the skin's height.
+    /// From a style, whose lengths are shares of the skin's height.
     pub(crate) fn new(style: &RegionStyle, height: f32) -> Self {
         Self {
             root_color: style.root_color,

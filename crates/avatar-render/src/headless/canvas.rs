@@ -145,7 +145,8 @@ impl Canvas {
     }
 }
 
-/// Draws one picture: straight alpha, sRGB, in the quality that the adapter draws fluently. Two calls with equal arguments give equal bytes on one machine.
+/// Draws one picture: straight alpha, sRGB, in the best quality that the adapter draws smoothly. Two calls
+/// with equal arguments give equal bytes on one machine.
 ///
 /// # Errors
 /// A size, samples or avatars that cannot be drawn, or a lost device.
@@ -162,7 +163,8 @@ pub fn render_image(
     Canvas::new(gpu, width, height, samples, shading)?.render(gpu, scene, avatars)
 }
 
-/// The target holds colours times alpha, encoded after the product.
+/// Straight alpha from a pixel of the target, which holds colours times alpha, encoded after the
+/// multiplication.
 fn straight_from_premultiplied(pixel: [u8; 4]) -> [u8; 4] {
     let [r, g, b, a] = pixel;
     match a {

@@ -1,9 +1,9 @@
-//! How much a surface curves at each vertex: what pre-integrated scattering is looked up by.
+//! The curvature of a surface at each vertex, which pre-integrated scattering needs.
 
 use avatar_mesh::{Mesh, weld_positions};
 use glam::Vec3;
 
-/// Rounds of averaging with the neighbours: the triangles' own corners are no curvature.
+/// Rounds of averaging with neighbours, so that the edges between triangles do not count as curvature.
 const SMOOTHING_ROUNDS: usize = 3;
 
 /// 1 / radius per vertex: how fast the normal turns along the edges around it, whichever way it bends.

@@ -10,8 +10,8 @@ pub struct PartDesc<'a> {
     pub label: &'a str,
     /// The undeformed mesh. Its k-th shape follows the avatar's weight number `first_weight + k`.
     pub mesh: &'a Mesh,
-    /// The weight that the first shape of the mesh follows: 0 where all parts share their shapes, else where the part's own
-    /// begin in the list of all.
+    /// The weight that the first shape of the mesh follows: 0 where all parts share their shapes, else where
+    /// the part's own begin in the list of all.
     pub first_weight: usize,
     /// How it is drawn.
     pub kind: PartKind,
@@ -30,7 +30,7 @@ pub enum PartBones {
     Rigid(usize),
 }
 
-/// The pictures of a part; each may have its own size. `None` leaves the visible default of the kind.
+/// The pictures of a part; each may have its own size. Without one, the default of the part's kind shows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PartTextures<'a> {
     /// Colour in sRGB; where it is transparent, the material's own colour shows.
@@ -41,6 +41,7 @@ pub struct PartTextures<'a> {
     pub gloss: Option<&'a Image>,
     /// Normals in tangent space, green up, linear.
     pub normal: Option<&'a Image>,
-    /// How thick the part is behind each point, black thin, white as thick as the material says: the red channel, linear.
+    /// Thickness of the part behind each point, from 0 (black) to that of the material (white): the red
+    /// channel, linear.
     pub thickness: Option<&'a Image>,
 }

@@ -38,7 +38,7 @@ pub enum PartProblem {
         /// Its length.
         found: usize,
     },
-    /// A triangle names a vertex that is not there.
+    /// A triangle names a vertex that does not exist.
     #[error("triangle {triangle}: expected a vertex below {vertices}, found {found}")]
     Index {
         /// The triangle.
@@ -51,7 +51,7 @@ pub enum PartProblem {
     /// A part with bones per vertex whose mesh has none.
     #[error("expected bones per vertex, found none in the mesh")]
     NoVertexBones,
-    /// A vertex names a bone that is not there.
+    /// A vertex names a bone that does not exist.
     #[error("vertex {vertex}: expected a bone below {palette_len}, found {found}")]
     VertexBone {
         /// The vertex.
@@ -61,7 +61,7 @@ pub enum PartProblem {
         /// Length of the palette.
         palette_len: usize,
     },
-    /// A rigid part follows a bone that is not there.
+    /// A rigid part follows a bone that does not exist.
     #[error("expected a bone below {palette_len}, found {found}")]
     RigidBone {
         /// The bone.
@@ -86,7 +86,7 @@ pub enum PartProblem {
     Texture {
         /// Which of the part's pictures.
         which: &'static str,
-        /// Both numbers.
+        /// The size and the number of bytes.
         error: ImageSizeError,
     },
 }

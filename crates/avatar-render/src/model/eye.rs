@@ -1,40 +1,42 @@
-//! What an eye's meshes say about its cornea and iris.
+//! The shape of cornea and iris, found from the meshes of an eye.
 
 use avatar_mesh::Mesh;
 use glam::{Vec2, Vec3};
 
-/// Samples of texture radius over radius.
+/// Samples of the profile: distance in the texture over distance from the axis.
 pub(crate) const PROFILE_LEN: usize = 16;
 
-/// The shape of a cornea and what it says about the eyeball behind it, at bind pose.
+/// The shape of a cornea and of the iris behind it, at bind pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct EyeShape {
-    /// Middle and radius of the sphere that the cornea is a cap of.
+    /// Center and radius of the sphere of which the cornea is a cap.
     pub(crate) center: Vec3,
     pub(crate) radius: f32,
-    /// Radius of the cornea over the iris: that of its edge, or that of a human one where it covers the whole ball.
+    /// Radius of the edge of the cornea; that of a human cornea if the mesh covers the whole ball.
     pub(crate) edge_radius: f32,
-    /// Where the iris is in the mesh.
+    /// Depth (z) of the iris in the mesh.
     pub(crate) surface_z: f32,
-    /// How the ball is painted around its axis: `uv = uv_center + (uv_from_x · x + uv_from_y · y) / r · profile(r)`.
+    /// How the ball is painted around its axis: `uv = uv_center + (uv_from_x · x + uv_from_y · y) / r ·
+    /// profile(r)`.
     pub(crate) uv_center: Vec2,
     pub(crate) uv_from_x: Vec2,
     pub(crate) uv_from_y: Vec2,
-    /// Over the root of `r / profile_reach`, from 0 to 1.
+    /// Samples at equal steps of the square root of `r / profile_reach`, from 0 to 1.
     pub(crate) profile: [f32; PROFILE_LEN],
     pub(crate) profile_reach: f32,
 }
 
-/// Root mean square error of texture coordinates, as a share of their spread, up to which a ball counts as painted around
-/// its axis.
+/// A ball counts as painted around its axis if the root mean square error of its texture coordinates is at
+/// most this share of their spread.
 const LARGEST_UV_ERROR: f32 = 0.06;
-/// Radius of a human cornea by that of the ball, with a little room: 5.9 of 12 mm.
+/// Radius of a human cornea divided by that of the eyeball, with a little room: 5.9 mm of 12 mm.
 const CORNEA_PER_BALL: f32 = 0.52;
-/// How far around the cornea the painting is looked at, by its radius.
+/// Texture coordinates are examined up to this many radii of the cornea from the axis.
 const PROFILE_REACH: f32 = 1.3;
 
-/// Fits a sphere to the cornea, and the way in which the eyeball is painted. `None` where the cornea is no cap that bulges
-/// forward, or where the iris is not painted around the axis: such eyes are drawn as they are.
+/// Fits a sphere to the cornea and finds how the eyeball is painted around its axis. Returns `None` if the
+/// cornea is not a cap that bulges forward, or if the eyeball is not painted around the axis: such eyes are
+/// drawn without refraction.
 pub(crate) fn eye_shape(cornea: &Mesh, ball: &Mesh) -> Option<EyeShape> {
     let (cap, whole) = (cornea.bounds()?, ball.bounds()?);
     let (half_width, bulge) = ((cap.size().x + cap.size().y) * 0.25, cap.size().z);
@@ -89,8 +91,8 @@ impl EyeShape {
     }
 }
 
-/// The rotation, with or without a mirror, that takes directions around the axis to directions in the texture: the
-/// orthogonal matrix nearest to the mean of their products.
+/// The rotation, with or without a mirror, that takes directions around the axis to directions in the
+/// texture: the orthogonal matrix nearest to the mean of their products.
 fn axes(pairs: impl Iterator<Item = (Vec2, Vec2)>) -> Option<[Vec2; 2]> {
     let (mut from_x, mut from_y) = (Vec2::ZERO, Vec2::ZERO);
     for (d, uv) in pairs {
@@ -104,7 +106,7 @@ fn axes(pairs: impl Iterator<Item = (Vec2, Vec2)>) -> Option<[Vec2; 2]> {
     Some([x, mirror * x.perp()])
 }
 
-/// Texture radius over the root of the radius (0 to 1), from points at any radii.
+/// The profile, from pairs of distance from the axis and distance in the texture.
 fn profile(points: impl Iterator<Item = (f32, f32)>) -> Option<[f32; PROFILE_LEN]> {
     let mut sums = [(0.0f32, 0.0f32); PROFILE_LEN];
     // The axis itself.

@@ -46,7 +46,8 @@ pub(crate) struct Geometry {
     pub(crate) vertex_count: u32,
     pub(crate) index_count: u32,
     pub(crate) indices: wgpu::Buffer,
-    /// [`GpuVertex`] per vertex: vertices of the deform pass, and texture coordinates of the passes that draw.
+    /// [`GpuVertex`] per vertex: vertices of the deform pass, and texture coordinates of the passes that
+    /// draw.
     pub(crate) vertices: wgpu::Buffer,
     /// 1 / radius of the surface, one f32 per vertex.
     pub(crate) curvatures: wgpu::Buffer,
@@ -57,13 +58,15 @@ pub(crate) struct Geometry {
     /// Largest z at bind pose, and 1 / (largest - smallest).
     pub(crate) front_z: f32,
     pub(crate) per_depth: f32,
-    /// Length at bind pose that the texture's width covers, on average over the part; 0 without texture coordinates.
+    /// Length at bind pose that the texture's width covers, on average over the part; 0 without texture
+    /// coordinates.
     pub(crate) length_per_uv: f32,
     /// Boxes around all that bones move, with any shapes.
     pub(crate) bounds: DeformBounds,
     /// The weight that the first shape follows.
     pub(crate) first_weight: usize,
-    /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by distance.
+    /// Middle of the part at bind pose, and a bone that moves it: enough to sort transparent parts by
+    /// distance.
     pub(crate) center: Vec3,
     pub(crate) center_bone: usize,
 }
@@ -169,7 +172,7 @@ fn vertices(mesh: &Mesh) -> Vec<GpuVertex> {
     .collect()
 }
 
-/// The root of the part's area by the area of its texture coordinates.
+/// The square root of the part's area divided by the area of its texture coordinates.
 fn length_per_uv(mesh: &Mesh) -> f32 {
     let (mut area, mut painted) = (0.0f64, 0.0f64);
     for corners in &mesh.triangles {
@@ -180,7 +183,8 @@ fn length_per_uv(mesh: &Mesh) -> f32 {
     if painted > 0.0 { (area / painted).sqrt() as f32 } else { 0.0 }
 }
 
-/// The triangles, turned around where most contradict their normals (mirrored parts with the original's indices).
+/// The triangles, with their winding reversed if most contradict their normals, as in mirrored parts that
+/// kept the indices of the original.
 fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     match Winding::of(mesh).is_inside_out() {
         true => mesh.triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect(),
@@ -188,12 +192,13 @@ fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     }
 }
 
-/// A storage buffer. WebGPU binds no empty buffers: an empty one gets a zero element that no shader reads.
+/// A storage buffer. WebGPU cannot bind empty buffers: without values it gets one zero element that no shader
+/// reads.
 fn storage<T: Pod>(device: &wgpu::Device, values: &[T], label: &str, what: &str) -> wgpu::Buffer {
     filled(device, values, label, what, wgpu::BufferUsages::STORAGE)
 }
 
-/// The same, for passes that draw from it as well.
+/// The same, usable as a vertex buffer as well.
 fn storage_and_vertices<T: Pod>(
     device: &wgpu::Device,
     values: &[T],
@@ -270,7 +275,7 @@ fn check(
             return Err(PartProblem::Index { triangle, found, vertices: expected });
         }
     }
-    // Each block of vertices takes a workgroup of a single row.
+    // One workgroup deforms one block of vertices, and all workgroups of a dispatch stand in one row.
     let dispatched = u64::from(limits.max_compute_workgroups_per_dimension) * u64::from(SHAPE_BLOCK);
     let deformed = dispatched.saturating_mul(size_of::<GpuVertex>() as u64);
     fits("vertices", expected, size_of::<GpuVertex>(), binding(limits).min(deformed))?;

@@ -6,8 +6,8 @@ use crate::model::geometry::Geometry;
 use avatar_look::optics::diffusion_distance;
 use avatar_look::{Iris, Material};
 
-/// Albedo that the mean free path of skin is turned into the width of its profile with. One for all: the profile is not
-/// to change from freckle to freckle.
+/// The albedo with which the mean free path of skin is converted to the width of its scattering profile. One
+/// for all skin: the width must not change from freckle to freckle.
 const SKIN_ALBEDO: f32 = 0.6;
 
 /// Bit of `GpuMaterial::textures`.
@@ -21,7 +21,7 @@ pub(crate) const NORMAL_TEXTURE: u32 = 8;
 /// Bit of `GpuMaterial::textures`.
 pub(crate) const THICKNESS_TEXTURE: u32 = 16;
 
-/// Looks of a part in WGSL.
+/// WGSL of the material and textures of a part.
 pub(crate) const LOOK: Module = Module { text: include_str!("shaders/look.wgsl"), constants };
 
 fn constants() -> Vec<Constant> {
@@ -87,7 +87,7 @@ pub(crate) struct GpuMaterial {
 }
 
 impl GpuMaterial {
-    /// `height` is that of the skin: what materials measure lengths by.
+    /// `height` is that of the skin, the unit of lengths in materials.
     pub(crate) fn new(
         material: &Material,
         geometry: &Geometry,

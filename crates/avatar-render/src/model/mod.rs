@@ -1,4 +1,4 @@
-//! What all avatars of a model share, part by part: geometry, blend shapes, textures, materials.
+//! What all avatars of a model share, for each part: geometry, blend shapes, textures, materials.
 
 pub(crate) mod active_shapes;
 pub(crate) mod bone;

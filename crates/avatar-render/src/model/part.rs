@@ -34,7 +34,8 @@ fn cornea_of<'a, 'b>(ball: &PartDesc<'b>, parts: &'a [PartDesc<'b>]) -> Option<&
         part.mesh.bounds().map_or(f32::INFINITY, |bounds| bounds.center().distance(center))
     };
     match (ball.kind, ball.bones) {
-        // The view is turned back to bind pose by one bone: eyes with bones per vertex are drawn as they are.
+        // Refraction turns the view back to bind pose with the eye's one bone: eyes with bones per vertex are
+        // drawn without it.
         (PartKind::Eyeball, PartBones::Rigid(_)) => {
             parts.iter().filter(is_its_cornea).min_by(|a, b| distance(a).total_cmp(&distance(b)))
         }
@@ -101,7 +102,7 @@ impl ModelPart {
         let label = desc.label;
         let geometry = Geometry::new(device, &layouts.geometry, desc, palette_len)?;
         let eye = cornea_of(desc, parts).and_then(|cornea| eye_shape(cornea.mesh, desc.mesh));
-        // Bound where there is no texture, and never sampled there.
+        // Bound instead of a missing texture; shaders do not sample it.
         let blank = Image { width: 1, height: 1, rgba: vec![255; 4] };
         let mut textures = 0;
         let mut view = |bit: u32, which: &'static str, image: Option<&Image>, usage: TextureUse| {

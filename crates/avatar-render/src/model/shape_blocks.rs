@@ -1,4 +1,5 @@
-//! Blend shapes of a part on the GPU: offsets of the blocks of vertices in which a shape moves anything.
+//! Blend shapes of a part on the GPU. Offsets are stored only for those blocks of vertices in which a shape
+//! moves something.
 
 use crate::gpu::program::{Constant, Module, Value};
 use crate::model::error::{PartProblem, fits};
@@ -6,11 +7,11 @@ use avatar_mesh::{Mesh, Offsets, Shape};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-/// Vertices of a block. One workgroup deforms one block, so whether a shape moves it is the same for all of a workgroup: nobody
-/// waits for the offsets of others.
+/// Vertices per block. One workgroup deforms one block, so that all of it agrees on whether a shape moves the
+/// block, and none of its invocations waits for another.
 pub(crate) const SHAPE_BLOCK: u32 = 64;
 
-/// In the table: the shape moves nothing in this block.
+/// Entry of the table for a block in which the shape moves nothing.
 pub(crate) const RESTING_BLOCK: u32 = u32::MAX;
 
 /// The geometry of a part in WGSL.
@@ -43,7 +44,7 @@ impl ShapeBlocks {
     /// Stores what the shapes of a mesh move. Their lengths must be checked.
     ///
     /// # Errors
-    /// More than `binding` bytes, found out before they are allocated.
+    /// More than `binding` bytes; this is checked before anything is allocated.
     pub(crate) fn new(mesh: &Mesh, binding: u64) -> Result<Self, PartProblem> {
         // Shaders count in u32.
         let binding = binding.min(u32::MAX.into());
@@ -75,7 +76,7 @@ impl ShapeBlocks {
     }
 }
 
-/// Offsets of normals; none of a shape that leaves normals alone, which its blocks then do with zeros.
+/// Offsets of normals, if the shape has any; if not, its blocks hold zeros.
 fn normals(shape: &Shape) -> impl Iterator<Item = (usize, Vec3)> {
     shape.normals.iter().flat_map(Offsets::iter)
 }

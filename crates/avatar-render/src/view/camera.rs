@@ -3,31 +3,32 @@ use glam::{Affine3A, Mat4, Quat, Vec2, Vec3, Vec4};
 
 /// Where a picture is taken from. Its own axes: +X right, +Y up, looking along −Z.
 ///
-/// Clip space is that of wgpu (y up, depth 0…1) with reversed, infinite depth: 1 at the near plane, 0 far away.
-/// That spreads f32's precision evenly over distances, and there is no far plane to choose.
+/// Clip space is that of wgpu (y up, depth 0…1) with reversed, infinite depth: 1 at the near plane, 0 far
+/// away. That spreads f32's precision evenly over distances, and there is no far plane to choose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Rigid.
+    /// A rigid transformation.
     pub world_from_camera: Affine3A,
     /// Angle between the upper and lower edge of the picture.
     pub vertical_fov_rad: f32,
-    /// Width of the picture by its height.
+    /// Width of the picture divided by its height.
     pub aspect: f32,
     /// Distance of the near plane.
     pub near: f32,
-    /// Where in the picture that is seen which lies straight ahead, as a lens is shifted: from −1 to 1, +x right, +y up; (0, 0) is
-    /// the middle. What covers a part of the picture leaves the face in the middle of the rest.
+    /// The point of the picture that shows what lies straight ahead, as a shifted lens does: −1 to 1, +x
+    /// right, +y up; (0, 0) is the middle. If something covers a part of the picture, a shift keeps the face
+    /// in the middle of the rest.
     pub shift: Vec2,
 }
 
-/// The near plane of a camera around a target, as a share of the distance.
+/// Distance of the near plane of a camera around a target, as a share of the distance of the target.
 const NEAR_SHARE: f32 = 0.02;
-/// Room around a box that is to fill a picture.
+/// Room around a box that fills a picture, as a factor on the distance.
 const FRAME_MARGIN: f32 = 1.06;
 
 impl Camera {
-    /// A camera that looks at `target`. Yaw 0 stands in front of the face (at +Z), yaw +90° on the character's left
-    /// side (at +X); a positive pitch lifts the camera. Any pitch is valid, ±90° too.
+    /// A camera that looks at `target`. Yaw 0 stands in front of the face (at +Z), yaw +90° on the
+    /// character's left side (at +X); a positive pitch lifts the camera. Any pitch is valid, ±90° too.
     pub fn orbit(
         target: Vec3,
         distance: f32,
@@ -63,8 +64,9 @@ impl Camera {
         Self::orbit(bounds.center(), distance, yaw_rad, pitch_rad, vertical_fov_rad, aspect)
     }
 
-    /// The camera of a larger picture, of this width and height, that shows in the rectangle between `min` and `max` what
-    /// this one shows in the whole; all in pixels, y down, as windows count.
+    /// The camera for a larger picture of this width and height that shows, in the rectangle from `min` to
+    /// `max`, what this camera shows in its whole picture. All in pixels, y down. Returns this camera
+    /// unchanged if a side is below one pixel or not finite.
     #[must_use]
     pub fn within(self, size: Vec2, min: Vec2, max: Vec2) -> Self {
         let (free, middle) = (max - min, (min + max) / 2.0);
@@ -85,16 +87,16 @@ impl Camera {
         self.world_from_camera.translation.into()
     }
 
-    /// The direction in which a point of the picture lies, from the eye: `at` is from −1 to 1, +x right, +y up. One step along it leads
-    /// to depth 1 in front of the camera.
+    /// The direction from the eye toward a point of the picture; `at` is −1 to 1, +x right, +y up. Its length
+    /// is such that it leads from the eye to depth 1 in front of the camera.
     pub fn toward(&self, at: Vec2) -> Vec3 {
         let aside = (at - self.valid_shift()) / self.zoom();
         let direction = Vec3::new(aside.x * valid_aspect(self.aspect), aside.y, -1.0);
         self.world_from_camera.transform_vector3(direction)
     }
 
-    /// The matrix that takes points of the world to clip space. A field of view outside 0…180° and an aspect or a
-    /// near plane that is not positive are replaced by the nearest usable number.
+    /// The matrix that takes points of the world to clip space. A field of view outside 0…180° and an aspect
+    /// or a near plane that is not positive are replaced by the nearest usable number.
     pub fn clip_from_world(&self) -> Mat4 {
         let (zoom, near, shift) = (self.zoom(), self.valid_near(), self.valid_shift());
         let clip_from_camera = Mat4::from_cols(
@@ -106,7 +108,8 @@ impl Camera {
         clip_from_camera * Mat4::from(self.world_from_camera.inverse())
     }
 
-    /// The way back, in closed form: far depths have no well-conditioned inverse.
+    /// The inverse of [`Camera::clip_from_world`] in closed form: a numerical inverse would be inexact at far
+    /// depths.
     pub(crate) fn world_from_clip(&self) -> Mat4 {
         let (zoom, near, shift) = (self.zoom(), self.valid_near(), self.valid_shift());
         let slope_x = valid_aspect(self.aspect) / zoom;
@@ -119,12 +122,12 @@ impl Camera {
         Mat4::from(self.world_from_camera) * camera_from_clip
     }
 
-    /// Half the picture's height at distance 1 is 1 / zoom.
+    /// 1 / (half the height of what is seen at distance 1).
     pub(crate) fn zoom(&self) -> f32 {
         1.0 / half_fov_tan(self.vertical_fov_rad)
     }
 
-    /// The near plane that is used.
+    /// The distance of the near plane, a small one if `near` is not positive.
     pub(crate) fn valid_near(&self) -> f32 {
         if self.near > 0.0 { self.near } else { 1e-4 }
     }

@@ -1,4 +1,4 @@
-//! What a renderer draws into, and what of it the programs know.
+//! The configuration of a renderer, and the constants that programs get from it.
 
 use crate::gpu::program::{Constant, Value};
 use crate::view::shading::{Scattering, Shading};
@@ -6,8 +6,8 @@ use crate::view::shading::{Scattering, Shading};
 /// What a renderer draws into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RendererConfig {
-    /// Format of the target. sRGB and float formats get linear values, other normalised formats get encoded ones;
-    /// prefer an sRGB format (or an sRGB view), where the corneas are blended in linear light.
+    /// Format of the target. sRGB and float formats get linear values, other normalised formats get encoded
+    /// ones; prefer an sRGB format (or an sRGB view), where the corneas are blended in linear light.
     pub color_format: wgpu::TextureFormat,
     /// Samples per pixel: 1 or 4.
     pub samples: u32,
@@ -59,7 +59,7 @@ impl RendererConfig {
             flag("TRANSMISSION", terms.transmission),
             flag("EYE_OPTICS", terms.eye_optics),
             flag("ENCODE_SRGB", self.encodes_in_shader()),
-            // Thin strands cover some of a pixel's samples, instead of being blended.
+            // Thin strands cover some of a pixel's samples instead of being blended.
             flag("COVERAGE_MASK", self.samples > 1),
             flag("TOON", self.shading == Shading::Toon),
         ]

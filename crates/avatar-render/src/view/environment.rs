@@ -45,8 +45,8 @@ impl EnvironmentMap {
         Self { reflections, cube, uploaded: Mutex::new(None) }
     }
 
-    /// The diffuse light of an environment. One that is new is uploaded, too, which takes some milliseconds; shadings
-    /// without reflections need none of that.
+    /// The diffuse light of an environment. If it is another one than last time, its reflections are uploaded
+    /// as well, which takes some milliseconds; shadings without reflections do not need that.
     pub(crate) fn irradiance(
         &self,
         queue: &wgpu::Queue,

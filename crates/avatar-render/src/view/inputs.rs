@@ -1,4 +1,4 @@
-//! Group 1 of the passes that draw: what earlier passes left for later ones.
+//! Group 1 of passes that draw: the results of earlier passes.
 
 use crate::gpu::bindings::{sampler_entry, texture_binding, texture_entry};
 use crate::view::resources::Resources;
@@ -12,7 +12,7 @@ pub(crate) fn texel_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     texture_entry(binding, VISIBILITY, read, wgpu::TextureViewDimension::D2)
 }
 
-/// What everything that is lit reads: bindings 0, 1 and 2.
+/// Entries for shadow maps, which all lit programs read: bindings 0, 1 and 2.
 pub(crate) fn shadow_entries() -> [wgpu::BindGroupLayoutEntry; 3] {
     let depth = wgpu::TextureSampleType::Depth;
     [
@@ -22,7 +22,8 @@ pub(crate) fn shadow_entries() -> [wgpu::BindGroupLayoutEntry; 3] {
     ]
 }
 
-/// What [`shadow_entries`] get; `hair_map` is nothing while it is being drawn.
+/// The resources for [`shadow_entries`]. The pass that draws the map of hair cannot read it: it binds another
+/// texture as `hair_map`.
 pub(crate) fn shadow_bindings<'a>(
     resources: &'a Resources,
     hair_map: &'a wgpu::TextureView,
@@ -35,7 +36,7 @@ pub(crate) fn shadow_bindings<'a>(
     ]
 }
 
-/// What passes over one picture leave for parts, one sample a pixel.
+/// The results of earlier passes of a picture, one sample per pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PictureInputs<'a> {
     pub(crate) depth: &'a wgpu::TextureView,

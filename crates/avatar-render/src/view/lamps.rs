@@ -6,9 +6,9 @@ use glam::Vec3;
 
 /// Lamps of a frame: key, fill, rim.
 pub(crate) const LAMP_COUNT: usize = 3;
-/// Place of the key lamp.
+/// Index of the key lamp.
 pub(crate) const KEY_LAMP: usize = 0;
-/// Place of the rim lamp.
+/// Index of the rim lamp.
 pub(crate) const RIM_LAMP: usize = 2;
 /// Lamps that may cast shadows: key, rim.
 pub(crate) const SHADOW_COUNT: usize = 2;
@@ -28,7 +28,7 @@ impl GpuLamp {
     }
 }
 
-/// Toward a lamp, unit length.
+/// The direction toward a lamp, of length 1; +Y if the lamp has no direction.
 pub(crate) fn direction(lamp: &Lamp) -> Vec3 {
     lamp.direction_world.normalize_or(Vec3::Y)
 }

@@ -1,4 +1,4 @@
-//! What everything in a picture is seen and lit by: camera, light, shading, shadow maps, tables, and their bindings.
+//! What all passes that draw share: camera, light, shading, shadow maps, tables, and their bindings.
 
 pub(crate) mod camera;
 pub(crate) mod config;

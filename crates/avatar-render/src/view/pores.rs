@@ -15,20 +15,21 @@ pub(crate) fn pore_tile() -> Vec<[u8; 2]> {
         })
         .collect();
     let at = |x: u32, y: u32| heights[((y % PORE_SIZE) * PORE_SIZE + x % PORE_SIZE) as usize];
-    // The slope of a whole cell's width is 1 where the height changes by one cell.
+    // Slopes per cell: 1 means that the height changes by one cell's width over one cell.
     let slope = PORE_SIZE as f32 / (2.0 * PORE_CELLS as f32);
     let byte = |value: f32| (value.clamp(-1.0, 1.0) * 127.0 + 127.5) as u8;
     pixels()
         .map(|(x, y)| {
             let dx = (at(x + 1, y) - at(x + PORE_SIZE - 1, y)) * slope;
-            // Rows run downward, the map's green upward.
+            // Rows of the tile run downward; its green points upward.
             let dy = (at(x, y + PORE_SIZE - 1) - at(x, y + 1)) * slope;
             [byte(-dx), byte(-dy)]
         })
         .collect()
 }
 
-/// Distance to the nearest of scattered points, rounded: S. Worley, "A Cellular Texture Basis Function", 1996.
+/// Distance to the nearest of scattered points, rounded: S. Worley, "A Cellular Texture Basis Function",
+/// 1996.
 fn height(u: f32, v: f32) -> f32 {
     let cells = PORE_CELLS as i32;
     let (x, y) = (u * cells as f32, v * cells as f32);

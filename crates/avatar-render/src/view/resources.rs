@@ -16,10 +16,10 @@ use wgpu::util::DeviceExt;
 const SPLIT_SUM_SIZE: u32 = 32;
 /// Texels of the scattering table.
 const SCATTER_SIZE: (u32, u32) = (128, 32);
-/// What the key sees of hair.
+/// Format of the map of hair that the key lamp sees.
 pub(crate) const HAIR_MAP_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
-/// See the module.
+/// Tables, samplers, the environment and shadow maps of a renderer.
 #[derive(Debug)]
 pub(crate) struct Resources {
     pub(crate) frames: Ring<GpuFrame>,
@@ -30,7 +30,7 @@ pub(crate) struct Resources {
     /// The same maps one by one, for drawing into.
     pub(crate) shadow_layers: Vec<wgpu::TextureView>,
     pub(crate) shadow_sampler: wgpu::Sampler,
-    /// What hair keeps off; a single texel where no lamp casts shadows.
+    /// How much of the key lamp's light hair blocks; a single texel if no lamp casts shadows.
     pub(crate) hair_map: wgpu::TextureView,
     pub(crate) environment: EnvironmentMap,
 }
@@ -133,7 +133,8 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 
 fn sampler(device: &wgpu::Device, mode: wgpu::AddressMode) -> wgpu::Sampler {
     let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
-    // Free in hardware, several samples per sample in software; of use only where things repeat and tilt.
+    // Anisotropic filtering is free in hardware and takes several samples in software. Only textures that
+    // repeat on tilted surfaces need it.
     let anisotropic = mode == wgpu::AddressMode::Repeat && !software;
     device.create_sampler(&wgpu::SamplerDescriptor {
         label: Some(if mode == wgpu::AddressMode::Repeat { "repeat, trilinear" } else { "clamp, trilinear" }),
@@ -193,7 +194,7 @@ fn shadow_map(device: &wgpu::Device, terms: Terms) -> (wgpu::TextureView, Vec<wg
     let size = terms.shadows.map_size();
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("shadow maps"),
-        // One layer would make it no array.
+        // Always two layers: a texture with one is not an array.
         size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: SHADOW_COUNT as u32 },
         mip_level_count: 1,
         sample_count: 1,

@@ -1,7 +1,7 @@
 use crate::view::camera::Camera;
 use avatar_look::Light;
 
-/// What a frame shows beside the avatars.
+/// Everything that a frame shows besides the avatars.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene {
     /// Where it is seen from.

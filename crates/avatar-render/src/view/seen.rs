@@ -1,32 +1,34 @@
-//! What of the avatars the camera sees: the sizes of shadow maps, and the lengths of effects in the picture, follow from it.
+//! Which avatars the camera sees. The area of shadow maps and the sizes of effects in the picture depend on
+//! it.
 
 use crate::view::camera::Camera;
 use avatar_mesh::Bounds;
 use glam::Vec4;
 
-/// Hair reaches beyond the box around the skin.
+/// Factor on boxes around the skin, because hair reaches beyond them.
 const ROOM: f32 = 1.3;
-/// An avatar that looks this much smaller than the largest has no say in how fine shadows are.
+/// Avatars whose apparent size is below this share of the largest one are ignored when shadow maps are
+/// fitted.
 const SMALL: f32 = 0.125;
 
-/// What of the avatars the camera sees.
+/// The avatars that the camera sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Seen {
-    /// Around those in the picture, without those that look small beside another one.
+    /// A box around the avatars in the picture, without those that look small beside another one.
     pub(crate) bounds: Option<Bounds>,
-    /// Height of the skin of the one that looks largest; of the first one where none is seen.
+    /// Height of the skin of the avatar that looks largest; if none is seen, of the first one.
     pub(crate) height: f32,
 }
 
 impl Seen {
-    /// `avatars` are the boxes around them and the heights of their skins. Whole avatars, not their shares of the picture:
-    /// shadows must not change while a camera comes nearer.
+    /// `avatars` are the boxes around avatars and the heights of their skins. Sizes are those of whole
+    /// avatars, not of what is visible of them: shadows must not change while a camera comes nearer.
     pub(crate) fn new(camera: &Camera, avatars: impl Iterator<Item = (Option<Bounds>, f32)> + Clone) -> Self {
         let in_view = avatars.clone().filter_map(|(bounds, height)| {
             let bounds = bounds.filter(|bounds| is_in_view(camera, *bounds))?;
             Some((bounds, apparent_size(camera, bounds), height))
         });
-        // The first of several that look alike.
+        // Of several that look equally large, the first.
         let largest = in_view.clone().reduce(|a, b| if b.1 > a.1 { b } else { a });
         let size = largest.map_or(0.0, |(_, size, _)| size);
         Self {
@@ -42,16 +44,16 @@ impl Seen {
     }
 }
 
-/// By the distance to its nearest point.
+/// The size of a box divided by the distance of its nearest point.
 fn apparent_size(camera: &Camera, bounds: Bounds) -> f32 {
     let eye = camera.eye();
     let distance = eye.clamp(bounds.min, bounds.max).distance(eye);
     bounds.size().length() / distance.max(camera.valid_near())
 }
 
-/// Whether a box may be in the picture: it is not wholly beyond one of the picture's edges or behind the camera. Boxes
-/// near the corners may pass without being seen (U. Assarsson and T. Möller, "Optimized View Frustum Culling Algorithms
-/// for Bounding Boxes", 2000).
+/// Whether a box may be in the picture: it is not wholly beyond one of the picture's edges or behind the
+/// camera. Boxes near the corners may pass without being seen (U. Assarsson and T. Möller, "Optimized View
+/// Frustum Culling Algorithms for Bounding Boxes", 2000).
 fn is_in_view(camera: &Camera, bounds: Bounds) -> bool {
     let clip_from_world = camera.clip_from_world();
     let [x, y, w] = [0, 1, 3].map(|row| clip_from_world.row(row));

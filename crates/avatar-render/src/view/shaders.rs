@@ -1,4 +1,4 @@
-//! The WGSL that programs of several rooms are joined of.
+//! WGSL modules that the programs of hair and of parts share.
 
 use crate::gpu::program::{Module, Value};
 use crate::view::lamps::{KEY_LAMP, LAMP_COUNT, RIM_LAMP, SHADOW_COUNT};
@@ -19,9 +19,9 @@ pub(crate) const FRAME: Module = Module {
     },
 };
 
-/// Group 1, for everything that is lit: what the lamps see.
+/// Group 1 of all lit programs: shadow maps.
 pub(crate) const SHADOW_MAPS: Module = Module::of(include_str!("shaders/shadow_maps.wgsl"));
-/// Group 1, for parts: what earlier passes left.
+/// Group 1 of programs that draw parts: the results of earlier passes.
 pub(crate) const VIEW: Module = Module::of(include_str!("shaders/view.wgsl"));
 /// Shadows of everything but hair.
 pub(crate) const SHADOW: Module = Module::of(include_str!("shaders/shadow.wgsl"));

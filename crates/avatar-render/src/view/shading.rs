@@ -5,19 +5,19 @@
 pub enum Shading {
     /// Three lamps without shadows, wrapped diffuse, one lobe: the baseline of comparisons, and the cheapest.
     Plain,
-    /// Skin, eyes and teeth after nature.
+    /// Realistic skin, eyes and teeth.
     Natural(Terms),
     /// Bands of colour and outlines.
     Toon,
 }
 
-/// How natural shading looks and what it costs: every term can be switched off, for measuring and for machines that
-/// cannot afford it.
+/// What natural shading consists of. Every term can be switched off, for measuring, and for machines that are
+/// too slow for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Terms {
     /// Shadows of the lamps.
     pub shadows: Shadows,
-    /// Ambient light that neighbours hide, from the depth of the picture.
+    /// Ambient occlusion, computed from the depth of the picture.
     pub occlusion: bool,
     /// How light spreads below the skin.
     pub scattering: Scattering,
@@ -25,7 +25,7 @@ pub struct Terms {
     pub reflections: bool,
     /// The second, sharper lobe of skin.
     pub sharp_lobe: bool,
-    /// Fine relief that no texture holds.
+    /// Pores: fine relief that is not in the textures.
     pub pores: bool,
     /// Light through thin parts.
     pub transmission: bool,
@@ -49,9 +49,9 @@ pub enum Shadows {
 /// How light spreads below the skin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scattering {
-    /// Around the terminator only, by a formula.
+    /// A formula that softens the edge between light and shade.
     Wrapped,
-    /// Prepared over angle and curvature.
+    /// A table over angle and curvature.
     PreIntegrated,
     /// Blurred in the picture, in two passes.
     Separable,
@@ -70,18 +70,18 @@ pub enum Quality {
     High,
 }
 
-/// The manner of a picture.
+/// The style of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// After nature.
+    /// Realistic.
     #[default]
     Natural,
-    /// As drawn.
+    /// Like a drawing.
     Toon,
 }
 
 impl Quality {
-    /// What an adapter of this kind draws fluently.
+    /// The best quality that an adapter of this kind draws smoothly.
     pub fn of_adapter(info: &wgpu::AdapterInfo) -> Self {
         match info.device_type {
             wgpu::DeviceType::Cpu => Self::Low,
@@ -147,7 +147,7 @@ impl Terms {
 }
 
 impl Shading {
-    /// The terms that passes before the drawing depend on.
+    /// The terms of this shading.
     pub(crate) fn terms(self) -> Terms {
         match self {
             Self::Plain => Terms::NONE,
@@ -171,7 +171,7 @@ impl Shadows {
     /// Width and height of a map.
     pub(crate) fn map_size(self) -> u32 {
         match self {
-            // Bound, and never read.
+            // It is bound and never read.
             Self::Off => 1,
             Self::Hard => 1024,
             Self::Soft => 1536,
@@ -182,14 +182,14 @@ impl Shadows {
     /// Width and height of the map of hair.
     pub(crate) fn hair_map_size(self) -> u32 {
         match self {
-            // Bound, and never read.
+            // It is bound and never read.
             Self::Off => 1,
             Self::Hard | Self::Soft => 512,
             Self::Softer => 1024,
         }
     }
 
-    /// Strands that cast shadows; fewer than there are stand for all of them.
+    /// The most strands of an avatar that cast shadows; if it has more, these stand for all of them.
     pub(crate) fn strands(self) -> f32 {
         match self {
             Self::Off => 0.0,

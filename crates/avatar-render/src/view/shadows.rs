@@ -1,4 +1,4 @@
-//! What lamps see of the avatars.
+//! The views of lamps, for shadow maps.
 
 use crate::view::lamps::{SHADOW_COUNT, direction};
 use crate::view::shading::Shadows;
@@ -6,11 +6,11 @@ use avatar_look::Light;
 use avatar_mesh::Bounds;
 use glam::{Mat4, Quat, Vec3};
 
-/// One lamp's view: parallel light, fitted around what the camera sees of the avatars, and deep enough for all that stands
-/// between that and the lamp.
+/// One lamp's view: an orthographic projection that is fitted around the avatars that the camera sees, and
+/// deep enough for everything between them and the lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ShadowView {
-    /// To −1…1 across and up, 0…1 away from the lamp.
+    /// Maps the world to −1…1 across and up, and to a depth of 0…1 away from the lamp.
     pub(crate) shadow_from_world: Mat4,
     /// Length in the world of depth 0…1.
     pub(crate) depth: f32,
@@ -31,11 +31,13 @@ pub(crate) struct ShadowViews(pub(crate) [ShadowView; SHADOW_COUNT]);
 
 /// Room around the avatars, as a share of their size: samples of soft edges stay inside the map.
 const MARGIN: f32 = 1.06;
-/// What stands farther toward the lamp casts no shadows, in half widths of the map: depths would lose their precision.
+/// Avatars that are farther toward the lamp than this many half widths of the map cast no shadows: depths
+/// would lose their precision.
 const CASTER_REACH: f32 = 64.0;
 
 impl ShadowViews {
-    /// `bounds` are those of what is to be shaded, `casters` those of all that may stand in a lamp's light.
+    /// `bounds` is a box around what is shaded; `casters` are boxes around everything that may cast shadows
+    /// on it.
     pub(crate) fn new(
         light: &Light,
         bounds: Option<Bounds>,

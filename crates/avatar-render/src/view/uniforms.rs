@@ -1,4 +1,4 @@
-//! What all avatars of a frame share, on its way to the GPU.
+//! Uniforms that all avatars of a frame share.
 
 use crate::view::camera::Camera;
 use crate::view::environment::REFLECTION_LEVELS;
@@ -14,7 +14,8 @@ pub(crate) const TONE_NEUTRAL: u32 = 1;
 /// [`ToneMap::AgX`] in WGSL.
 pub(crate) const TONE_AGX: u32 = 2;
 
-/// How far away things darken one another, as a fraction of the height of the skin: lids and eyes, lips and teeth.
+/// The reach of ambient occlusion, as a fraction of the height of the skin: from lids to eyes, from lips to
+/// teeth.
 const OCCLUSION_RADIUS: f32 = 0.05;
 /// How far the edges of shadows are softened, as a fraction of the height of the skin.
 const SHADOW_SOFTNESS: f32 = 0.007;
@@ -48,9 +49,9 @@ pub(crate) struct GpuFrame {
     pub(crate) pad: [f32; 2],
 }
 
-/// The power of two below the exposure: light is kept between passes as bright as it is shown, so that halves hold that of
-/// any lamp, and with no more rounding than before (S. Lagarde and C. de Rousiers, "Moving Frostbite to Physically Based
-/// Rendering", 2014, 5.1.2).
+/// The largest power of two that is not above the exposure. Light is stored between passes multiplied by it,
+/// about as bright as it is shown: f16 then holds the light of any lamp, and a power of two adds no rounding
+/// (S. Lagarde and C. de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014, 5.1.2).
 fn pre_exposure(exposure: f32) -> f32 {
     match exposure > 0.0 {
         true => f32::from_bits(exposure.clamp(1e-12, 1e12).to_bits() & f32::INFINITY.to_bits()),
@@ -106,7 +107,7 @@ impl GpuFrame {
         }
     }
 
-    /// Tells that there is hair around these bounds, and whether it casts shadows.
+    /// Says where hair is, and whether it casts shadows.
     pub(crate) fn set_hair(&mut self, camera: &Camera, bounds: Option<Bounds>, has_shadow: bool) {
         let Some(bounds) = bounds else { return };
         let ahead = -Vec3::from(camera.world_from_camera.matrix3.z_axis);

@@ -17,7 +17,7 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
         if shape.index < part.first_weight {
             continue;
         }
-        // Indices rise: whatever follows belongs to other parts.
+        // Indices rise: all further shapes belong to other parts.
         let own = shape.index - part.first_weight;
         if own >= part.shape_count {
             break;
@@ -35,7 +35,8 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     return blended;
 }
 
-// The matrices are summed instead of the transformed points: one product each for the position and the normal.
+// The matrices are summed instead of the transformed points: one product each for the position and the
+// normal.
 fn vertex_posed_from_bind(vertex: u32) -> Bone {
     if part.has_vertex_bones == 0u {
         return posed_from_bind[part.rigid_bone];
@@ -47,7 +48,7 @@ fn vertex_posed_from_bind(vertex: u32) -> Bone {
         + bones.weights.w * posed_from_bind[bones.indices.w];
 }
 
-// `block` must be the same for all of a workgroup: so is what the loop over shapes decides.
+// `block` must be the same in all of a workgroup, so that the loop over shapes branches uniformly.
 fn deform_vertex(block: u32, within: u32) -> Deformed {
     let vertex = block * SHAPE_BLOCK + within;
     let bind = Deformed(vertices[vertex].position, vertices[vertex].normal);

@@ -1,4 +1,5 @@
-// Deforms every vertex of a part into a buffer, once a frame: every later pass draws from it, and it can be read back.
+// Deforms every vertex of a part into a buffer, once a frame: every later pass draws from it, and it can be
+// read back.
 
 struct DeformedVertex {
     position: vec3f,

@@ -1,7 +1,8 @@
-// Lays the strands of all pixels over the picture, and notes the depth of those that hide what lies behind them.
+// Lays the strands of all pixels over the picture, and notes the depth of those that hide what lies behind
+// them.
 
-// Group 1: where strands lie, see layers.wgsl; the share of each pixel that they leave clear; and the sum of their colours, each
-// times its weight, with the sum of weights in alpha.
+// Group 1: where strands lie, see layers.wgsl; the share of each pixel that they leave clear; and the sum of
+// their colours, each times its weight, with the sum of weights in alpha.
 @group(1) @binding(0) var hair_layers: texture_2d<f32>;
 @group(1) @binding(1) var hair_clear: texture_2d<f32>;
 @group(1) @binding(2) var hair_sum: texture_2d<f32>;

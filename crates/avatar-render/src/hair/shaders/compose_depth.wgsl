@@ -1,4 +1,5 @@
-// Depth of strands that hide what is clear and lies behind them: lashes leave the cornea seen, a fringe does not.
+// Writes the depth of strands that are dense enough to hide clear parts behind them: a fringe hides a cornea,
+// lashes do not.
 
 @fragment
 fn compose_depth_main(@builtin(position) position_clip: vec4f) -> @builtin(frag_depth) f32 {

@@ -1,15 +1,15 @@
-// Strands as ribbons that face the viewer, with light along them: J. Kajiya and T. Kay, "Rendering Fur with Three
-// Dimensional Textures", 1989, with the two shifted highlights of T. Scheuermann, "Practical Real-Time Hair Rendering and
-// Shading", 2004, after S. Marschner et al., 2003.
+// Strands as ribbons that face the viewer, with light along them: J. Kajiya and T. Kay, "Rendering Fur with
+// Three Dimensional Textures", 1989, with the two shifted highlights of T. Scheuermann, "Practical Real-Time
+// Hair Rendering and Shading", 2004, after S. Marschner et al., 2003.
 
-// How much of the key's light the hair in front of a strand keeps off, over what it covers. Less than all: light that
-// enters a strand leaves it forward, too.
+// How much light hair in front of a strand blocks, as a factor on its cover. Less than 1: light that enters a
+// strand leaves it forward, too.
 const STRAND_BLOCKS: f32 = 0.3;
 
 struct StrandOut {
     @builtin(position) position_clip: vec4f,
-    // As the target has it: the strand is thin, so that its points say it all. Many strands lie in a pixel, and tone
-    // mapping at each of them costs more than all the rest.
+    // As the target stores it: a strand is so thin that light at its points is enough. Many strands lie in a
+    // pixel, and tone mapping for each of them would cost more than all the rest.
     @location(0) color: vec3f,
     // Width of the strand, and distance from its middle, in pixels.
     @location(1) pixels: f32,
@@ -24,7 +24,7 @@ fn strand_highlight(tangent: vec3f, normal: vec3f, half_way: vec3f, shift: f32, 
     return smoothstep(-1.0, 0.0, along) * pow(across, sharpness);
 }
 
-// Two tones and a band of light, as drawn: those of the toon shading of parts.
+// Two tones and a band of light, as in the toon shading of parts.
 fn toon_strand_light(point: StrandPoint, normal: vec3f, color: vec3f) -> vec3f {
     let key = frame.lamps[KEY_LAMP];
     let lifted = point.position + normal * hair.margin * 3.0;
@@ -37,7 +37,7 @@ fn toon_strand_light(point: StrandPoint, normal: vec3f, color: vec3f) -> vec3f {
     return color * (ambient + key.radiance * light * (0.85 + band));
 }
 
-// `open` is the share of light from everywhere that other hair lets through.
+// `open` is the share of light from all directions that other hair lets through.
 fn strand_light(point: StrandPoint, color: vec3f, open: f32) -> vec3f {
     let position = point.position;
     let tangent = point.tangent;

@@ -1,9 +1,9 @@
 // How far a place is from the skin at bind pose, and which bones move the skin there. The twin on the CPU is
 // avatar_groom::Field.
 
-// A distance as a share of the largest in 16 bits and shares of the other bones in 8 bits each, then the direction in which
-// the distance grows in 8 bits each.
-// A texture, because software adapters read textures several times faster than buffers.
+// A distance as a share of the largest in 16 bits and shares of the other bones in 8 bits each, then the
+// direction in which the distance grows in 8 bits each. A texture, because software adapters read textures
+// several times faster than buffers.
 @group(0) @binding(2) var field: texture_3d<u32>;
 
 struct Near {
@@ -16,7 +16,7 @@ struct Near {
 // A corner of the grid, times its weight; numbers as they are stored.
 fn field_corner(place: vec3i, weight: f32) -> Near {
     let texel = textureLoad(field, place, 0).xy;
-    // Shifted up and back down for the sign.
+    // Shifting up and back down extends the sign.
     let outward = vec3f(bitcast<vec3i>(texel.yyy << vec3u(24u, 16u, 8u)) >> vec3u(24u));
     let distance = f32(bitcast<i32>(texel.x << 16u) >> 16u);
     let shares = vec2f(vec2u(texel.x >> 16u, texel.x >> 24u) & vec2u(255u));

@@ -22,7 +22,7 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     let z = normalize_or(cross(x, c.position - a.position), vec3f(0.0, 0.0, 1.0));
     let comb_world = x * root.comb.x + cross(z, x) * root.comb.y + z * root.comb.z;
     // All that follows is in the head's bind pose.
-    // Uniforms are read once: software adapters read them anew wherever they stand.
+    // Uniforms are read once: software adapters would read them again wherever they are used.
     let head = pose.head;
     let other_0 = pose.others[0];
     let other_1 = pose.others[1];
@@ -39,7 +39,7 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
 
     let first = FIRST_SEGMENT * root.length / f32(SEGMENTS);
     let own = root.random * 2.0 - 1.0;
-    // Short strands do not reach around a whole curl.
+    // Short strands have smaller curls: they are too short for a whole one.
     let curl_reach = min(style.curl_radius, CURL_SHARE * root.length);
     // Guides are the middle lines of locks.
     let curl_radius = select(curl_reach, 0.0, root.guide == IS_GUIDE);
@@ -60,10 +60,10 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     for (var i = 2u; i <= SEGMENTS; i++) {
         let t = f32(i - 1u) * (1.0 / f32(SEGMENTS - 1u));
         let step = (root.length - first) * (f32(i + 1u) * (1.0 / STEP_SUM));
-        // Along the skin: what supports hair takes the comb's push into it.
+        // Along the skin: the skin stops the part of the comb's force that points into it.
         let combed = (comb - skin_normal * (dot(comb, skin_normal) * near)) * max(near, style.hold * (1.0 - t));
         let force = combed + own * (style.noise * t) + down * style.gravity;
-        // What pulls straight back turns nothing: the sum would have no direction.
+        // A force straight back is ignored: the sum might have no direction.
         let across = force - direction * min(dot(force, direction), 0.0);
         direction = normalize_or(direction + across * style.bend, direction);
         var next = before + direction * step;
@@ -72,20 +72,22 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
             let share = saturate(2.0 - length(toward) * per_lock_reach);
             next += toward * (style.clump * t * share);
         }
-        // Where the skin moves with other bones, the place is sought where they have it at bind pose. The shares are those of
-        // the point before.
+        // Where the skin moves with other bones, the field is read at the bind pose of the place, with the
+        // shares of the point before.
         skin = field_at(grid, next + moved(other_0, next) * skin.shares.x + moved(other_1, next) * skin.shares.y);
         let turned_0 = turned_back(other_0, skin.outward) * skin.shares.x;
         let turned_1 = turned_back(other_1, skin.outward) * skin.shares.y;
         skin.outward = normalize_or(skin.outward + turned_0 + turned_1, vec3f(0.0, 1.0, 0.0));
         if root.region != SCALP {
-            // Lids and brows move in the head's frame, and their hair is short: the plane of the skin says it.
+            // Lids and brows move in the head's frame, and their hair is short: the plane of the skin at the
+            // root takes the place of the field.
             skin.outward = normal;
             skin.distance = dot(next - start, normal);
         }
         let least = margin * min(4.0 * t, 1.0) + lift * min(3.0 * t, 1.0);
         next += skin.outward * max(least - skin.distance, 0.0);
-        // Pushed back, the segment gets shorter: at its full length it would be inside again.
+        // A segment that is pushed out of the skin gets shorter: at its full length it would end inside
+        // again.
         let segment = next - before;
         let segment2 = dot(segment, segment);
         let segment_length = sqrt(max(segment2, 1e-30));

@@ -23,7 +23,8 @@ struct Hair {
     field_cell: f32,
     field_size: vec3u,
     margin: f32,
-    // One over how far hair is combed along the skin, and over how near it is drawn to its guide.
+    // 1 / (the height above the skin up to which hair is combed) and 1 / (the distance up to which strands
+    // are drawn to their guide).
     per_combed_reach: f32,
     per_lock_reach: f32,
     strand_count: u32,
@@ -35,8 +36,8 @@ struct Hair {
     field_cells: f32,
 }
 
-// A root is four texels of a texture, as all lists are that are read strand by strand: software adapters read textures several
-// times faster than buffers.
+// A root is four texels of a texture, as all lists are that are read strand by strand: software adapters read
+// textures several times faster than buffers.
 struct Root {
     corners: vec3u,
     region: u32,
@@ -50,7 +51,7 @@ struct Root {
     phase: f32,
 }
 
-// Where the elements of a list are in a texture.
+// The texel of an element of a list.
 fn texel_of(index: u32) -> vec2u {
     return vec2u(index % VEC4S_PER_ROW, index / VEC4S_PER_ROW);
 }

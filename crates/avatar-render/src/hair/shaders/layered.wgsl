@@ -1,14 +1,15 @@
 // Strands where pixels have one sample, blended without sorting: M. McGuire and L. Bavoil, "Weighted Blended
-// Order-Independent Transparency", 2013. The weight of a strand is what the strands before it let through, by the cover of
-// slices behind the nearest strand (C. Yuksel and J. Keyser, "Deep Opacity Maps", 2008): within a slice it grows evenly.
+// Order-Independent Transparency", 2013. The weight of a strand is what the strands before it let through, by
+// the cover of slices behind the nearest strand (C. Yuksel and J. Keyser, "Deep Opacity Maps", 2008): within
+// a slice it grows evenly.
 
 struct StrandLayer {
     @location(0) weighted: vec4f,
-    // Multiplied: the share that all strands together leave clear.
+    // Multiplied by blending: the share that all strands together leave clear.
     @location(1) cover: vec4f,
 }
 
-// Half floats hold sums of weights from the nearest strands to those behind as many as this.
+// Weights get no smaller behind this many layers of hair, so that f16 holds their sums.
 const DEEPEST: f32 = 12.0;
 const SCALE: f32 = 64.0;
 

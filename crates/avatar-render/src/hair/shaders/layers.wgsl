@@ -1,5 +1,5 @@
-// Where strands lie in each pixel: how much all of them cover (r), how near they are on average (g / r), and how near
-// the nearest is (a), as hair_shadow.wgsl has it for the key.
+// Where strands lie in each pixel: how much all of them cover (r), how near they are on average (g / r), and
+// how near the nearest is (a), as hair_shadow.wgsl has it for the key.
 
 struct LayersOut {
     @builtin(position) position_clip: vec4f,

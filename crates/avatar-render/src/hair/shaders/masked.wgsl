@@ -5,9 +5,9 @@ struct StrandPixel {
     @builtin(sample_mask) samples: u32,
 }
 
-// A strand thinner than the least is as wide as that and covers fewer samples: it fades, and flickers less. Which
-// samples is the strand's own choice: with one pattern for all, strands would lie under one another without ever
-// closing the hair. E. Enderton et al., "Stochastic Transparency", 2010.
+// A strand that is thinner than the least width is drawn that wide and covers fewer samples: it fades, and
+// flickers less. Each strand chooses its samples by its random number: with one pattern for all, strands
+// would hide each other and never fill a pixel. E. Enderton et al., "Stochastic Transparency", 2010.
 @fragment
 fn strand_masked_main(in: StrandOut) -> StrandPixel {
     let least = hair_view.least_pixels;

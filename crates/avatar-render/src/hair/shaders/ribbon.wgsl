@@ -1,12 +1,13 @@
-// Strands as ribbons, for all passes that draw them: which of them, where their points are, how wide they are.
+// Strands as ribbons, for all passes that draw them: which of them, where their points are, how wide they
+// are.
 
-// What of the hair one pass of one view draws.
+// Which strands a pass draws.
 struct HairView {
-    // Where the strands end, not rounded.
+    // Number of strands, not rounded.
     strands: f32,
-    // Number of strands that fade before the end.
+    // How many of the last strands fade.
     fading: f32,
-    // Widths by those that the model has for all its strands.
+    // Factor on the widths that strands have if all are drawn.
     width: f32,
     // Width in pixels below which a strand fades instead of getting thinner.
     least_pixels: f32,
@@ -76,12 +77,12 @@ struct RibbonCorner {
     off: f32,
 }
 
-// Where pixels have several samples, strands fade below this share of the least width: those are nearer to one another.
-// Wider ones would be calmer, and more like noise in a still picture.
+// With several samples per pixel, strands fade below this share of the least width, because samples are
+// nearer to one another than pixels. Wider strands would flicker less, and look noisier in a still picture.
 const LEAST_OF_SAMPLES: f32 = 0.35;
 
-// A corner of the ribbon that is drawn for a strand. Where pixels have one sample, it reaches over all pixels that the
-// strand touches; where they have several, it is wide enough to meet one.
+// A corner of the ribbon that is drawn for a strand. Where pixels have one sample, it reaches over all pixels
+// that the strand touches; where they have several, it is wide enough to meet one.
 fn ribbon_corner(point: StrandPoint, corner: u32) -> RibbonCorner {
     let middle = frame.clip_from_world * vec4f(point.position, 1.0);
     let per_pixel = max(middle.w, 1e-6) / frame.pixels_per_unit;

@@ -1,9 +1,9 @@
-// What of the key's light strands keep off: see hair_shadow.wgsl, which reads it.
+// Draws how much of the key's light strands block; hair_shadow.wgsl reads it.
 
 struct ShadowStrandOut {
     @builtin(position) position_clip: vec4f,
-    // Share of a texel that the strand covers; nothing where something else shades the strand: what lies behind the
-    // head must not count for what lies before it.
+    // The share of a texel that the strand covers; 0 where something else shades the strand, so that hair
+    // behind the head does not count for what lies in front of it.
     @location(0) cover: f32,
 }
 
@@ -13,7 +13,7 @@ fn hair_shadow_main(
     @builtin(instance_index) strand: u32,
 ) -> ShadowStrandOut {
     let point = strand_point(strand, corner, region_of(strand));
-    // Thinner than two texels, strands are that wide and cover less: the map holds no steps then.
+    // Strands thinner than two texels are drawn that wide and cover less: otherwise the map would have steps.
     let texels = 2.0 * point.radius / hair_map_texel();
     let drawn = max(texels, 2.0);
     let side = strand_side(point.tangent, frame.lamps[KEY_LAMP].direction_world) * corner_sign(corner);
@@ -28,6 +28,6 @@ fn hair_shadow_main(
 @fragment
 fn hair_shadow_fragment_main(in: ShadowStrandOut) -> @location(0) vec4f {
     let depth = in.position_clip.z;
-    // Of the last, the largest is kept.
+    // Blending keeps the largest alpha.
     return vec4f(in.cover, in.cover * depth, 0.0, select(0.0, 1.0 - depth, in.cover > 0.0));
 }

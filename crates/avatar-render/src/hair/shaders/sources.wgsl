@@ -8,7 +8,7 @@ struct HairPose {
 
 @group(0) @binding(0) var<uniform> hair: Hair;
 @group(0) @binding(1) var roots: texture_2d<u32>;
-// Of the strands that others follow, what growth writes.
+// The points of guides, the strands that others follow, as they have grown.
 @group(0) @binding(4) var guides: texture_2d<f32>;
 // Per vertex its position and its normal.
 @group(2) @binding(0) var deformed: texture_2d<f32>;

@@ -1,16 +1,18 @@
-// Moves guides: each point hangs on a spring from where it would grow without motion. A point's way between two frames is
-// straight; ticks are the same ones for every frame rate.
+// Moves guides: each point hangs on a spring from where it would grow without motion. A point's way between
+// two frames is straight; ticks are the same ones for every frame rate.
 
 struct Swing {
     ticks: u32,
-    // Where the first tick ends between the last frame (0) and this one (1), and how much later each next one does.
+    // When the first tick ends, between the last frame (0) and this one (1), and the time from one tick to
+    // the next.
     first: f32,
     step: f32,
     // Seconds from the last tick to the frame, and of a tick.
     rest: f32,
     tick: f32,
     is_still: u32,
-    // Per point of a strand: what of place and speed the next place is (xy), and the next speed (zw).
+    // Per point of a strand: the factors of offset and speed in the next offset (xy), and in the next speed
+    // (zw).
     oscillators: array<vec4f, SEGMENTS + 1u>,
 }
 
@@ -41,7 +43,7 @@ fn swing_main(@builtin(global_invocation_id) id: vec3u) {
     for (var i = 0u; i <= SEGMENTS; i++) {
         let grown = guides[first + i].xyz;
         var mote = motes[first + i];
-        // A pose that was no number must not stay for good.
+        // A pose that was NaN must not spoil later frames.
         if swing.is_still != 0u || !(dot(mote.position, mote.position) < 1e30) {
             mote = Mote(grown, vec3f(0.0), grown, grown);
         }
@@ -58,7 +60,7 @@ fn swing_main(@builtin(global_invocation_id) id: vec3u) {
         let carried = (grown - mote.held_at_frame) * (swing.step / swing.tick);
         mote.held_at_frame = grown;
         motes[first + i] = mote;
-        // Since the last tick it has moved on; and a strand does not get longer.
+        // Extrapolated from the last tick; a strand does not get longer.
         let y = mote.position - mote.held + (mote.velocity - carried) * swing.rest;
         let way = grown + y - before;
         let moved = before + way * (distance(grown, grown_before) / max(length(way), 1e-9));

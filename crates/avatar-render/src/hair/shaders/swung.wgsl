@@ -5,13 +5,13 @@
 
 fn swung(grid: FieldGrid, placed: vec3f, offset: vec3f, grown_shares: vec2f, least_grown: f32) -> vec3f {
     var at = placed + offset;
-    // What moves fast over a turning neck keeps a little further away.
+    // Strands that moved far keep a little more distance from the skin, because a neck may turn below them.
     let far = length(offset);
     let least = least_grown + min(far, hair.margin);
-    // What hangs still stays where it has grown.
+    // Strands that hang still stay where they have grown.
     let firmness = saturate(4.0 * far / hair.margin);
     var shares = grown_shares;
-    // Far inside, the nearest way out is not known well: once more from there.
+    // Deep inside, the direction outward is inexact: repeat from the new place.
     for (var i = 0; i < 3; i++) {
         let near = field_at(grid, at + moved(pose.others[0], at) * shares.x + moved(pose.others[1], at) * shares.y);
         shares = near.shares;

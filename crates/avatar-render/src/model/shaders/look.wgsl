@@ -4,8 +4,8 @@ struct Iris {
     // The sphere that the cornea is a part of, at bind pose.
     cornea_center: vec3f,
     cornea_radius: f32,
-    // How the ball is painted around its axis: the middle, directions in the texture for x and y, and the distance in the
-    // texture over the root of the distance at bind pose, up to a reach.
+    // How the ball is painted around its axis: the middle, directions in the texture for x and y, and the
+    // distance in the texture over the root of the distance at bind pose, up to a reach.
     uv_center: vec2f,
     uv_from_x: vec2f,
     uv_from_y: vec2f,
@@ -13,7 +13,7 @@ struct Iris {
     // Where the plane of the iris lies at bind pose.
     plane_z: f32,
     profile: array<vec4f, PROFILE_ROWS>,
-    // 0 where there is no iris to refract.
+    // 0 if there is no iris to refract.
     radius: f32,
     refractive_index: f32,
     pupil: f32,

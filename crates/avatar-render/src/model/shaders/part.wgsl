@@ -4,7 +4,7 @@ struct Part {
     vertex_count: u32,
     // The number of the weight that the first shape follows.
     first_weight: u32,
-    // Rows of the table: shapes beyond move nothing of this part.
+    // Rows of the table; later shapes move nothing of this part.
     shape_count: u32,
     // The bone of a part that is rigid; not read where vertices have bones of their own.
     rigid_bone: u32,
@@ -36,7 +36,8 @@ struct ShapeOffset {
 @group(2) @binding(0) var<uniform> part: Part;
 @group(2) @binding(1) var<storage, read> vertices: array<Vertex>;
 @group(2) @binding(2) var<storage, read> vertex_bones: array<VertexBones>;
-// Shape by shape, so that shapes at rest are never touched; in each one place per block of SHAPE_BLOCK vertices: which block of
-// `shape_offsets`, or RESTING_BLOCK where the shape moves nothing.
+// A table with a row for each shape, so that shapes at rest are never read. A row has one entry per block of
+// SHAPE_BLOCK vertices: the number of a block in `shape_offsets`, or RESTING_BLOCK if the shape moves nothing
+// there.
 @group(2) @binding(3) var<storage, read> shape_blocks: array<u32>;
 @group(2) @binding(4) var<storage, read> shape_offsets: array<ShapeOffset>;

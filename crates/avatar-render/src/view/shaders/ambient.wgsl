@@ -1,7 +1,7 @@
 // Light from the environment.
 
-// Diffuse light from spherical harmonics: R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance
-// Environment Maps", 2001. The constants of the basis are folded into the coefficients.
+// Diffuse light from spherical harmonics: R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for
+// Irradiance Environment Maps", 2001. The constants of the basis are folded into the coefficients.
 fn irradiance_at(n: vec3f) -> vec3f {
     let c = frame.irradiance;
     return max(
@@ -11,8 +11,8 @@ fn irradiance_at(n: vec3f) -> vec3f {
         vec3f(0.0));
 }
 
-// The environment as a mirror of this roughness shows it. Without its blurred copies the diffuse light in that
-// direction takes their place, which is what the roughest copy is.
+// The reflection of the environment by a surface of this roughness. Without REFLECTIONS, the diffuse light
+// from that direction takes its place, which is what the roughest reflection shows.
 fn reflection_at(direction: vec3f, roughness: f32) -> vec3f {
     if REFLECTIONS {
         return textureSampleLevel(reflections, clamp_sampler, direction, roughness * frame.reflection_levels).rgb;
@@ -20,7 +20,8 @@ fn reflection_at(direction: vec3f, roughness: f32) -> vec3f {
     return irradiance_at(direction);
 }
 
-// Share of the light from everywhere that is reflected: B. Karis, "Real Shading in Unreal Engine 4", 2013.
+// The share of light from all directions that is reflected: B. Karis, "Real Shading in Unreal Engine 4",
+// 2013.
 fn directional_albedo(reflectance: f32, roughness: f32, n_dot_v: f32) -> f32 {
     if REFLECTIONS {
         let split_sum = textureSampleLevel(split_sum_table, clamp_sampler, vec2f(n_dot_v, roughness), 0.0).xy;
@@ -30,14 +31,14 @@ fn directional_albedo(reflectance: f32, roughness: f32, n_dot_v: f32) -> f32 {
     return saturate(reflectance * split_sum.x + split_sum.y);
 }
 
-// What of the reflections is hidden where part of the ambient light is: S. Lagarde and C. de Rousiers, "Moving
-// Frostbite to Physically Based Rendering", 2014.
+// The share of reflections that is left where ambient light is occluded: S. Lagarde and C. de Rousiers,
+// "Moving Frostbite to Physically Based Rendering", 2014.
 fn specular_occlusion(n_dot_v: f32, occlusion: f32, roughness: f32) -> f32 {
     return saturate(pow(n_dot_v + occlusion, exp2(-16.0 * roughness - 1.0)) - 1.0 + occlusion);
 }
 
-// Light that bounces in a hollow takes on its colour: J. Jimenez et al., "Practical Real-Time Strategies for Accurate
-// Indirect Occlusion", 2016.
+// Light that bounces in a hollow takes on its colour: J. Jimenez et al., "Practical Real-Time Strategies for
+// Accurate Indirect Occlusion", 2016.
 fn colored_occlusion(occlusion: f32, albedo: vec3f) -> vec3f {
     let a = 2.0404 * albedo - 0.3324;
     let b = -4.7951 * albedo + 0.6417;

@@ -1,5 +1,5 @@
-// How surfaces reflect, times pi because lamps are measured by what a white surface reflects. The twins on the CPU are
-// avatar_look::optics.
+// How surfaces reflect. Everything is multiplied by pi, because a lamp of radiance 1 lights a white matte
+// surface to 1. The twins on the CPU are avatar_look::optics.
 
 // Below this the peak of GGX is narrower than f32 resolves near its middle.
 const MIN_ROUGHNESS: f32 = 0.045;
@@ -11,8 +11,8 @@ fn ggx_distribution_pi(n_dot_h: f32, alpha: f32) -> f32 {
     return alpha2 / (f * f);
 }
 
-// Height-correlated Smith masking over 4 NoL NoV, with Hammon's approximation: E. Hammon, "PBR Diffuse Lighting for
-// GGX+Smith Microsurfaces", 2017. The epsilon keeps the grazing silhouette finite.
+// Height-correlated Smith masking over 4 NoL NoV, with Hammon's approximation: E. Hammon, "PBR Diffuse
+// Lighting for GGX+Smith Microsurfaces", 2017. The epsilon keeps the grazing silhouette finite.
 fn smith_visibility(n_dot_v: f32, n_dot_l: f32, alpha: f32) -> f32 {
     return 0.5 / max(mix(2.0 * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha), 1e-4);
 }
@@ -24,7 +24,7 @@ fn schlick_fresnel(reflectance: f32, cosine: f32) -> f32 {
     return reflectance + (1.0 - reflectance) * f2 * f2 * f;
 }
 
-// One lobe: what a lamp of radiance 1 is reflected as.
+// The light of a lamp of radiance 1 that one lobe reflects.
 fn specular_lobe(normal: vec3f, view: vec3f, direction: vec3f, reflectance: f32, alpha: f32) -> f32 {
     let n_dot_l = dot(normal, direction);
     if n_dot_l <= 0.0 {
@@ -44,8 +44,8 @@ fn wrapped_diffuse(n_dot_l: f32, wrap: vec3f) -> vec3f {
     return max((vec3f(n_dot_l) + wrap) / (reach * reach), vec3f(0.0));
 }
 
-// Scale and bias of the reflectance over all directions of light, B. Karis, "Physically Based Shading on Mobile",
-// 2014: a fit of the split sum.
+// Scale and bias of the reflectance over all directions of light, B. Karis, "Physically Based Shading on
+// Mobile", 2014: a fit of the split sum.
 fn split_sum_fit(roughness: f32, n_dot_v: f32) -> vec2f {
     let r = roughness * vec4f(-1.0, -0.0275, -0.572, 0.022) + vec4f(1.0, 0.0425, 1.04, -0.04);
     let a004 = min(r.x * r.x, exp2(-9.28 * n_dot_v)) * r.x + r.y;

@@ -29,7 +29,7 @@ struct Frame {
     pixels: vec2f,
     // Pixels that a unit of the world covers at distance 1.
     pixels_per_unit: f32,
-    // How far away things darken one another, in the world.
+    // Reach of ambient occlusion, in the world.
     occlusion_radius: f32,
     // How far the edges of shadows are softened, in the world.
     shadow_softness: f32,
@@ -37,10 +37,10 @@ struct Frame {
     reflection_levels: f32,
     // 1 where hair casts shadows, else 0.
     hair_shadow: f32,
-    // Hair is nearer than this, and 1 / (the depth of the space that it fills).
+    // Hair lies nearer than `hair_far`; the next is 1 / (the depth of the space that it fills).
     hair_far: f32,
     hair_per_depth: f32,
-    // Light under the skin is kept between passes times this.
+    // Light under the skin is stored between passes multiplied by this.
     pre_exposure: f32,
 }
 

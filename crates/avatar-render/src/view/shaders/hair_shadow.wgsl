@@ -1,12 +1,13 @@
-// Shadows of hair in the key's light, without noise: C. Yuksel and J. Keyser, "Deep Opacity Maps", 2008. A map holds how
-// much all strands cover (r), the depth of the nearest one (1 - a) and their mean depth (g / r). Instead of his layers,
-// which need a pass for the nearest depth alone, cover grows evenly from the nearest strand to as far behind the mean.
+// Shadows of hair in the key's light, without noise: C. Yuksel and J. Keyser, "Deep Opacity Maps", 2008. A
+// map holds how much all strands cover (r), the depth of the nearest one (1 - a) and their mean depth (g /
+// r). The layers of the paper need a pass for the nearest depth; instead, cover grows evenly from the nearest
+// strand to as far behind the mean.
 
-// How much of the light is kept off by hair that covers everything once.
+// Optical depth of hair that covers everything once.
 const HAIR_BLOCKS: f32 = 1.0;
 // Hair reaches beyond the box around the skin.
 const HAIR_FIT: f32 = 0.8;
-// Of the depth of the map: what lies this near to the first strand is not behind it.
+// A point that is this near behind the first strand, as a share of the map's depth, is not behind it.
 const HAIR_BIAS: f32 = 0.002;
 
 // −1…1 across and up, 0…1 away from the lamp.
@@ -20,7 +21,8 @@ fn hair_map_texel() -> f32 {
     return frame.shadow_texel[0] * SHADOW_SIZE / (HAIR_FIT * HAIR_MAP_SIZE);
 }
 
-// Share of the key's light that hair lets through to a point, over the nearest texels, `reach` more to each side.
+// The share of the key's light that hair lets through to a point, filtered over the nearest texels and
+// `reach` more on each side.
 fn hair_visibility(position: vec3f, blocks: f32, reach: i32) -> f32 {
     let place = hair_map_place(position);
     let at = vec2f(place.x * 0.5 + 0.5, 0.5 - place.y * 0.5) * HAIR_MAP_SIZE - 0.5;

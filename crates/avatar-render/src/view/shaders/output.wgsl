@@ -19,8 +19,8 @@ fn neutral(light: vec3f) -> vec3f {
     return mix(compressed, vec3f(new_peak), g);
 }
 
-// AgX: T. Sobotka, 2022; the curve in closed form. Light is mixed a little between channels, measured in stops, bent into
-// an S, and mixed back, so that bright colours turn pale instead of changing their hue.
+// AgX: T. Sobotka, 2022; the curve in closed form. Light is mixed a little between channels, measured in
+// stops, bent into an S, and mixed back, so that bright colours turn pale instead of changing their hue.
 fn agx_curve(v: vec3f) -> vec3f {
     let pivot = vec3f(0.6060606060606061);
     let above = v > pivot;

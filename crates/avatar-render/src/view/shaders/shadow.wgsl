@@ -1,5 +1,5 @@
-// Shadows of the key (0) and rim (1) lamps from depth maps: L. Williams, "Casting Curved Shadows on Curved Surfaces",
-// 1978, softened by W. Reeves et al., "Rendering Antialiased Shadows with Depth Maps", 1987.
+// Shadows of the key (0) and rim (1) lamps from depth maps: L. Williams, "Casting Curved Shadows on Curved
+// Surfaces", 1978, softened by W. Reeves et al., "Rendering Antialiased Shadows with Depth Maps", 1987.
 
 // Shadow of each lamp; the fill casts none.
 const NO_SHADOW: i32 = -1;
@@ -11,25 +11,26 @@ fn shadow_of(lamp: u32) -> i32 {
     return select(NO_SHADOW, 1, lamp == RIM_LAMP && SHADOW_COUNT_USED > 1);
 }
 
-// A way inside that no light comes through, in the world.
+// A thickness that no light passes, in the world.
 const FAR_INSIDE: f32 = 1e6;
 
-// Where a point lies in a shadow map: texture coordinates and depth. The point is lifted off its surface by what one
-// texel may hide: D. Holbert, "Saying Goodbye to Shadow Acne", 2011.
+// Where a point lies in a shadow map: texture coordinates and depth. The point is lifted off its surface by
+// what one texel may hide: D. Holbert, "Saying Goodbye to Shadow Acne", 2011.
 fn shadow_place(layer: i32, position: vec3f, normal: vec3f) -> vec3f {
     let lifted = position + normal * frame.shadow_texel[layer] * 1.5;
     let p = (frame.shadow_from_world[layer] * vec4f(lifted, 1.0)).xyz;
     return vec3f(p.x * 0.5 + 0.5, 0.5 - p.y * 0.5, p.z);
 }
 
-// What looks small beside a nearer avatar may lie outside of the map: nothing is known of its shadows.
+// An avatar that looks small beside a nearer one may lie outside of the map: nothing casts shadows there.
 fn is_beyond_map(place: vec3f) -> bool {
     return any(place != saturate(place));
 }
 
-// How the depth of a surface changes across the map, per width and height of the map: samples follow its tilt, lest it
-// shadow itself. J. Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", 2006. Where a lamp grazes there is no end to
-// it; what is missing there, the surface's own shade hides.
+// How the depth of a surface changes across the map, per width and height of the map: samples follow the tilt
+// of a surface so that it does not shadow itself. J. Isidoro, "Shadow Mapping: GPU-based Tips and
+// Techniques", 2006. Where a lamp grazes the surface the slope has no limit, and is cut; the surface's own
+// shade hides the error.
 fn depth_slope(layer: i32, normal: vec3f) -> vec2f {
     let width = frame.shadow_texel[layer] * SHADOW_SIZE;
     let depth = frame.shadow_depth[layer];
@@ -39,7 +40,7 @@ fn depth_slope(layer: i32, normal: vec3f) -> vec2f {
     return vec2f(n.x, -n.y) * width / (depth * max(n.z, 0.2));
 }
 
-// Share of the lamp that is seen past everything.
+// The share of a lamp's light that nothing blocks.
 fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     let seen = cast_visibility(lamp, position, normal);
     if SHADOW_REACH < 0 || lamp != KEY_LAMP || frame.hair_shadow <= 0.0 {
@@ -48,8 +49,8 @@ fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     return seen * hair_visibility(position, HAIR_BLOCKS, min(SHADOW_REACH, 1));
 }
 
-// Share of the lamp that is seen past everything but hair, over a square of samples with Gaussian weights. The pattern is its own mirror image,
-// so that a mirrored face under mirrored light is a mirrored picture.
+// The share of a lamp's light that nothing but hair blocks, over a square of samples with Gaussian weights.
+// The pattern is its own mirror image, so that a mirrored face under mirrored light is a mirrored picture.
 fn cast_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     let layer = shadow_of(lamp);
     if SHADOW_REACH < 0 || layer == NO_SHADOW {
@@ -81,14 +82,16 @@ fn cast_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     return seen / total;
 }
 
-// How far the lamp's light has travelled inside before it reaches this point from behind: the depth of the point below
-// the first surface that the lamp sees. J. Jimenez et al., "Real-Time Realistic Skin Translucency", 2010.
+// How far the lamp's light has travelled inside before it reaches this point from behind: the depth of the
+// point below the first surface that the lamp sees. J. Jimenez et al., "Real-Time Realistic Skin
+// Translucency", 2010.
 fn thickness_toward(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     let layer = shadow_of(lamp);
     if SHADOW_REACH < 0 || layer == NO_SHADOW {
         return 0.0;
     }
-    // Sunk instead of lifted: at a silhouette the neighbour's depth would pass for a hole.
+    // The point is moved inward instead of outward: at a silhouette, the depth of a neighbour would look like
+    // a hole.
     let place = shadow_place(layer, position - normal * frame.shadow_texel[layer] * 3.0, normal);
     if is_beyond_map(place) {
         return FAR_INSIDE;

@@ -1,4 +1,4 @@
-// Group 1, for everything that is lit: what the lamps see.
+// Group 1 of all lit programs: what lamps see.
 
 @group(1) @binding(0) var shadow_map: texture_depth_2d_array;
 @group(1) @binding(1) var shadow_sampler: sampler_comparison;

@@ -1,5 +1,5 @@
-// The cornea: almost clear, blended over the eyeball. Its body is weighted by its opacity, its reflections are
-// not: a highlight stays as bright as the lamp makes it, and covers what lies behind by as much.
+// The cornea: almost clear, blended over the eyeball. Its body is weighted by its opacity, its reflections
+// are not: a highlight stays as bright as the lamp makes it, and covers what lies behind by as much.
 
 @fragment
 fn cornea_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {

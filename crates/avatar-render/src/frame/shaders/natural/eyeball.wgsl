@@ -1,4 +1,5 @@
-// The eyeball: iris and pupil seen through the cornea, a dark ring around them, a wet white that lids and brow shade.
+// The eyeball: iris and pupil seen through the cornea, a dark ring around them, a wet white that lids and
+// brow shade.
 
 @fragment
 fn eyeball_main(in: EyeOut, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {

@@ -5,7 +5,8 @@ fn skin_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @location(
     var surface = surface_at(in, in.uv, is_front);
     surface.occlusion = min(surface.occlusion, view_occlusion(in.position_clip));
     if SCATTERING == SEPARABLE {
-        // Earlier passes have lit the skin and spread the light sideways; what is left is to spread it upward.
+        // Earlier passes have lit the skin and spread the light sideways; what is left is to spread it
+        // upward.
         let arrived = scattered_along(vec2i(0, 1), in.position_clip) / frame.pre_exposure;
         let diffuse = arrived * below_lobes(surface);
         return target_color(surface.color * diffuse + reflected_light(surface), 1.0);

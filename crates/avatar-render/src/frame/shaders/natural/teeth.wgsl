@@ -1,9 +1,10 @@
 // Teeth, gums and tongue: translucent, wet, and darker toward the back of the mouth.
 
-// Ambient light in the mouth, by that before it: lips, gums and tongue throw it back, red most (the light between walls of a
-// colour, J. Jimenez et al., 2016, as in colored_occlusion; teeth themselves are too pale to tell).
+// Ambient light in the mouth as a share of that before it: lips, gums and tongue reflect it, red most (the
+// light between walls of a colour, J. Jimenez et al., 2016, as in colored_occlusion; teeth themselves are too
+// pale to tell).
 const MOUTH_LIGHT: vec3f = vec3f(1.0, 0.45, 0.28);
-// The share of what a tooth faces that is open to the front, at most: above and below it are lips.
+// The largest share of a tooth's surroundings that is open to the front; above and below it are lips.
 const OPEN: f32 = 0.5;
 
 @fragment

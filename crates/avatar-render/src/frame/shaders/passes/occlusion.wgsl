@@ -1,10 +1,10 @@
-// How much ambient light the neighbourhood hides, from depth and normals: lids over eyes, lips over teeth, the chin over
-// the neck. L. Bavoil and M. Sainz, "Multi-Layer Dual-Resolution Screen-Space Ambient Occlusion", 2009, without noise:
-// the pattern is its own mirror image.
+// How much ambient light the neighbourhood hides, from depth and normals: lids over eyes, lips over teeth,
+// the chin over the neck. L. Bavoil and M. Sainz, "Multi-Layer Dual-Resolution Screen-Space Ambient
+// Occlusion", 2009, without noise: the pattern is its own mirror image.
 
 const DIRECTIONS: i32 = 8;
 const STEPS: i32 = 4;
-// Lower angles are the surface's own curve.
+// Lower angles come from the curvature of the surface itself.
 const LOWEST_SINE: f32 = 0.18;
 const STRENGTH: f32 = 1.1;
 
@@ -19,7 +19,7 @@ fn position_at(pixel: vec2i) -> vec3f {
     let clip = vec2f(2.0, -2.0) * (vec2f(pixel) + 0.5) / frame.pixels + vec2f(-1.0, 1.0);
     let near = frame.world_from_clip * vec4f(clip, 1.0, 1.0);
     let on_near = near.xyz / near.w;
-    // Points of one line of sight lie as far as their depths say.
+    // Along one line of sight, the distance from the eye is proportional to 1 / depth.
     return frame.eye_world + (on_near - frame.eye_world) / max(depth, 1e-7);
 }
 

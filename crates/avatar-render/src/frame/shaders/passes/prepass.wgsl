@@ -1,4 +1,5 @@
-// Depth and normals of everything opaque, one sample a pixel: for ambient occlusion and for light under the skin.
+// Depth and normals of everything opaque, one sample a pixel: for ambient occlusion and for light under the
+// skin.
 
 @fragment
 fn prepass_main(in: VertexOut, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {

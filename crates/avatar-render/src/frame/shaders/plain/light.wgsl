@@ -1,5 +1,5 @@
-// Plain light: three lamps without shadows, wrapped diffuse, one lobe, ambient light from above and below. The baseline
-// that everything else is measured against.
+// Plain light: three lamps without shadows, wrapped diffuse, one lobe, ambient light from above and below.
+// The baseline that everything else is measured against.
 
 struct Lit {
     diffuse: vec3f,
@@ -11,8 +11,9 @@ fn hemisphere(direction: vec3f) -> vec3f {
     return mix(frame.ground, frame.sky, 0.5 + 0.5 * direction.y);
 }
 
-// Where little ambient light arrives, lamps are hidden as well: D. Chan, "Material Advances in Call of Duty: WWII", 2018.
-// Twice his aperture: baked occlusion tells of folds and hollows, not only of his pores, and would stain lit skin.
+// Where little ambient light arrives, lamps are hidden as well: D. Chan, "Material Advances in Call of Duty:
+// WWII", 2018. The aperture is twice that of the paper: baked occlusion holds folds and hollows, not only
+// pores, and would stain lit skin.
 fn micro_shadow(occlusion: f32, n_dot_l: f32) -> f32 {
     return saturate(max(n_dot_l, 0.0) + 4.0 * occlusion * occlusion - 1.0);
 }

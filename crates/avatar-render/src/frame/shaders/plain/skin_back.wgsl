@@ -1,5 +1,5 @@
-// The inner side of the skin, seen through the rim of the neck or behind a lid: a hollow that lamps do not reach.
-// Some ambient light is enough, and keeps hidden insides cheap where hidden pixels are shaded all the same.
+// The inner side of the skin, seen through the rim of the neck or behind a lid: a hollow that lamps do not
+// reach. A little ambient light is enough, and cheap on adapters that shade hidden pixels as well.
 
 const HOLLOW: f32 = 0.4;
 

@@ -43,7 +43,8 @@ struct IrisView {
     radius: f32,
 }
 
-// The painted pupil, stretched or shrunk to its size of now; the edge of the iris stays.
+// The distance in the painted iris at which a point of the iris lies, for the present size of the pupil; the
+// edge of the iris stays.
 fn painted_radius(radius: f32) -> f32 {
     let iris = material.iris;
     if radius < iris.pupil {
@@ -68,9 +69,9 @@ fn iris_uv(from_axis: vec2f) -> vec2f {
     return iris.uv_center + (iris.uv_from_x * direction.x + iris.uv_from_y * direction.y) * painted;
 }
 
-// Where the line of sight meets the iris: in through the cornea's sphere, bent by Snell's law, on to the plane of the
-// iris. J. Jimenez, "Next-Generation Character Rendering", 2013; G. François et al., "Image-based modeling of the human
-// eye", 2009.
+// Where the line of sight meets the iris: in through the cornea's sphere, bent by Snell's law, on to the
+// plane of the iris. J. Jimenez, "Next-Generation Character Rendering", 2013; G. François et al.,
+// "Image-based modeling of the human eye", 2009.
 fn iris_view(in: EyeOut) -> IrisView {
     let iris = material.iris;
     let center = iris.cornea_center.xy;

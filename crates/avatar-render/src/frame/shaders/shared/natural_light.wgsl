@@ -1,13 +1,13 @@
-// Light on a surface: the environment, and three lamps with shadows. A part says with `diffuse_of` how it scatters, and
-// with `shadow_point` where a lamp must be seen from to light it.
+// Light on a surface: the environment, and three lamps with shadows. Each kind of part defines `diffuse_of`,
+// which says how it scatters, and `shadow_point`, the point from which a lamp must be seen.
 
 struct Lit {
     diffuse: vec3f,
     specular: vec3f,
 }
 
-// One or two lobes. Two follow measurements of skin: T. Weyrich et al., "Analysis of Human Faces Using a Measurement-
-// Based Skin Reflectance Model", 2006.
+// One or two lobes. Two follow measurements of skin: T. Weyrich et al., "Analysis of Human Faces Using a
+// Measurement- Based Skin Reflectance Model", 2006.
 fn lamp_specular(surface: Surface, direction: vec3f) -> f32 {
     let broad =
         specular_lobe(surface.normal, surface.view, direction, material.reflectance, surface.alpha);
@@ -20,7 +20,7 @@ fn lamp_specular(surface: Surface, direction: vec3f) -> f32 {
     return broad;
 }
 
-// Share of the light from everywhere that the lobes reflect.
+// The share of light from all directions that the lobes reflect.
 fn lobes_albedo(roughness: f32, n_dot_v: f32) -> f32 {
     let broad = directional_albedo(material.reflectance, roughness, n_dot_v);
     if SHARP_LOBE && material.sharp_share > 0.0 {
@@ -61,7 +61,7 @@ fn arriving_light(surface: Surface) -> Lit {
     return lit;
 }
 
-// What is reflected does not enter, and as much is held back on the way out.
+// The share of light that gets below the lobes.
 fn below_lobes(surface: Surface) -> f32 {
     let n_dot_v = clamp(dot(surface.normal, surface.view), 1e-3, 1.0);
     return 1.0 - lobes_albedo(sqrt(surface.alpha), n_dot_v);

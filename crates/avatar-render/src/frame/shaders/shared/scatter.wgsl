@@ -1,12 +1,13 @@
-// Light that spreads below the skin, in the picture: J. Jimenez et al., "Separable Subsurface Scattering", 2015. Each of
-// the two passes blurs along one axis of the picture with a sum of two Gaussians per channel, a wide and a narrow one,
-// as wide as the material says at the distance of the pixel.
+// Light that spreads below the skin, in the picture: J. Jimenez et al., "Separable Subsurface Scattering",
+// 2015. Each of the two passes blurs along one axis of the picture with a sum of two Gaussians per channel, a
+// wide and a narrow one, as wide as the material says at the distance of the pixel.
 
 // Samples on each side of a pixel.
 const SCATTER_REACH: i32 = 8;
 const PROFILE_UNIT: f32 = 4.0;
 
-// The pixel whose light stands for this one: at an edge of the skin the middle of a pixel may miss it.
+// The pixel whose light is used for this one: at an edge of the skin, the middle of the pixel itself may miss
+// the skin.
 fn skin_pixel(at: vec2i) -> vec2i {
     let size = vec2i(textureDimensions(skin_light));
     for (var i = 0; i < 9; i++) {
@@ -22,8 +23,9 @@ fn skin_pixel(at: vec2i) -> vec2i {
     return clamp(at, vec2i(0), size - 1);
 }
 
-// d: parameters of Burley's profile as fractions of the widest channel's; x in units of PROFILE_UNIT of them. Two
-// Gaussians, two thirds and one third of the light, whose variance is that of the profile along a line, 7 d².
+// d: parameters of Burley's profile as fractions of the widest channel's; x in units of PROFILE_UNIT of them.
+// Two Gaussians, two thirds and one third of the light, whose variance is that of the profile along a line, 7
+// d².
 fn profile(x: f32, d: vec3f) -> vec3f {
     let near = max(1.3 / PROFILE_UNIT * d, vec3f(0.02));
     let far = max(4.2 / PROFILE_UNIT * d, vec3f(0.06));

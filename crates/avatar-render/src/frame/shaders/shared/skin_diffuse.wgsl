@@ -1,7 +1,7 @@
 // How skin scatters light below its surface.
 
-// Light that leaves skin which curves as much as this, per channel: E. Penner, "Pre-Integrated Skin Shading", 2011.
-// Red light travels farthest, so that it sees the relief of the surface least.
+// Light that leaves skin which curves as much as this, per channel: E. Penner, "Pre-Integrated Skin Shading",
+// 2011. Red light travels farthest, so that it sees the relief of the surface least.
 fn pre_integrated(surface: Surface, direction: vec3f) -> vec3f {
     let smooth_n_dot_l = dot(surface.smooth_normal, direction);
     let n_dot_l = mix(vec3f(dot(surface.normal, direction)), vec3f(smooth_n_dot_l), vec3f(0.7, 0.4, 0.25));
@@ -13,8 +13,8 @@ fn pre_integrated(surface: Surface, direction: vec3f) -> vec3f {
         textureSampleLevel(scatter_table, clamp_sampler, vec2f(x.b, y.b), 0.0).r);
 }
 
-// The edge of a shadow, bled into by light from beside it: red reaches farthest. Penner tabulates this over the width
-// of the penumbra; a power per channel stands in for his table.
+// The edge of a shadow, bled into by light from beside it: red reaches farthest. Penner tabulates this over
+// the width of the penumbra; a power per channel stands in for his table.
 fn bled(visibility: f32) -> vec3f {
     return pow(vec3f(visibility), vec3f(0.55, 0.85, 1.0));
 }
@@ -24,10 +24,10 @@ fn transmittance(thickness: f32) -> vec3f {
     return exp(-vec3f(thickness) / max(material.scatter * PATH_PER_DISTANCE, vec3f(1e-6)));
 }
 
-// What thin parts let through from behind; the wrap is that of J. Jimenez et al., 2010. A slab of known thickness splits
-// light into what it reflects and what it lets through, so that both together are no more than arrived. Without a
-// texture only the shadow map tells how thick the part is, and only on its dark side: the lit side reflects all that its
-// colour leaves, and what comes through is at most what that colour takes.
+// What thin parts let through from behind; the wrap is that of J. Jimenez et al., 2010. A slab of known
+// thickness splits light into what it reflects and what it lets through, so that both together are no more
+// than arrived. Without a texture only the shadow map tells how thick the part is, and only on its dark side:
+// the lit side reflects all that its colour leaves, and what comes through is at most what that colour takes.
 fn with_transmission(surface: Surface, lamp: u32, reflected: vec3f) -> vec3f {
     let has_map = (material.textures & THICKNESS_TEXTURE) != 0u;
     let has_shadow = SHADOW_REACH >= 0 && shadow_of(lamp) != NO_SHADOW;
@@ -54,8 +54,8 @@ fn with_transmission(surface: Surface, lamp: u32, reflected: vec3f) -> vec3f {
     return reflected * (1.0 - split) + behind * share;
 }
 
-// Light that enters before the edge of a body's own shade leaves behind it. A shadow map hides that edge sharply: near it
-// the lamp is looked for from above the skin, as high as light travels below it.
+// Light that enters the skin before the edge of its own shade leaves behind the edge. A shadow map hides that
+// edge sharply: near it, the lamp is tested from above the skin, as high as light travels below it.
 fn shadow_point(surface: Surface, lamp: u32) -> vec3f {
     if SCATTERING != PRE_INTEGRATED {
         return surface.position;

@@ -1,4 +1,4 @@
-// What light needs to know about a visible point.
+// A visible point, as lighting needs it.
 
 struct Surface {
     position: vec3f,
@@ -13,8 +13,8 @@ struct Surface {
     thickness: f32, // through the part from behind, in the world; large where unknown
 }
 
-// The tangent frame from derivatives of position and uv: C. Schüler, "Followup: Normal Mapping Without Precomputed
-// Tangents", 2013. The uv's v grows downward while the map's green points up, hence the sign.
+// The tangent frame from derivatives of position and uv: C. Schüler, "Followup: Normal Mapping Without
+// Precomputed Tangents", 2013. The uv's v grows downward while the map's green points up, hence the sign.
 struct Tangents {
     tangent: vec3f,
     bitangent: vec3f,
@@ -37,8 +37,8 @@ fn tilted(tangents: Tangents, normal: vec3f, tilt: vec2f, height: f32) -> vec3f 
     return normalize(tangents.tangent * tilt.x + tangents.bitangent * tilt.y + normal * height);
 }
 
-// The relief of the pack's texture, and pores where the picture is near enough to show them: one repetition of the
-// tile must cover some pixels, otherwise it would only flicker.
+// The relief of the pack's texture, and pores where the picture is near enough to show them: one repetition
+// of the tile must cover some pixels, otherwise it would only flicker.
 fn relief_normal(position: vec3f, uv: vec2f, normal: vec3f) -> vec3f {
     let has_map = (material.textures & NORMAL_TEXTURE) != 0u;
     let has_pores = PORES && material.pore_strength > 0.0;

@@ -1,4 +1,4 @@
-// The vertex stage of every pass: vertices come deformed.
+// The vertex stage of passes that draw parts; vertices are deformed already.
 
 struct VertexIn {
     @location(0) bind_position_u: vec4f,
@@ -24,7 +24,7 @@ fn vertex_out(in: VertexIn) -> VertexOut {
     var out: VertexOut;
     out.position_clip = frame.clip_from_world * vec4f(in.position_world, 1.0);
     out.position_world = in.position_world;
-    // A mesh may have normals without length: they must not become holes.
+    // A mesh may have normals of length 0, which must not become holes.
     let has_normal = dot(in.normal_world, in.normal_world) > 0.0;
     out.normal_world = select(vec3f(0.0, 1.0, 0.0), in.normal_world, has_normal);
     out.uv = vec2f(in.bind_position_u.w, in.bind_normal_v.w);

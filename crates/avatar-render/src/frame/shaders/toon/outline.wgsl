@@ -1,6 +1,6 @@
-// Lines around everything: the back sides, pushed outward by a width in pixels. T. Saito and T. Takahashi drew lines
-// from depth ("Comprehensible Rendering of 3-D Shapes", 1990); pushing the hull needs no second picture: R. Raskar and M.
-// Cohen, "Image Precision Silhouette Edges", 1999.
+// Lines around everything: the back sides, pushed outward by a width in pixels. T. Saito and T. Takahashi
+// drew lines from depth ("Comprehensible Rendering of 3-D Shapes", 1990); pushing the hull needs no second
+// picture: R. Raskar and M. Cohen, "Image Precision Silhouette Edges", 1999.
 
 const LINE_PIXELS: f32 = 1.6;
 const LINE_COLOR: vec3f = vec3f(0.012, 0.008, 0.012);

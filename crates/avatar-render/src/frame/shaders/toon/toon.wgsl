@@ -1,5 +1,5 @@
-// Flat tones of light, as drawn: A. Lake et al., "Stylized Rendering Techniques for Scalable Real-Time 3D Animation",
-// 2000. Colours are those of the pack; lines come from the outline pass.
+// Flat tones of light, as drawn: A. Lake et al., "Stylized Rendering Techniques for Scalable Real-Time 3D
+// Animation", 2000. Colours are those of the pack; lines come from the outline pass.
 
 // A soft step, one pixel wide: tones without jagged edges.
 fn band(value: f32, edge: f32) -> f32 {
@@ -7,8 +7,9 @@ fn band(value: f32, edge: f32) -> f32 {
     return smoothstep(edge - width, edge + width, value);
 }
 
-// Share of a tone that a lamp's cast shadow leaves. The edge of a cast shadow is soft in the map: cut in its middle. Where
-// the lamp grazes, from the cosine `begin` on, the map is coarse, and the surface's own shade has begun already.
+// The share of a tone that a lamp's cast shadow leaves. Shadows in the map have soft edges, which are cut in
+// the middle. Where the lamp grazes the surface, below the cosine `begin`, the map is coarse, and the surface
+// is in its own shade already.
 fn unhidden(lamp: u32, surface: Surface, n_dot_l: f32, begin: f32) -> f32 {
     let seen = lamp_visibility(lamp, surface.position, surface.smooth_normal);
     return mix(1.0, smoothstep(0.4, 0.6, seen), smoothstep(begin, begin + 0.18, n_dot_l));
