@@ -2,7 +2,8 @@ use crate::pieces::Pieces;
 use glam::Vec2;
 use std::ops::Range;
 
-/// How dense hair grows over texture coordinates: 0 nowhere, 1 fully. The origin is the top left corner; it repeats.
+/// How dense hair grows over texture coordinates: 0 nowhere, 1 fully. The origin is the top left corner; it
+/// repeats.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DensityMap {
     width: u32,
@@ -68,13 +69,14 @@ impl DensityMap {
     pub(crate) fn pieces(&self, uvs: [Vec2; 3]) -> Option<Pieces> {
         match self.range_at(uvs)? {
             (_, 0) => None,
-            // What is even is cut for the sake of regions only, whose edges the map does not know.
+            // Even places are cut only because of the regions, whose edges the map does not show.
             (low, high) if low == high => Some(Pieces::of(uvs, self.size() / EVEN_VALUES)),
             _ => Some(Pieces::of(uvs, self.size())),
         }
     }
 
-    /// Between which values the map is for places on a triangle, if not between nearer ones; `None` where it is read nowhere.
+    /// Between which values the map is for places on a triangle, if not between nearer ones; `None` where it
+    /// is read nowhere.
     fn range_at(&self, uvs: [Vec2; 3]) -> Option<(u8, u8)> {
         let size = self.size();
         let (low, high) = (uvs[0].min(uvs[1]).min(uvs[2]) * size, uvs[0].max(uvs[1]).max(uvs[2]) * size);

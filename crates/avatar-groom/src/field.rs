@@ -7,14 +7,16 @@ use std::collections::BTreeMap;
 const CELLS: f32 = 64.0;
 /// Room around the skin, in cells.
 const ROOM: f32 = 4.0;
-/// How far around a triangle distances are exact, in cells; further away they are those to the neighbour's nearest point.
+/// How far around a triangle distances are exact, in cells; further away they are those to the neighbour's
+/// nearest point.
 const BAND: f32 = 2.0;
 
-/// How far every place around a skin is from it, at bind pose, on a grid: positive outside, negative inside; and which bones
-/// beside the head's move the skin there, so that hair lies on necks and jaws in every pose.
+/// How far every place around a skin is from it, at bind pose, on a grid: positive outside, negative inside;
+/// and which bones beside the head's move the skin there, so that hair lies on necks and jaws in every pose.
 ///
-/// Which side a place is on, the pseudonormal at the nearest point of the skin says, so that skins with openings (neck, eyes)
-/// are allowed: J. Bærentzen, H. Aanæs, "Signed Distance Computation Using the Angle Weighted Pseudonormal", 2005.
+/// Which side a place is on, the pseudonormal at the nearest point of the skin says, so that skins with
+/// openings (neck, eyes) are allowed: J. Bærentzen, H. Aanæs, "Signed Distance Computation Using the Angle
+/// Weighted Pseudonormal", 2005.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// The first corner of the grid.
@@ -23,7 +25,8 @@ pub struct Field {
     pub cell: f32,
     /// Values across, up, and to the front; at least 2 each.
     pub size: [u32; 3],
-    /// The distances, across first, then up: no more than [`Field::range`], and in steps of its 32,767th part.
+    /// The distances, across first, then up: no more than [`Field::range`], and in steps of its 32,767th
+    /// part.
     pub distances: Vec<f32>,
     /// The directions in which the distances grow, in 127ths; as many as distances.
     pub slopes: Vec<[i8; 3]>,
@@ -49,8 +52,8 @@ pub struct Near {
 
 /// The largest distance, in cells.
 const RANGE: f32 = 16.0;
-/// How often the distances are averaged with their neighbours: in creases (behind ears, at the nape) the direction away from
-/// the skin flips, and strands there would depend on the last bit of their roots.
+/// How often the distances are averaged with their neighbours: in creases (behind ears, at the nape) the
+/// direction away from the skin flips, and strands there would depend on the last bit of their roots.
 const SMOOTHING: usize = 2;
 
 fn snorm(share: f32) -> i16 {
@@ -87,7 +90,8 @@ impl Nearest {
 }
 
 impl Field {
-    /// The field of a skin at bind pose, whose hair moves with a bone. Triangles with corners that do not exist or are no numbers count for nothing.
+    /// The field of a skin at bind pose, whose hair moves with a bone. Triangles with corners that do not
+    /// exist or are NaN are ignored.
     pub fn new(skin: &Mesh, head_bone: u32) -> Self {
         let bounds = skin.bounds().filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite());
         let bounds = bounds.unwrap_or(Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE });
@@ -120,13 +124,13 @@ impl Field {
         Self { origin, cell, size, distances, slopes, bones, shares }
     }
 
-    /// The largest distance that is told apart.
+    /// The largest distance that the field can hold.
     pub fn range(&self) -> f32 {
         RANGE * self.cell
     }
 
-    /// The places as the GPU reads them: a distance as a share of the range in 16 bits and shares of the other bones in 8
-    /// bits each, then the direction in 8 bits each and 8 bits of nothing.
+    /// The places as the GPU reads them: a distance as a share of the range in 16 bits and shares of the
+    /// other bones in 8 bits each, then the direction in 8 bits each and 8 bits of nothing.
     pub fn texels(&self) -> Vec<[u32; 2]> {
         let range = self.range();
         let texel = |((distance, [first, second]), [x, y, z]): ((&f32, &[u8; OTHER_BONES]), &[i8; 3])| {
@@ -140,8 +144,9 @@ impl Field {
         self.distances.iter().zip(&self.shares).zip(&self.slopes).map(texel).collect()
     }
 
-    /// What is known of a place; the twin of `field_at` in WGSL: of the six tetrahedra that a cell is cut into along its
-    /// diagonal, it is between the four corners of one. Outside of the grid the distance grows with that from it.
+    /// What is known of a place; the twin of `field_at` in WGSL: of the six tetrahedra that a cell is cut
+    /// into along its diagonal, it is between the four corners of one. Outside of the grid the distance grows
+    /// with that from it.
     pub fn at(&self, place: Vec3) -> Near {
         let last = Vec3::from_array(self.size.map(|n| n as f32 - 1.0));
         let wanted = (place - self.origin) * (1.0 / self.cell);
@@ -185,8 +190,8 @@ impl Field {
     }
 }
 
-/// The direction in which distances grow at a place of the grid. It is kept and not taken from the distances around a place
-/// where it is needed: there it would jump from cell to cell.
+/// The direction in which distances grow at a place of the grid. It is kept and not taken from the distances
+/// around a place where it is needed: there it would jump from cell to cell.
 fn slope(distances: &[f32], size: [usize; 3], index: usize) -> [i8; 3] {
     let strides = [1, size[0], size[0] * size[1]];
     let slope = Vec3::from_array([0, 1, 2].map(|axis| {
@@ -271,8 +276,8 @@ impl Grid {
         }
     }
 
-    /// Hands nearest points on from neighbour to neighbour until all places know one: P. Danielsson, "Euclidean Distance
-    /// Mapping", 1980.
+    /// Hands nearest points on from neighbour to neighbour until all places know one: P. Danielsson,
+    /// "Euclidean Distance Mapping", 1980.
     fn sweep(&mut self) {
         let [nx, ny, nz] = self.size;
         let order = |n: usize, back: bool, i: usize| if back { n - 1 - i } else { i };
@@ -310,8 +315,8 @@ impl Grid {
         }
     }
 
-    /// Places further from the skin than from one another are on one side of it: where a normal in a crease says something
-    /// else, most of the neighbours are right.
+    /// Places further from the skin than from one another are on one side of it: where a normal in a crease
+    /// says something else, most of the neighbours are right.
     fn agree(&mut self) {
         let clear = |nearest: &Nearest| nearest.squared > (1.01 * self.cell).powi(2);
         let [nx, ny, nz] = self.size;
@@ -347,7 +352,8 @@ impl Grid {
     }
 }
 
-/// Weights of the corners at a triangle's nearest point: C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5.
+/// Weights of the corners at a triangle's nearest point: C. Ericson, "Real-Time Collision Detection", 2005,
+/// 5.1.5.
 fn nearest_on_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> [f32; 3] {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));

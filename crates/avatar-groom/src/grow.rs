@@ -1,11 +1,5 @@
-use crate::{Groom, OTHER_BONES, PlantedStrand, Region, RegionStyle};
+use crate::{Groom, OTHER_BONES, PlantedStrand, Region, RegionStyle, SEGMENTS, Strand};
 use glam::{Affine3A, Mat3, Mat3A, Vec2, Vec3};
-
-/// Segments of a strand.
-pub const SEGMENTS: usize = 12;
-
-/// The points of a strand, from the root to the tip.
-pub type Strand = [Vec3; SEGMENTS + 1];
 
 /// The deformed triangle of a root.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,11 +22,12 @@ pub const COMBED_REACH: f32 = 0.08;
 /// The largest radius of a curl by the length of its strand.
 pub const CURL_SHARE: f32 = 0.08;
 
-/// How near to its guide a strand is fully drawn to it; twice as far away it goes its own way. As a fraction of the skin's
-/// height.
+/// How near to its guide a strand is fully drawn to it; twice as far away it goes its own way. As a fraction
+/// of the skin's height.
 pub const LOCK_REACH: f32 = 0.06;
 
-/// The points of a guide in the world: a strand that follows no other, without curls. `strand` is an index to [`Groom::strands`].
+/// The points of a guide in the world: a strand that follows no other, without curls. `strand` is an index to
+/// [`Groom::strands`].
 pub fn grow_guide(groom: &Groom, strand: usize, triangle: &Triangle, bones: &[Affine3A]) -> Option<Strand> {
     let length = groom.strands().get(strand)?.length;
     let head = *bones.get(groom.head_bone() as usize)?;
@@ -42,8 +37,8 @@ pub fn grow_guide(groom: &Groom, strand: usize, triangle: &Triangle, bones: &[Af
     )
 }
 
-/// The points of a strand in the world; the twin of `grow_main` in WGSL, line by line. `guide` is what [`grow_guide`] made of
-/// its guide, if it has one.
+/// The points of a strand in the world; the twin of `grow_main` in WGSL, line by line. `guide` is what
+/// [`grow_guide`] made of its guide, if it has one.
 pub fn grow(
     groom: &Groom,
     strand: usize,
@@ -59,8 +54,8 @@ pub fn grow(
 
 /// A strand of a length, in the head's bind pose; without a `phase` only its middle line.
 ///
-/// It starts on the triangle, goes on along the normal for a short segment, and turns to where it is combed and pulled, outside
-/// of the skin. `bones` take the skin from bind pose to its pose of now.
+/// It starts on the triangle, goes on along the normal for a short segment, and turns to where it is combed
+/// and pulled, outside of the skin. `bones` take the skin from bind pose to its pose of now.
 pub(crate) fn grow_to(
     groom: &Groom,
     strand: usize,
@@ -90,7 +85,8 @@ pub(crate) fn grow_to(
     let comb = bind_from_posed * (x * comb_local.x + y * comb_local.y + z * comb_local.z);
     let down = bind_from_posed * Vec3::NEG_Y;
 
-    // The first segment only says where the strand leaves; long hair would stand off by its whole length otherwise.
+    // The first segment only says where the strand leaves; long hair would stand off by its whole length
+    // otherwise.
     let first = FIRST_SEGMENT * length / SEGMENTS as f32;
     let own = Vec3::from_array([root.random[0], root.random[1], root.random[2]]) * 2.0 - 1.0;
     let margin = MARGIN * groom.height();
@@ -126,15 +122,16 @@ pub(crate) fn grow_to(
         }
         let (distance, outward) = match root.region {
             Region::Scalp => {
-                // Where the skin moves with other bones, the place is sought where they have it at bind pose. The shares are
-                // those of the point before.
+                // Where the skin moves with other bones, the place is sought where they have it at bind pose.
+                // The shares are those of the point before.
                 let moved = |i: usize| others[i].transform_point3(next) * shares[i];
                 let near = groom.field().at(next + moved(0) + moved(1));
                 let turned = |i: usize| back[i] * near.outward * near.shares[i];
                 shares = near.shares;
                 (near.distance, (near.outward + turned(0) + turned(1)).normalize_or(near.outward))
             }
-            // Lids and brows move in the head's frame, and their hair is short: the plane of the skin says it.
+            // Lids and brows move in the head's frame, and their hair is short: the plane of the skin says
+            // it.
             _ => ((next - start).dot(normal), normal),
         };
         let least = margin * (4.0 * t).min(1.0) + lift * (3.0 * t).min(1.0);
@@ -151,8 +148,8 @@ pub(crate) fn grow_to(
     Some(points)
 }
 
-/// Length of the segment before a point, as a share of what the first one leaves: longer toward the tip, because strands bend
-/// most where they leave the skin.
+/// Length of the segment before a point, as a share of what the first one leaves: longer toward the tip,
+/// because strands bend most where they leave the skin.
 pub(crate) fn step_share(point: usize) -> f32 {
     (point + 1) as f32 / STEP_SUM as f32
 }
@@ -160,8 +157,8 @@ pub(crate) fn step_share(point: usize) -> f32 {
 /// Sum of `point + 1` over the points from 2 to the last.
 pub const STEP_SUM: u32 = ((SEGMENTS * (SEGMENTS + 1)) / 2 - 1 + (SEGMENTS - 1)) as u32;
 
-/// How far bones take a point of the head's bind pose from where another bone has it at bind pose: a map to what is to be
-/// added to the point. Nothing, where both move alike.
+/// How far bones take a point of the head's bind pose from where another bone has it at bind pose: a map to
+/// what is to be added to the point. Nothing, where both move alike.
 pub fn offset_from_head(head: Affine3A, other: Affine3A) -> Affine3A {
     let Affine3A { matrix3, translation } = rigid_inverse(other) * head;
     Affine3A { matrix3: matrix3 - Mat3A::IDENTITY, translation }

@@ -7,7 +7,8 @@ const MOST: usize = 1024;
 /// A guide leads at least so many strands.
 const STRANDS_PER_GUIDE: usize = 12;
 
-/// Which strands lead others. Roots come in random order: the first ones of the scalp are a fair sample of it.
+/// Which strands lead others. Roots come in random order: the first ones of the scalp are a fair sample of
+/// it.
 pub(crate) fn choose(roots: &[Root]) -> Vec<u32> {
     let on_scalp = (0u32..).zip(roots).filter(|(_, root)| root.region == Region::Scalp);
     let strands = on_scalp.clone().count();
@@ -22,7 +23,7 @@ pub(crate) fn assign(
     guides: &[u32],
     side: impl Fn(Vec3) -> bool,
 ) -> Vec<Option<u32>> {
-    // Sides are told apart by a place that is far away.
+    // Places on the other side are moved far away, so that none of them is the nearest.
     let extent = positions.iter().fold(0.0f32, |most, p| most.max(p.abs().max_element()));
     let apart = |p: Vec3| if side(p) { p + Vec3::X * 8.0 * extent } else { p };
     let places: Vec<Vec3> =
@@ -61,7 +62,7 @@ impl Cells {
         let [x, y, z] = self.cell(place);
         let mut best = (f32::INFINITY, None);
         for ring in 0..=self.rings {
-            // What is in a further ring is further away than this.
+            // Everything in a further ring is further away than this.
             if best.0 <= (ring - 1).max(0) as f32 * self.size {
                 break;
             }

@@ -6,36 +6,44 @@
 //!  skin at bind pose ──▶ Field ─────────────────┘         └──▶ grow(): the same strand on the CPU
 //! ```
 //!
-//! A root keeps its triangle, its place in it and its random numbers for good, so that it follows the deformed skin exactly.
-//! Roots come in a random but fixed order: the first N are a fair sample of all, which is what changing the density at run
-//! time and level of detail are. Lengths of a style are fractions of the height of the skin.
+//! A root keeps its triangle, its place in it and its random numbers for good, so that it follows the
+//! deformed skin exactly. Roots come in a random but fixed order: the first N are a fair sample of all, which
+//! is what changing the density at run time and level of detail are. Lengths of a style are fractions of the
+//! height of the skin.
 //!
-//! This crate knows no files, no clock and no ambient randomness: the same input gives the same roots on every machine.
+//! This crate knows no files, no clock and no ambient randomness: the same input gives the same roots on
+//! every machine.
 
+mod region;
+mod strand;
+mod style;
+mod hair;
+
+mod random;
+mod pieces;
 mod density;
+mod regions;
+mod roots;
+
+mod pseudonormal;
 mod field;
 mod groom;
 mod grow;
 mod guides;
-mod hair;
-mod pieces;
-mod pseudonormal;
-mod random;
-mod regions;
-mod roots;
-mod style;
-mod style_toml;
+mod plant;
 mod swing;
 
 pub use density::DensityMap;
 pub use field::{Field, Near, OTHER_BONES};
 pub use groom::{Groom, PlantedStrand};
 pub use grow::{
-    COMBED_REACH, CURL_SHARE, FIRST_SEGMENT, LOCK_REACH, MARGIN, SEGMENTS, STEP_SUM, Strand, Triangle, grow,
-    grow_guide, offset_from_head,
+    COMBED_REACH, CURL_SHARE, FIRST_SEGMENT, LOCK_REACH, MARGIN, STEP_SUM, Triangle, grow, grow_guide,
+    offset_from_head,
 };
 pub use hair::Hair;
 pub use placed_toml::TomlError;
-pub use roots::{MAX_ROOTS, Region, Root, scatter};
+pub use region::Region;
+pub use roots::{MAX_ROOTS, Root, scatter};
+pub use strand::{SEGMENTS, Strand};
 pub use style::{RegionStyle, Style};
 pub use swing::{Oscillator, TICKS_PER_SECOND, TickClock, Ticks};

@@ -33,8 +33,9 @@ impl Pieces {
         1 << (2 * self.level)
     }
 
-    /// Goes through all of them on a way whose next piece is mostly a neighbour, so that even steps along it are
-    /// spread over the triangle evenly (K. Basu and A. Owen, "Low discrepancy constructions in the triangle", 2015).
+    /// Goes through all of them on a way whose next piece is mostly a neighbour, so that even steps along it
+    /// are spread over the triangle evenly (K. Basu and A. Owen, "Low discrepancy constructions in the
+    /// triangle", 2015).
     pub(crate) fn visit(self, seen: &mut impl FnMut(Piece)) {
         visit(Piece { corners: [Vec3::X, Vec3::Y, Vec3::Z] }, self.level, seen);
     }
@@ -57,8 +58,8 @@ impl Piece {
         (self.corners[0] + self.corners[1] + self.corners[2]) / 3.0
     }
 
-    /// A place in it, evenly for even `a` and `b` from 0 to 1: the root spreads what would crowd at a corner (G. Turk,
-    /// Graphics Gems, 1990).
+    /// A place in it, evenly for even `a` and `b` from 0 to 1: the root spreads what would crowd at a corner
+    /// (G. Turk, Graphics Gems, 1990).
     pub(crate) fn place(self, a: f32, b: f32) -> Vec3 {
         let root = a.sqrt();
         self.corners[0] * (1.0 - root) + self.corners[1] * (root * (1.0 - b)) + self.corners[2] * (root * b)

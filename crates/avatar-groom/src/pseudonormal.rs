@@ -1,11 +1,13 @@
-//! Which side of a surface a place is on: J. Bærentzen, H. Aanæs, "Signed Distance Computation Using the Angle Weighted
-//! Pseudonormal", 2005. Normals for shading would not do: in creases they look along the surface.
+//! Which side of a surface a place is on: J. Bærentzen, H. Aanæs, "Signed Distance Computation Using the
+//! Angle Weighted Pseudonormal", 2005. Normals for shading would not do: in creases they look along the
+//! surface.
 
 use avatar_mesh::{Mesh, weld_positions};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
-/// What is outward on a triangle: inside of it, at its edges (each opposite of a corner), and at its corners.
+/// The outward direction on a triangle: inside of it, at its edges (each opposite of a corner), and at its
+/// corners.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pseudonormals {
     face: Vec3,

@@ -4,8 +4,9 @@ use glam::Vec3;
 
 /// Tells by the eyes what grows where: maps of hair do not say.
 ///
-/// The numbers below are by the radius of an eyeball, measured on two heads: lashes start within 1.4 of an eye's middle, brows
-/// between 0.9 and 2.0 above it, and the nearest hair of the scalp is farther out, up or back than they are.
+/// The numbers below are by the radius of an eyeball, measured on two heads: lashes start within 1.4 of an
+/// eye's middle, brows between 0.9 and 2.0 above it, and the nearest hair of the scalp is farther out, up or
+/// back than they are.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Regions {
     /// Middle and radius.

@@ -1,21 +1,9 @@
 use crate::pieces::{Piece, Pieces, weighted};
 use crate::random::{bits, unit};
 use crate::regions::Regions;
-use crate::{DensityMap, Style};
+use crate::{DensityMap, Region, Style};
 use avatar_mesh::{Bounds, Mesh};
 use glam::{Vec2, Vec3};
-
-/// Where on a head a strand grows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
-pub enum Region {
-    /// The head's own hair.
-    Scalp = 0,
-    /// Above the eyes.
-    Brows = 1,
-    /// At the edges of the lids.
-    Lashes = 2,
-}
 
 /// Where a strand grows, for good.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,22 +26,24 @@ pub const MAX_ROOTS: usize = 1 << 22;
 /// Shares of all regions that are planted.
 const MOST_SHARES: f64 = (MAX_ROOTS - 3) as f64;
 
-/// Attempts to find a place in a piece that the density accepts; after that its middle is taken, where there is some.
+/// Attempts to find a place in a piece that the density accepts; after that its middle is taken, where there
+/// is some.
 const ATTEMPTS: u64 = 8;
 
 /// Pieces of all triangles together, beyond which they are made coarser: a fraction of a second.
 const MAX_PIECES: u64 = 1 << 25;
 
-/// Scatters roots: as many as area × density asks for, `strands` of them over a square of the skin's height where the density
-/// of the map is 1 and that of the style, too. Positions are those of the bind pose; `eyes` are the boxes of the eyeballs,
-/// without which there are neither brows nor lashes. Where that would be more than [`MAX_ROOTS`], all densities are scaled
-/// down alike, so that what is left is a fair sample.
+/// Scatters roots: as many as area × density asks for, `strands` of them over a square of the skin's height
+/// where the density of the map is 1 and that of the style, too. Positions are those of the bind pose; `eyes`
+/// are the boxes of the eyeballs, without which there are neither brows nor lashes. Where that would be more
+/// than [`MAX_ROOTS`], all densities are scaled down alike, so that what is left is a fair sample.
 ///
-/// Triangles are cut into pieces about as large as values of the map. For each region the shares of all pieces are laid end
-/// to end, and a strand is planted at a random place within every step of length 1 (stratified sampling over prefix sums), so
-/// that each stretch of the way gets its share to within one strand; the exact place is found by the density in the piece.
-/// Where the density is 0 nothing grows. The same input gives the same roots on every machine, in a shuffled but fixed order:
-/// the first N are a fair sample of all.
+/// Triangles are cut into pieces about as large as values of the map. For each region the shares of all
+/// pieces are laid end to end, and a strand is planted at a random place within every step of length 1
+/// (stratified sampling over prefix sums), so that each stretch of the way gets its share to within one
+/// strand; the exact place is found by the density in the piece. Where the density is 0 nothing grows. The
+/// same input gives the same roots on every machine, in a shuffled but fixed order: the first N are a fair
+/// sample of all.
 pub fn scatter(
     mesh: &Mesh,
     density: &DensityMap,
@@ -172,7 +162,8 @@ impl Row {
     }
 }
 
-/// Random numbers that belong to one strand: where its step is planted, its order, its own ones, its attempts.
+/// Random numbers that belong to one strand: where its step is planted, its order, its own ones, its
+/// attempts.
 const KEYS: u64 = 64;
 const ORDER: u64 = 1;
 const OWN: u64 = 2;
@@ -191,7 +182,7 @@ impl Planter<'_> {
         let middle = piece.middle();
         let (region, most) = self.density_at(patch, middle);
         let wanted = share * f64::from(most);
-        // Also no number, from a broken mesh.
+        // NaN comes from a broken mesh.
         if !(wanted > 0.0 && wanted.is_finite()) {
             return;
         }

@@ -12,12 +12,15 @@ pub struct Style {
     pub lashes: RegionStyle,
 }
 
-/// How the hair of one region looks and falls. Lengths are fractions of the height of the skin, colours are linear.
+/// How the hair of one region looks and falls. Lengths are fractions of the height of the skin, colours are
+/// linear.
 ///
-/// A new value is also a line in `style_toml.rs`, which makes it a key of `hair.toml`, and one in the example there.
+/// A new value is also a line in `hair/text.rs`, which makes it a key of `hair.toml`, and one in the example
+/// there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegionStyle {
-    /// Strands by what the density texture asks for: 0 is bald, 1 what it says; brows and lashes are denser than it can say.
+    /// Strands by what the density texture asks for: 0 is bald, 1 what it says; brows and lashes are denser
+    /// than it can say.
     pub density: f32,
     /// Length of a strand.
     pub length: f32,

@@ -6,7 +6,7 @@ pub const TICKS_PER_SECOND: f32 = 240.0;
 /// After so many seconds without a frame hair hangs still again.
 const LONGEST_SECONDS: f32 = 0.5;
 
-/// Shorter frames are none.
+/// Shorter frames count as no time.
 const SHORTEST_SECONDS: f32 = 1e-6;
 
 /// The slowest swing: slower ones would not settle in the time that is promised.
@@ -18,8 +18,8 @@ const DAMPING: f32 = 0.4;
 /// How much faster than the tip the strand swings where it leaves the skin, less one.
 const STIFFER_AT_ROOT: f32 = 4.0;
 
-/// How a point that is held by a spring moves in one tick: the exact solution of y″ = −ω²y − 2ζωy′, so that no frequency is too
-/// high. `y` is measured from where the spring holds it.
+/// How a point that is held by a spring moves in one tick: the exact solution of y″ = −ω²y − 2ζωy′, so that
+/// no frequency is too high. `y` is measured from where the spring holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oscillator {
     /// What of `y` and of `y′` is the next `y`.
@@ -82,7 +82,8 @@ pub struct TickClock {
 }
 
 impl TickClock {
-    /// Goes on by the seconds between two frames. Time that is none, runs backward or is very long leaves hair still.
+    /// Goes on by the seconds between two frames. A time that is NaN, below 0 or very long leaves
+    /// hair still.
     pub fn advance(&mut self, seconds: f32) -> Ticks {
         if !(0.0..=LONGEST_SECONDS).contains(&seconds) {
             self.rest = 0.0;

@@ -4,8 +4,8 @@ use std::f32::consts::PI;
 /// Soft boxes of an environment.
 pub const PANEL_COUNT: usize = 4;
 
-/// What surrounds the face: a gradient from the ground to the sky, and soft boxes on it. Made, not photographed: it needs
-/// no file, and has no edge that it could flicker at.
+/// What surrounds the face: a gradient from the ground to the sky, and soft boxes on it. Made, not
+/// photographed: it needs no file, and has no edge that it could flicker at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Environment {
     /// Radiance straight above.
@@ -16,7 +16,8 @@ pub struct Environment {
     pub panels: [Panel; PANEL_COUNT],
 }
 
-/// The share of a panel's radius that is as bright as its middle; from there the light fades to 0 at the edge.
+/// The share of a panel's radius that is as bright as its middle; from there the light fades to 0 at the
+/// edge.
 pub const PANEL_CORE: f32 = 0.5;
 
 /// A round, soft-edged patch of light on the environment.
@@ -103,8 +104,8 @@ impl Environment {
 
     /// The light that comes from `direction_world`, of any length; zero means from above.
     ///
-    /// A gradient with the height, and the panels on it: the middle half of a panel is even, the rest fades with a
-    /// smooth step of the angle, so that neither the light nor its slope jumps anywhere.
+    /// A gradient with the height, and the panels on it: the middle half of a panel is even, the rest fades
+    /// with a smooth step of the angle, so that neither the light nor its slope jumps anywhere.
     pub fn radiance(&self, direction_world: Vec3) -> Vec3 {
         self.prepared().radiance(direction_world.normalize_or(Vec3::Y))
     }

@@ -12,21 +12,23 @@ const PROBES: u32 = 1024;
 /// What is left of the mean light in the darkest direction, at least; covers what lies between the probes.
 const DARKEST: f32 = 0.01;
 
-/// The clamped cosine over π in bands 0 to 2: R. Ramamoorthi and P. Hanrahan, "An Efficient Representation for Irradiance
-/// Environment Maps", 2001, eq. 8.
+/// The clamped cosine over π in bands 0 to 2: R. Ramamoorthi and P. Hanrahan, "An Efficient Representation
+/// for Irradiance Environment Maps", 2001, eq. 8.
 const COSINE_BANDS: [f32; 3] = [1.0, 2.0 / 3.0, 0.25];
 
 impl Environment {
-    /// What it makes of white matte surfaces, as spherical harmonics `c` up to the second band, with the constants of
-    /// the basis, the clamped cosine and 1/π in them (Ramamoorthi and Hanrahan 2001). For a unit normal:
+    /// What it makes of white matte surfaces, as spherical harmonics `c` up to the second band, with the
+    /// constants of the basis, the clamped cosine and 1/π in them (Ramamoorthi and Hanrahan 2001). For a unit
+    /// normal:
     ///
     /// ```text
     ///  c0 + c1·y + c2·z + c3·x + c4·x·y + c5·y·z + c6·(3z² − 1) + c7·x·z + c8·(x² − y²)
     /// ```
     ///
-    /// An environment that is 1 everywhere gives 1. Nine terms overshoot opposite to a small bright panel; where light
-    /// would become negative there, the bands are damped as far as necessary (P.-P. Sloan, "Stupid Spherical Harmonics
-    /// Tricks", 2008, windowing by the squared Laplacian). [`irradiance_at`] evaluates it.
+    /// An environment that is 1 everywhere gives 1. Nine terms overshoot opposite to a small bright panel;
+    /// where light would become negative there, the bands are damped as far as necessary (P.-P. Sloan,
+    /// "Stupid Spherical Harmonics Tricks", 2008, windowing by the squared Laplacian). [`irradiance_at`]
+    /// evaluates it.
     pub fn irradiance(&self) -> [Vec3; 9] {
         let prepared = self.prepared();
         let mut sum = [Vec3::ZERO; 9];
@@ -52,8 +54,9 @@ fn basis(n: Vec3) -> [f32; 9] {
     [1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y]
 }
 
-/// The coefficients of a panel of radiance 1. It is round: what it gives a normal depends on one angle only, as the sum of
-/// `band · (2l + 1)/4π · z_l · P_l(cos)` with Legendre's polynomials P_l and `z_l = ∫ share · P_l dω`.
+/// The coefficients of a panel of radiance 1. It is round: what it gives a normal depends on one angle only,
+/// as the sum of `band · (2l + 1)/4π · z_l · P_l(cos)` with Legendre's polynomials P_l and `z_l = ∫ share ·
+/// P_l dω`.
 fn spot_bands(spot: &Spot) -> [f32; 9] {
     let mut zonal = [0.0f32; 3];
     let step = spot.radius_rad / RINGS as f32;

@@ -1,4 +1,5 @@
-//! How faces look: materials, lights and environments as plain data, and the optics behind them as plain functions.
+//! How faces look: materials, lights and environments as plain data, and the optics behind them as plain
+//! functions.
 //!
 //! ```text
 //!  materials.toml ──▶ Materials ──▶ Material per part ─┐
@@ -7,26 +8,24 @@
 //!  tables: split sum, scattering ──────────────────────┘
 //! ```
 //!
-//! Colours are linear, directions are in the world (right-handed, +Y up, the face looks along +Z). Radiance is measured
-//! by what a white matte surface makes of it: a lamp of radiance 1 lights one that faces it to 1, and so does an
-//! environment that is 1 everywhere. Lengths of materials are fractions of the height of the skin, so that they fit packs
-//! in any unit.
+//! Colours are linear, directions are in the world (right-handed, +Y up, the face looks along +Z). Radiance
+//! is measured by what a white matte surface makes of it: a lamp of radiance 1 lights one that faces it to 1,
+//! and so does an environment that is 1 everywhere. Lengths of materials are fractions of the height of the
+//! skin, so that they fit packs in any unit.
 //!
 //! This crate knows no GPU, no files and no clock.
 
 mod material;
 mod materials;
-mod materials_fields;
-mod materials_toml;
 
 mod environment;
-mod irradiance;
 mod light;
-mod reflections;
 
 pub mod optics;
-mod scatter;
 mod split_sum;
+mod irradiance;
+mod reflections;
+mod scatter;
 pub mod tone;
 
 pub use environment::{Environment, PANEL_CORE, PANEL_COUNT, Panel};

@@ -8,7 +8,8 @@ pub struct Light {
     pub key: Lamp,
     /// Softens the shadows of the key; casts none.
     pub fill: Lamp,
-    /// From behind: separates the head from the background; casts shadows, lest it shine through the nose.
+    /// From behind: separates the head from the background; casts shadows, so that it does not shine through
+    /// the nose.
     pub rim: Lamp,
     /// What shines from everywhere, and what shiny things reflect.
     pub environment: Environment,
@@ -57,8 +58,8 @@ impl Light {
         ("flat", Self::flat),
     ];
 
-    /// Portrait light: the key from above at the character's left, a weak cool fill from the other side, a rim light
-    /// from behind, soft boxes around.
+    /// Portrait light: the key from above at the character's left, a weak cool fill from the other side, a
+    /// rim light from behind, soft boxes around.
     pub fn studio() -> Self {
         Self {
             key: Lamp { direction_world: Vec3::new(0.5, 0.42, 0.85), radiance: [1.0, 0.95, 0.88] },

@@ -1,7 +1,7 @@
 use avatar_mesh::PartKind;
 
-/// The looks of a part: plain data, with defaults per kind. Colours are linear, lengths are fractions of the height of
-/// the skin (0.01 is about 2.5 mm on a grown-up).
+/// The looks of a part: plain data, with defaults per kind. Colours are linear, lengths are fractions of the
+/// height of the skin (0.01 is about 2.5 mm on a grown-up).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Colour where no texture covers it.
@@ -16,8 +16,8 @@ pub struct Material {
     pub roughness_glossy: f32,
     /// Factor on the tilt of the normal texture.
     pub normal_strength: f32,
-    /// How far diffuse light reaches around the terminator, per channel, 0 (not at all) to 1; the quality levels plain
-    /// and low, and parts that are not skin.
+    /// How far diffuse light reaches around the terminator, per channel, 0 (not at all) to 1; the quality
+    /// levels plain and low, and parts that are not skin.
     pub wrap: [f32; 3],
     /// Diffuse mean free path below the surface, per channel: skin from medium quality on.
     pub scatter: [f32; 3],
@@ -37,7 +37,8 @@ pub struct Material {
     pub wetness: f32,
     /// Perceptual roughness of that film.
     pub film_roughness: f32,
-    /// Share of the ambient light that is left at the back of the part: mouths and eye sockets are dark inside.
+    /// Share of the ambient light that is left at the back of the part: mouths and eye sockets are dark
+    /// inside.
     pub back_light: f32,
     /// Iris and pupil; read for eyeballs only.
     pub iris: Iris,
@@ -100,14 +101,16 @@ impl Material {
             iris: Iris::DEFAULT,
         };
         match kind {
-            // Reflectance: E. d'Eon and D. Luebke, "Advanced Techniques for Realistic Real-Time Skin Rendering", 2007.
+            // Reflectance: E. d'Eon and D. Luebke, "Advanced Techniques for Realistic Real-Time Skin
+            // Rendering", 2007.
             PartKind::Skin => Self {
                 color: [0.60, 0.36, 0.26],
                 reflectance: 0.028,
                 roughness_matte: 0.65,
                 roughness_glossy: 0.35,
                 wrap: [0.28, 0.14, 0.09],
-                // 3.7, 1.4 and 0.7 mm: H. W. Jensen et al., "A Practical Model for Subsurface Light Transport", 2001.
+                // 3.7, 1.4 and 0.7 mm: H. W. Jensen et al., "A Practical Model for Subsurface Light
+                // Transport", 2001.
                 scatter: [0.0138, 0.0052, 0.0026],
                 sharp_share: 0.25,
                 sharp_roughness: 0.55,

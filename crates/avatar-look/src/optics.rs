@@ -1,16 +1,18 @@
-//! How a surface answers light, as plain functions over cosines: what the shaders compute, to be read beside them and
-//! to be integrated in tests.
+//! How a surface answers light, as plain functions over cosines: what the shaders compute, to be read beside
+//! them and to be integrated in tests.
 //!
-//! The specular functions are true BRDF factors in 1/sr. A lamp of radiance 1 lights a white matte surface to 1, so
-//! what is seen of a lamp is `π · f · n_dot_l · radiance`; [`wrapped_diffuse`] has that π in it already.
+//! The specular functions are true BRDF factors in 1/sr. A lamp of radiance 1 lights a white matte surface to
+//! 1, so what is seen of a lamp is `π · f · n_dot_l · radiance`; [`wrapped_diffuse`] has that π in it
+//! already.
 //!
-//! `alpha` is the parameter of GGX, the square of the perceptual roughness (B. Burley, "Physically-Based Shading at
-//! Disney", 2012).
+//! `alpha` is the parameter of GGX, the square of the perceptual roughness (B. Burley, "Physically-Based
+//! Shading at Disney", 2012).
 
 use glam::Vec3;
 use std::f32::consts::PI;
 
-/// The cosines between the normal, the direction to the eye, that to the light, and the one half-way between both.
+/// The cosines between the normal, the direction to the eye, that to the light, and the one half-way between
+/// both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cosines {
     /// Normal and light; not clamped, negative behind the surface.
@@ -36,19 +38,21 @@ impl Cosines {
     }
 }
 
-/// Distribution of the normals of microfacets, in 1/sr: its integral over the hemisphere, times the cosine, is 1.
+/// Distribution of the normals of microfacets, in 1/sr: its integral over the hemisphere, times the cosine,
+/// is 1.
 ///
-/// GGX: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, eq. 33. Below an `alpha` of
-/// about 0.001 single precision no longer resolves the peak.
+/// GGX: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, eq. 33. Below an
+/// `alpha` of about 0.001 single precision no longer resolves the peak.
 pub fn ggx_distribution(n_dot_h: f32, alpha: f32) -> f32 {
     let alpha2 = alpha * alpha;
     let f = (n_dot_h * alpha2 - n_dot_h) * n_dot_h + 1.0;
     alpha2 / (PI * f * f)
 }
 
-/// Height-correlated Smith masking and shadowing over 4 NoL NoV, as approximated by E. Hammon, "PBR Diffuse Lighting
-/// for GGX+Smith Microsurfaces", 2017. Nowhere above the exact term of E. Heitz, "Understanding the Masking-Shadowing
-/// Function in Microfacet-Based BRDFs", 2014, so it never makes energy; the epsilon keeps grazing silhouettes finite.
+/// Height-correlated Smith masking and shadowing over 4 NoL NoV, as approximated by E. Hammon, "PBR Diffuse
+/// Lighting for GGX+Smith Microsurfaces", 2017. Nowhere above the exact term of E. Heitz, "Understanding the
+/// Masking-Shadowing Function in Microfacet-Based BRDFs", 2014, so it never makes energy; the epsilon keeps
+/// grazing silhouettes finite.
 pub fn smith_visibility(n_dot_v: f32, n_dot_l: f32, alpha: f32) -> f32 {
     0.5 / mix(2.0 * n_dot_l * n_dot_v, n_dot_l + n_dot_v, alpha).max(1e-4)
 }
@@ -62,8 +66,8 @@ pub fn schlick_fresnel(reflectance: f32, cosine: f32) -> f32 {
     reflectance + (1.0 - reflectance) * f2 * f2 * f
 }
 
-/// What a white matte surface makes of a lamp of radiance 1 if light reaches around the terminator by `wrap`, 0 (not at
-/// all) to 1 (to the far pole).
+/// What a white matte surface makes of a lamp of radiance 1 if light reaches around the terminator by `wrap`,
+/// 0 (not at all) to 1 (to the far pole).
 ///
 /// Over all directions it reflects what an unwrapped surface does: S. McAuley, "Energy-Conserving Wrapped
 /// Diffuse". A wrap per channel gives skin its warm edge of shadow (S. Green, GPU Gems, chapter 16, 2004).
@@ -95,11 +99,12 @@ pub struct Lobes {
     pub sharp_roughness: f32,
 }
 
-/// The BRDF of two mixed GGX lobes, in 1/sr; 0 where the light is behind the surface. As a mixture it reflects no more
-/// than the stronger of both.
+/// The BRDF of two mixed GGX lobes, in 1/sr; 0 where the light is behind the surface. As a mixture it
+/// reflects no more than the stronger of both.
 ///
-/// Skin has a broad lobe of its cells and a sharper one of its oil: E. d'Eon and D. Luebke, GPU Gems 3, chapter 14,
-/// 2007; two measured lobes: A. Ghosh et al., "Practical Modeling and Acquisition of Layered Facial Reflectance", 2008.
+/// Skin has a broad lobe of its cells and a sharper one of its oil: E. d'Eon and D. Luebke, GPU Gems 3,
+/// chapter 14, 2007; two measured lobes: A. Ghosh et al., "Practical Modeling and Acquisition of Layered
+/// Facial Reflectance", 2008.
 pub fn two_lobe_specular(cosines: Cosines, reflectance: f32, lobes: Lobes) -> f32 {
     let sharp = lobes.roughness * lobes.sharp_roughness;
     mix(
@@ -109,10 +114,11 @@ pub fn two_lobe_specular(cosines: Cosines, reflectance: f32, lobes: Lobes) -> f3
     )
 }
 
-/// The parameter `d` of [`crate::scatter_table`], in the unit of `mean_free_path`, from the diffuse mean free path and
-/// the albedo of the surface, 0 to 1; from 2/7 of the path for dark surfaces to 1/24 for white ones.
+/// The parameter `d` of [`crate::scatter_table`], in the unit of `mean_free_path`, from the diffuse mean free
+/// path and the albedo of the surface, 0 to 1; from 2/7 of the path for dark surfaces to 1/24 for white ones.
 ///
-/// P. Christensen and B. Burley, "Approximate Reflectance Profiles for Efficient Subsurface Scattering", 2015, eq. 8.
+/// P. Christensen and B. Burley, "Approximate Reflectance Profiles for Efficient Subsurface Scattering",
+/// 2015, eq. 8.
 pub fn diffusion_distance(mean_free_path: f32, albedo: f32) -> f32 {
     let off = albedo - 0.33;
     mean_free_path / (3.5 + 100.0 * off * off * off * off)

@@ -9,8 +9,8 @@ pub const CUBE_FACES: u32 = 6;
 
 /// The direction, a unit vector, that texel (`column`, `row`) of a cube map shows, rows from the top.
 ///
-/// The order and the axes of WebGPU, Vulkan and Direct3D, so that a sampler finds under a direction in the world what
-/// was computed for it; with `s` to the right and `t` down, both −1 to 1 over the face:
+/// The order and the axes of WebGPU, Vulkan and Direct3D, so that a sampler finds under a direction in the
+/// world what was computed for it; with `s` to the right and `t` down, both −1 to 1 over the face:
 ///
 /// ```text
 ///  +X  ( 1, −t, −s)    +Y  (s,  1,  t)    +Z  ( s, −t,  1)
@@ -35,12 +35,13 @@ pub fn cube_direction(face: u32, size: u32, column: u32, row: u32) -> Vec3 {
 impl Environment {
     /// What smooth and rough things reflect of it: the levels of a cube map, RGBA with A = 1.
     ///
-    /// Level `i` is blurred as GGX of the perceptual roughness `i / (levels − 1)` reflects; level 0 is a mirror. Each
-    /// holds the [`CUBE_FACES`] one after the other, row by row ([`cube_direction`]), of `max(face_size >> i, 1)` texels
-    /// a side.
+    /// Level `i` is blurred as GGX of the perceptual roughness `i / (levels − 1)` reflects; level 0 is a
+    /// mirror. Each holds the [`CUBE_FACES`] one after the other, row by row ([`cube_direction`]), of
+    /// `max(face_size >> i, 1)` texels a side.
     ///
-    /// The eye is taken to look along the normal (B. Karis, "Real Shading in Unreal Engine 4", 2013). The same directions
-    /// are looked up around every texel, each with its mirror images: a mirrored environment gives the mirrored map.
+    /// The eye is taken to look along the normal (B. Karis, "Real Shading in Unreal Engine 4", 2013). The
+    /// same directions are looked up around every texel, each with its mirror images: a mirrored environment
+    /// gives the mirrored map.
     ///
     /// `face_size` counts as 1 to 4096, `levels` as at most 13.
     pub fn reflections(&self, face_size: u32, levels: u32) -> Vec<Vec<[f32; 4]>> {
@@ -61,8 +62,8 @@ impl Environment {
     }
 }
 
-/// Directions around +Z from which light is gathered, with weights that add up to 1; each stands for its four images in
-/// the planes x = 0 and y = 0. None for a mirror.
+/// Directions around +Z from which light is gathered, with weights that add up to 1; each stands for its four
+/// images in the planes x = 0 and y = 0. None for a mirror.
 struct Lobe {
     directions: Vec<(Vec3, f32)>,
 }
@@ -74,7 +75,8 @@ impl Lobe {
         }
         let alpha2 = roughness.powi(4);
         let direction = |i: u32| {
-            // Normals of microfacets as GGX has them: Walter et al. 2007, eq. 35 and 36, over a quarter of a turn.
+            // Normals of microfacets as GGX has them: Walter et al. 2007, eq. 35 and 36, over a quarter of a
+            // turn.
             let u = (i as f32 + 0.5) / count as f32;
             let cos2 = (1.0 - u) / (1.0 + (alpha2 - 1.0) * u);
             let (sin_turn, cos_turn) = (FRAC_PI_2 * radical_inverse(i)).sin_cos();

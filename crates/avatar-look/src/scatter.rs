@@ -10,15 +10,15 @@ const RINGS: usize = 64;
 ///
 /// with `u`, `v` at the middle of their texel. For small `s` it is `max(n_dot_l, 0)`.
 ///
-/// Pre-integrated skin: E. Penner and G. Borshukov, GPU Pro 2, 2011, with the profile of P. Christensen and B. Burley,
-/// "Approximate Reflectance Profiles for Efficient Subsurface Scattering", 2015:
-/// `R(r) = (exp(−r/d) + exp(−r/3d)) / (8π d r)`; see [`crate::optics::diffusion_distance`] for `d`.
+/// Pre-integrated skin: E. Penner and G. Borshukov, GPU Pro 2, 2011, with the profile of P. Christensen and
+/// B. Burley, "Approximate Reflectance Profiles for Efficient Subsurface Scattering", 2015: `R(r) =
+/// (exp(−r/d) + exp(−r/3d)) / (8π d r)`; see [`crate::optics::diffusion_distance`] for `d`.
 ///
-/// Penner integrates over a ring of the sphere. That makes and loses light, as points beside the ring are left out, and
-/// has no limit for this profile: `∫ R(r) dr` grows without bound toward `r = 0`. So this integrates over the whole
-/// sphere, where an area at chord `r` measures `r dr dφ` as in the plane, which takes the pole of `R` away. What leaves one
-/// point arrives at others with the same weight either way: `2 ∫ D dn_dot_l = 1` for each row, so even light from all
-/// sides is reflected exactly as it comes in.
+/// Penner integrates over a ring of the sphere. That makes and loses light, as points beside the ring are
+/// left out, and has no limit for this profile: `∫ R(r) dr` grows without bound toward `r = 0`. So this
+/// integrates over the whole sphere, where an area at chord `r` measures `r dr dφ` as in the plane, which
+/// takes the pole of `R` away. What leaves one point arrives at others with the same weight either way: `2 ∫
+/// D dn_dot_l = 1` for each row, so even light from all sides is reflected exactly as it comes in.
 pub fn scatter_table(width: usize, height: usize) -> Vec<f32> {
     let mut table = Vec::with_capacity(width * height);
     for row in 0..height {
@@ -42,7 +42,8 @@ struct Ring {
 /// The profile with `d = s` on a sphere of radius 1, as rings.
 fn rings(s: f32) -> Vec<Ring> {
     let exponentials = [s, 3.0 * s].map(|length| {
-        // r from 0 to 2, the far pole; what a flat surface would scatter farther is spread over the sphere instead.
+        // r from 0 to 2, the far pole; what a flat surface would scatter farther is spread over the sphere
+        // instead.
         let reach = -(-2.0 / length).exp_m1();
         (length, reach, length * reach)
     });
@@ -64,7 +65,8 @@ fn rings(s: f32) -> Vec<Ring> {
 }
 
 impl Ring {
-    /// The mean of `max(n · l, 0)` over the ring around a point with `n_dot_l`: along the ring it is `a + b cos φ`.
+    /// The mean of `max(n · l, 0)` over the ring around a point with `n_dot_l`: along the ring it is `a + b
+    /// cos φ`.
     fn mean_light(&self, n_dot_l: f32) -> f32 {
         let a = n_dot_l * self.cos;
         let b = (1.0 - n_dot_l * n_dot_l).max(0.0).sqrt() * self.sin;

@@ -8,9 +8,9 @@ const SAMPLES: u32 = 1024;
 /// What a surface reflects of even light from all sides, without lamps: `[scale, bias]` with
 /// `directional albedo = reflectance · scale + bias`.
 ///
-/// The split sum of B. Karis, "Real Shading in Unreal Engine 4", 2013, over the terms of [`crate::optics`]. Rows are
-/// perceptual roughnesses, columns `n_dot_v`, both at the middle of their texel, `(i + 0.5) / size`; row by row,
-/// `size · size` entries.
+/// The split sum of B. Karis, "Real Shading in Unreal Engine 4", 2013, over the terms of [`crate::optics`].
+/// Rows are perceptual roughnesses, columns `n_dot_v`, both at the middle of their texel, `(i + 0.5) / size`;
+/// row by row, `size · size` entries.
 pub fn split_sum(size: usize) -> Vec<[f32; 2]> {
     let at = |i: usize| (i as f32 + 0.5) / size as f32;
     let points = hammersley();
@@ -21,7 +21,8 @@ pub fn split_sum(size: usize) -> Vec<[f32; 2]> {
     table
 }
 
-/// One entry of [`split_sum`], for any `n_dot_v` above 0 and up to 1 and any perceptual roughness from 0 to 1.
+/// One entry of [`split_sum`], for any `n_dot_v` above 0 and up to 1 and any perceptual roughness from 0 to
+/// 1.
 pub fn directional_albedo(n_dot_v: f32, roughness: f32) -> [f32; 2] {
     integrate(n_dot_v, roughness, &hammersley())
 }
@@ -45,7 +46,8 @@ fn integrate(n_dot_v: f32, roughness: f32, points: &[(f32, f32, f32)]) -> [f32; 
         let v_dot_h = to_eye.dot(half_way).clamp(0.0, 1.0);
         let n_dot_l = 2.0 * v_dot_h * half_way.z - n_dot_v;
         if n_dot_l > 0.0 {
-            // G₂ over G₁: what is left of the integrand where normals are drawn by their visibility (Heitz 2018, eq. 19).
+            // G₂ over G₁: what is left of the integrand where normals are drawn by their visibility (Heitz
+            // 2018, eq. 19).
             let weight = 4.0 * n_dot_l * n_dot_v * smith_visibility(n_dot_v, n_dot_l, alpha) / masking;
             // Fresnel with reflectance 0 is what does not depend on the reflectance.
             let grazing = schlick_fresnel(0.0, v_dot_h);
@@ -62,9 +64,9 @@ fn smith_masking(n_dot_v: f32, alpha: f32) -> f32 {
     2.0 * n_dot_v / (n_dot_v + (alpha2 + (1.0 - alpha2) * n_dot_v * n_dot_v).sqrt())
 }
 
-/// A normal of a microfacet, drawn among those that the eye sees: E. Heitz, "Sampling the GGX Distribution of Visible
-/// Normals", 2018, by way of the cap of a sphere: J. Dupuy and A. Benyoub, "Sampling Visible GGX Normals with Spherical
-/// Caps", 2023.
+/// A normal of a microfacet, drawn among those that the eye sees: E. Heitz, "Sampling the GGX Distribution of
+/// Visible Normals", 2018, by way of the cap of a sphere: J. Dupuy and A. Benyoub, "Sampling Visible GGX
+/// Normals with Spherical Caps", 2023.
 fn visible_normal(to_eye: Vec3, alpha: f32, &(u, cos, sin): &(f32, f32, f32)) -> Vec3 {
     let stretched = Vec3::new(alpha * to_eye.x, alpha * to_eye.y, to_eye.z).normalize_or(Vec3::Z);
     let z = (1.0 - u) * (1.0 + stretched.z) - stretched.z;
@@ -73,7 +75,8 @@ fn visible_normal(to_eye: Vec3, alpha: f32, &(u, cos, sin): &(f32, f32, f32)) ->
     Vec3::new(alpha * on_sphere.x, alpha * on_sphere.y, on_sphere.z.max(0.0)).normalize_or(Vec3::Z)
 }
 
-/// The second coordinate of Hammersley's points, 0 to 1 (J. van der Corput, 1935): the bits of `i` mirrored at the point.
+/// The second coordinate of Hammersley's points, 0 to 1 (J. van der Corput, 1935): the bits of `i` mirrored
+/// at the point.
 pub(crate) fn radical_inverse(i: u32) -> f32 {
     // The upper 24 bits are all that single precision holds.
     (i.reverse_bits() >> 8) as f32 / (1u32 << 24) as f32

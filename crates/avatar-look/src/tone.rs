@@ -5,7 +5,8 @@ use crate::ToneMap;
 use glam::{Mat3, Vec3};
 
 impl ToneMap {
-    /// Maps linear light, `[r, g, b]`. Negative light counts as none, but for [`ToneMap::Linear`], which changes nothing.
+    /// Maps linear light, `[r, g, b]`. Negative light counts as none, but for [`ToneMap::Linear`], which
+    /// changes nothing.
     pub fn apply(self, rgb: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Neutral => neutral(rgb),
@@ -15,7 +16,8 @@ impl ToneMap {
     }
 }
 
-/// The light that a perfect dielectric of reflectance 4 % adds to a base colour, and that this takes off again.
+/// The light that a perfect dielectric of reflectance 4 % adds to a base colour, and that this takes off
+/// again.
 const FRESNEL: f32 = 0.04;
 /// From here on light is compressed.
 const COMPRESSION_START: f32 = 0.8 - FRESNEL;
@@ -24,11 +26,13 @@ const DESATURATION: f32 = 0.15;
 
 /// Khronos PBR Neutral: what is not bright keeps the colour of its texture.
 ///
-/// Khronos Group, "PBR Neutral Tone Mapper Specification", 2024, <https://github.com/KhronosGroup/ToneMapping>.
+/// Khronos Group, "PBR Neutral Tone Mapper Specification", 2024,
+/// <https://github.com/KhronosGroup/ToneMapping>.
 pub fn neutral(rgb: [f32; 3]) -> [f32; 3] {
     let light = Vec3::from(rgb).max(Vec3::ZERO);
     let least = light.min_element();
-    // Where the darkest channel is below twice the Fresnel term, it is squeezed instead, so as not to become negative.
+    // Where the darkest channel is below twice the Fresnel term, it is squeezed instead, so as not to become
+    // negative.
     let offset = if least < 2.0 * FRESNEL { least - least * least / (4.0 * FRESNEL) } else { FRESNEL };
     let base = light - offset;
     let peak = base.max_element();
@@ -50,7 +54,8 @@ const SLOPE: f32 = 2.0;
 const TOE_POWER: f32 = 3.0;
 const SHOULDER_POWER: f32 = 3.25;
 
-/// Mixes the channels before the curve, so that bright colours turn pale; columns are what red, green and blue become.
+/// Mixes the channels before the curve, so that bright colours turn pale; columns are what red, green and
+/// blue become.
 const INSET: Mat3 = Mat3::from_cols(
     Vec3::new(0.842_401_1, 0.042_401_07, 0.042_401_07),
     Vec3::new(0.078_436_5, 0.878_436_5, 0.078_436_5),
@@ -65,9 +70,9 @@ const OUTSET: Mat3 = Mat3::from_cols(
 
 /// AgX: filmic, bright colours turn pale.
 ///
-/// T. Sobotka, "AgX", 2022, <https://github.com/sobotka/AgX>, with the closed form of its curve in place of the table:
-/// bWFuanVzYWth, "AgX", 2023, <https://github.com/bWFuanVzYWth/AgX>. AgX yields colours for a screen of gamma 2.2; this
-/// undoes the gamma.
+/// T. Sobotka, "AgX", 2022, <https://github.com/sobotka/AgX>, with the closed form of its curve in place of
+/// the table: bWFuanVzYWth, "AgX", 2023, <https://github.com/bWFuanVzYWth/AgX>. AgX yields colours for a
+/// screen of gamma 2.2; this undoes the gamma.
 pub fn agx(rgb: [f32; 3]) -> [f32; 3] {
     let light = INSET * Vec3::from(rgb).max(Vec3::ZERO);
     // No light has no logarithm; the least positive one is far below the range already.
@@ -79,8 +84,8 @@ pub fn agx(rgb: [f32; 3]) -> [f32; 3] {
 
 /// AgX's sigmoid: from the share of its range of stops, 0 to 1, to a colour for a screen, 0 to 1.
 ///
-/// On either side of the pivot a line that is bent toward the end, `slope · x / (1 + a·|x|^p)^(1/p)`; `a` lets the
-/// sides end at 0 and 1.
+/// On either side of the pivot a line that is bent toward the end, `slope · x / (1 + a·|x|^p)^(1/p)`; `a`
+/// lets the sides end at 0 and 1.
 pub fn agx_curve(x: f32) -> f32 {
     let (end, power) = if x < PIVOT { (PIVOT, TOE_POWER) } else { (1.0 - PIVOT, SHOULDER_POWER) };
     let a = (2.0 * SLOPE).powf(power) - end.powf(-power);

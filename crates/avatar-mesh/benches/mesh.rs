@@ -1,5 +1,5 @@
-//! Deformation per vertex, reading against copying, welding; at the size of the original skin. Divan prints items
-//! (vertices) or bytes per second beside the time of one run.
+//! Deformation per vertex, reading against copying, welding; at the size of the original skin. Divan prints
+//! items (vertices) or bytes per second beside the time of one run.
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
 use avatar_mesh::{
@@ -57,7 +57,8 @@ fn deform_with_shapes(bencher: Bencher<'_, '_>, shapes: usize) {
     });
 }
 
-/// Of a face with many shapes, each moves a few vertices: one in twenty here, or all. Every second shape is active.
+/// Of a face with many shapes, each moves a few vertices: one in twenty here, or all. Every second shape is
+/// active.
 #[divan::bench(args = [("sparse", 20), ("dense", 1)])]
 fn deform_with_fifty_shapes(bencher: Bencher<'_, '_>, (_, one_in): (&str, usize)) {
     let mut mesh = skin();

@@ -1,8 +1,8 @@
 //! Whether geometries of several files can be shapes of one mesh.
 //!
-//! Shapes blend vertex by vertex, so all geometries of a set need the same number of vertices in the same order. Files do not say
-//! what their order means; their faces do: where vertices were reordered, faces name others. (Vertices of no face, and an order that
-//! turns a symmetric net of faces into itself, tell nothing.)
+//! Shapes blend vertex by vertex, so all geometries of a set need the same number of vertices in the same
+//! order. Files do not say what their order means; their faces do: where vertices were reordered, faces name
+//! others. (Vertices of no face, and an order that turns a symmetric net of faces into itself, tell nothing.)
 
 use glam::Vec3;
 use std::cmp::Ordering;
@@ -72,8 +72,8 @@ pub struct Geometry<'a> {
 pub enum FaceMatch {
     /// One by one.
     Same,
-    /// All of them, but listed in another order, or beginning at other corners: harmless for blending, but whatever is stored
-    /// per face or per corner must be moved along.
+    /// All of them, but listed in another order, or beginning at other corners: harmless for blending, but
+    /// whatever is stored per face or per corner must be moved along.
     Reordered {
         /// For each face of the base, the one of the candidate that it is.
         candidate_from_base: Vec<u32>,
@@ -104,7 +104,7 @@ impl fmt::Display for FaceMatch {
     }
 }
 
-/// Why a geometry is no shape of the base.
+/// Why a geometry cannot be a shape of the base.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}, shape {shape:?}: expected {}, found {}", .mismatch.expected(), .mismatch.found())]
 pub struct CoherenceError {
@@ -187,7 +187,8 @@ impl Mismatch {
 /// Checks that a candidate has the base's vertices and faces.
 ///
 /// # Errors
-/// Other counts, another order of vertices, other faces; a face that runs the other way around is another face.
+/// Other counts, another order of vertices, other faces; a face that runs the other way around is another
+/// face.
 pub fn check(base: Geometry<'_>, candidate: Geometry<'_>) -> Result<FaceMatch, CoherenceError> {
     compare(base, candidate).map_err(|mismatch| CoherenceError {
         file: candidate.file.to_owned(),
@@ -219,9 +220,9 @@ fn compare(base: Geometry<'_>, candidate: Geometry<'_>) -> Result<FaceMatch, Mis
     })
 }
 
-/// The corner from which a face reads as the first of all its turns. Two faces are the same but for where they begin if
-/// they read the same from there. Linear in the corners: of two beginnings, the one that loses after k corners takes the k
-/// that follow it along.
+/// The corner from which a face reads as the first of all its turns. Two faces are the same but for where
+/// they begin if they read the same from there. Linear in the corners: of two beginnings, the one that loses
+/// after k corners takes the k that follow it along.
 pub fn first_corner(corners: &[u32]) -> usize {
     let count = corners.len();
     let at = |start: usize, k: usize| corners[(start + k) % count];
@@ -275,8 +276,8 @@ fn matched(base: Faces<'_>, candidate: Faces<'_>) -> Result<FaceMatch, (usize, u
     }
 }
 
-/// Where the faces are the same but for a new numbering of their vertices: how many vertices have another number, and the
-/// first with its new one.
+/// Where the faces are the same but for a new numbering of their vertices: how many vertices have another
+/// number, and the first with its new one.
 fn renumbered(base: Faces<'_>, candidate: Faces<'_>) -> Option<(usize, u32, u32)> {
     let mut new_of: HashMap<u32, u32> = HashMap::new();
     let mut old_of: HashMap<u32, u32> = HashMap::new();

@@ -1,5 +1,5 @@
-use crate::{Mesh, SmoothNormals};
-use glam::{Affine3A, Vec3, Vec3A, Vec4};
+use crate::{Deformed, Mesh, SmoothNormals};
+use glam::{Affine3A, Vec3, Vec3A};
 
 /// A blended or skinned normal shorter than this has no direction: the undeformed normal takes its place.
 pub const MIN_NORMAL_LENGTH: f32 = 1e-6;
@@ -10,27 +10,17 @@ pub enum ShapeNormals<'a> {
     /// Shapes add their own offsets, `n + Σ_k b_k · dn_k`; those without any leave normals alone.
     #[default]
     Given,
-    /// Normals change as those computed from the blended positions do; offsets for normals are not used. Costs time per triangle
-    /// while any weight is other than 0.
+    /// Normals change as those computed from the blended positions do; offsets for normals are not used.
+    /// Costs time per triangle while any weight is other than 0.
     Recomputed(&'a mut SmoothNormals),
-    /// Normals stay those of the base shape, only bones turn them: folds of a shape are seen in its outline, not in its
-    /// shading.
+    /// Normals stay those of the base shape, only bones turn them: folds of a shape are seen in its outline,
+    /// not in its shading.
     Unblended,
-}
-
-/// Deformed positions, normals and, where the mesh has them, tangents, one each per vertex of the mesh, in its order.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Deformed {
-    /// Positions in world space.
-    pub positions: Vec<Vec3>,
-    /// Unit normals in world space.
-    pub normals: Vec<Vec3>,
-    /// Unit tangents in world space, with the handedness of the mesh; empty where the mesh has none.
-    pub tangents: Vec<Vec4>,
 }
 
 /// Why a mesh could not be deformed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DeformError {
     /// Another number of weights than the mesh has shapes.
     #[error("expected {expected} blend weights, found {found}")]
@@ -64,9 +54,9 @@ pub enum DeformError {
 
 /// Blends and skins all vertices in f32: the reference for every other implementation. Allocates nothing.
 ///
-/// `bones` are bone matrices `X` in the order that the mesh's bone indices mean; a mesh without skinning follows
-/// `bones[0]`. `weights` has one blend weight per shape; a shape with weight 0 costs nothing, and one that stores moved vertices
-/// only costs time for these.
+/// `bones` are bone matrices `X` in the order that the mesh's bone indices mean; a mesh without skinning
+/// follows `bones[0]`. `weights` has one blend weight per shape; a shape with weight 0 costs nothing, and one
+/// that stores moved vertices only costs time for these.
 ///
 /// # Errors
 /// Lengths that do not fit the mesh, or a bone beyond the palette; `out` may then be partly written.
@@ -99,8 +89,8 @@ pub fn deform_with(
     skin(mesh, bones, out)
 }
 
-/// The part of [`deform()`] before the bones: `v + Σ_k b_k · d_k`, and the same for normals and tangents, which are not made unit
-/// vectors yet.
+/// The part of [`deform()`] before the bones: `v + Σ_k b_k · d_k`, and the same for normals and tangents,
+/// which are not made unit vectors yet.
 ///
 /// # Errors
 /// Lengths that do not fit the mesh.

@@ -1,11 +1,12 @@
 use crate::{Bounds, Mesh};
 use glam::{Affine3A, DVec3, Vec3};
 
-/// A box around whatever [`crate::deform()`] makes of a mesh, without looking at its vertices: never too small.
+/// A box around whatever [`crate::deform()`] makes of a mesh, without looking at its vertices: never too
+/// small.
 ///
-/// A deformed vertex is a mean of what its bones make of its blended position, so it lies within the union of boxes that each bone
-/// moves ([`BoneBounds`]). Bone weights below 0 or with another sum than 1 widen the union by as much as they can carry a vertex
-/// out of it; so does what f32 may round.
+/// A deformed vertex is a mean of what its bones make of its blended position, so it lies within the union of
+/// boxes that each bone moves ([`BoneBounds`]). Bone weights below 0 or with another sum than 1 widen the
+/// union by as much as they can carry a vertex out of it; so does what f32 may round.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeformBounds {
     bones: Vec<BoneBounds>,
@@ -15,18 +16,19 @@ pub struct DeformBounds {
     sum_off: f64,
 }
 
-/// Where a cell of the vertices that one bone moves is, before it moves them: the box of the undeformed ones, and what each shape
-/// makes of it.
+/// Where a cell of the vertices that one bone moves is, before it moves them: the box of the undeformed ones,
+/// and what each shape makes of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoneBounds {
     bone: usize,
     /// Of all vertices without shapes.
     rest: Bounds,
-    /// Of those that no shape moves; inside out where there are none.
+    /// The box of the vertices that no shape moves; its minimum lies above its maximum without such vertices.
     still: Bounds,
     /// Shapes that move any.
     reach: Vec<Reach>,
-    /// For each of +x, +y, +z, −x, −y, −z: the numbers of `reach`, furthest first by where what they move is at rest.
+    /// For each of +x, +y, +z, −x, −y, −z: the numbers of `reach`, furthest first by where what they move is
+    /// at rest.
     furthest_first: [Vec<u32>; 6],
 }
 
@@ -40,9 +42,9 @@ struct Reach {
     moves_all: bool,
 }
 
-/// Cells of a bone: 2 to this power. A box that a bone turns grows by up to its own size, so small ones fit better. Of a head that
-/// turns by up to 0.6 radians, the longest edge is too long by 1.3 to 1.4 on average and 1.8 at most with one box per bone,
-/// by 1.2 and 1.5 with 32.
+/// Cells of a bone: 2 to this power. A box that a bone turns grows by up to its own size, so small ones fit
+/// better. Of a head that turns by up to 0.6 radians, the longest edge is too long by 1.3 to 1.4 on average
+/// and 1.8 at most with one box per bone, by 1.2 and 1.5 with 32.
 const HALVINGS: usize = 5;
 /// Vertices of a cell that is not halved any more.
 const SMALLEST_CELL: usize = 8;
@@ -98,15 +100,17 @@ impl DeformBounds {
         &self.bones
     }
 
-    /// How far bone weights carry vertices out of the union of the boxes that bones move, at most: `[overshoot, sum_off]`, the
-    /// largest sum of negative weights of a vertex, and how far the sum of its weights is from 1. That is
-    /// `overshoot · size + sum_off · largest` on each side, with the union's size and its largest coordinate.
+    /// How far bone weights carry vertices out of the union of the boxes that bones move, at most:
+    /// `[overshoot, sum_off]`, the largest sum of negative weights of a vertex, and how far the sum of its
+    /// weights is from 1. That is `overshoot · size + sum_off · largest` on each side, with the union's size
+    /// and its largest coordinate.
     pub fn excess(&self) -> [f32; 2] {
         [self.overshoot as f32, self.sum_off as f32]
     }
 
-    /// The box around the mesh with these bone matrices, and these weights of its shapes. `None` without vertices; bones beyond
-    /// the palette, which [`crate::deform()`] refuses, and missing weights count as nothing.
+    /// The box around the mesh with these bone matrices, and these weights of its shapes. `None` without
+    /// vertices; bones beyond the palette, which [`crate::deform()`] refuses, and missing weights count as
+    /// nothing.
     pub fn around(&self, bones: &[Affine3A], weights: &[f32]) -> Option<Bounds> {
         let weight = |shape: usize| weights.get(shape).copied().unwrap_or(0.0);
         self.around_within(bones, |shape| [weight(shape); 2])
@@ -148,9 +152,9 @@ impl BoneBounds {
     /// In every direction the smaller of two bounds:
     ///
     /// - the furthest vertex at rest, plus the most that each shape moves anything;
-    /// - for a vertex, among the shapes that move it, take the one whose vertices lie least far at rest. The vertex
-    ///   lies no further, and only shapes that lie at least as far move it, too: the largest of `rest + moves` over all shapes in that
-    ///   place. So what raises the chin does not raise the crown.
+    /// - for a vertex, among the shapes that move it, take the one whose vertices lie least far at rest. The
+    ///   vertex lies no further, and only shapes that lie at least as far move it, too: the largest of `rest
+    ///   + moves` over all shapes in that place. So what raises the chin does not raise the crown.
     fn shaped_wide(&self, range: &impl Fn(usize) -> [f32; 2]) -> (DVec3, DVec3) {
         let mut far = [0.0; 6];
         for (direction, far) in far.iter_mut().enumerate() {
@@ -184,7 +188,8 @@ fn outward(min: DVec3, max: DVec3) -> Bounds {
     Bounds { min: min.to_array().map(f32::next_down).into(), max: max.to_array().map(f32::next_up).into() }
 }
 
-/// Gives each vertex, instead of its bones, the cells of these bones that it lies in, and says whose each cell is.
+/// Gives each vertex, instead of its bones, the cells of these bones that it lies in, and says whose each
+/// cell is.
 fn cells(mesh: &Mesh, bones_of: &mut [[Option<usize>; 4]]) -> Vec<usize> {
     let mut slots: Vec<(usize, usize, usize)> = Vec::new();
     for (vertex, bones) in bones_of.iter().enumerate() {

@@ -1,28 +1,32 @@
-//! Meshes of rigged faces: parts, blend shapes and their mathematics, raw buffers, deformation on the CPU, OBJ.
+//! Meshes of rigged faces: parts, blend shapes and their mathematics, raw buffers, deformation on the CPU,
+//! OBJ.
 //!
 //! ```text
 //!  VB, IB bytes ──raw──▶ Mesh { points, shapes, skinning } ──deform──▶ positions, normals ──obj──▶ text
 //! ```
 //!
-//! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up, the face
-//! looks along +Z, the character's left is +X. Texture coordinates have their origin at the top left corner of
-//! the image and v grows downward. Triangles run counter-clockwise seen from outside.
+//! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up, the face looks
+//! along +Z, the character's left is +X. Texture coordinates have their origin at the top left corner of the
+//! image and v grows downward. Triangles run counter-clockwise seen from outside.
 //!
-//! With `b` the blend weights, `d`, `dn` a shape's offsets, `X` the bone matrices and `w` the four bone weights:
+//! With `b` the blend weights, `d`, `dn` a shape's offsets, `X` the bone matrices and `w` the four bone
+//! weights:
 //!
 //! ```text
 //!  v_blend = v + Σ_k b_k · d_k         v_out = Σ_{i=0..3} w_i · X_{bone_i} · v_blend
 //!  n_blend = n + Σ_k b_k · dn_k        n_out = normalize( Σ_{i=0..3} w_i · mat3(X_{bone_i}) · n_blend )
 //! ```
 //!
-//! Tangents, where a mesh has them, follow as normals do. [`deform()`] is the reference that the GPU's results are held against.
+//! Tangents, where a mesh has them, follow as normals do. [`deform()`] is the reference that the GPU's
+//! results are held against.
 //!
 //! ```
 //! use avatar_mesh::{deform, raw};
 //! use glam::{Affine3A, Vec3};
 //!
 //! // One vertex of a rigid part: position, uv, normal.
-//! let vertex: Vec<u8> = [1.0f32, 2.0, 3.0, 0.5, 0.5, 0.0, 0.0, 1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+//! let vertex = [1.0f32, 2.0, 3.0, 0.5, 0.5, 0.0, 0.0, 1.0];
+//! let vertex: Vec<u8> = vertex.iter().flat_map(|x| x.to_le_bytes()).collect();
 //! let mesh = raw::read_rigid(&vertex, &[])?;
 //! let lifted = Affine3A::from_translation(Vec3::Y);
 //! let mut posed = mesh.deformed();
@@ -39,9 +43,10 @@
 //!  keys of a Sequence ──────────┘
 //! ```
 //!
-//! - A [`Shape`] stores moved vertices only, where that is smaller ([`Offsets`]). Shapes without offsets for normals leave them alone;
-//!   [`ShapeNormals`] is the choice, [`SmoothNormals`] recomputes them.
-//! - [`weights`]: relative and absolute forms, normalised weights. All functions on weights work with any renderer.
+//! - A [`Shape`] stores moved vertices only, where that is smaller ([`Offsets`]). Shapes without offsets for
+//!   normals leave them alone; [`ShapeNormals`] is the choice, [`SmoothNormals`] recomputes them.
+//! - [`weights`]: relative and absolute forms, normalised weights. All functions on weights work with any
+//!   renderer.
 //! - [`drivers`]: in-between shapes, and combinations that count as the product of others.
 //! - [`sequence`]: geometries as keys in time, with any transition function.
 //! - [`space`]: weights as points along named axes, and their mixtures.
@@ -67,29 +72,30 @@
 //! This crate knows no files, no clock and no GPU, and what runs every frame allocates nothing.
 
 mod bounds;
-pub mod coherence;
-mod deform;
-mod deform_bounds;
-pub mod drivers;
-mod in_between;
-mod mesh;
-pub mod obj;
 mod offsets;
-mod parts;
-pub mod raw;
-pub mod sequence;
 mod shape;
-mod smooth;
-pub mod space;
+mod mesh;
+mod parts;
 mod validate;
-pub mod weights;
+pub mod raw;
 mod weld;
 mod winding;
 
+pub mod weights;
+mod smooth;
+mod deform;
+mod deform_bounds;
+
+pub mod drivers;
+pub mod space;
+pub mod sequence;
+pub mod coherence;
+pub mod obj;
+
 pub use bounds::Bounds;
-pub use deform::{DeformError, Deformed, MIN_NORMAL_LENGTH, ShapeNormals, blend, deform, deform_with};
+pub use deform::{DeformError, MIN_NORMAL_LENGTH, ShapeNormals, blend, deform, deform_with};
 pub use deform_bounds::{BoneBounds, DeformBounds};
-pub use mesh::{Mesh, Skinning};
+pub use mesh::{Deformed, Mesh, Skinning};
 pub use offsets::{Offsets, OffsetsError};
 pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec};
 pub use shape::Shape;

@@ -1,18 +1,19 @@
-use crate::{Bounds, Deformed, Shape};
+use crate::{Bounds, Shape};
 use glam::{Vec2, Vec3, Vec4};
 
-/// A triangle mesh that shapes and bones can deform. All vertex arrays have one length, but for those that may be
-/// empty.
+/// A triangle mesh that shapes and bones can deform. All vertex arrays have one length, but for those that
+/// may be empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Positions in world space at bind pose.
+    /// Positions at bind pose: of packs in the raw format in world space, of other files in the space of the
+    /// node or skin that holds the mesh. The bone matrices take them to the world from there.
     pub positions: Vec<Vec3>,
     /// Texture coordinates, origin top left; outside 0…1 the texture repeats.
     pub uvs: Vec<Vec2>,
-    /// Normals in world space at bind pose, of about unit length.
+    /// Normals at bind pose, in the space of the positions, of about unit length.
     pub normals: Vec<Vec3>,
-    /// Tangents as in glTF 2.0: unit directions of growing u, and in w the handedness ±1 of `bitangent = w · (n × t)`. May
-    /// be empty.
+    /// Tangents as in glTF 2.0: unit directions of growing u, and in w the handedness ±1 of `bitangent = w ·
+    /// (n × t)`. May be empty.
     pub tangents: Vec<Vec4>,
     /// Triangles, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
@@ -31,6 +32,18 @@ pub struct Skinning {
     pub weights: Vec<[f32; 4]>,
     /// A column of the raw format without a known meaning, kept for writing it back; may be empty.
     pub blend_index: Vec<Vec3>,
+}
+
+/// Deformed positions, normals and, where the mesh has them, tangents, one each per vertex of the mesh, in
+/// its order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Deformed {
+    /// Positions in world space.
+    pub positions: Vec<Vec3>,
+    /// Unit normals in world space.
+    pub normals: Vec<Vec3>,
+    /// Unit tangents in world space, with the handedness of the mesh; empty where the mesh has none.
+    pub tangents: Vec<Vec4>,
 }
 
 impl Mesh {

@@ -26,8 +26,8 @@ pub struct ObjPart<'a> {
     pub triangles: &'a [[u32; 3]],
 }
 
-/// Several parts as objects of one text. Numbers are the shortest that read back to the same f32, but for v of texture coordinates,
-/// which OBJ counts from below: there they are the shortest of 64 bits.
+/// Several parts as objects of one text. Numbers are the shortest that read back to the same f32, but for v
+/// of texture coordinates, which OBJ counts from below: there they are the shortest of 64 bits.
 pub fn write_parts(parts: &[ObjPart<'_>]) -> String {
     let mut out = String::new();
     let [mut first, mut first_uv, mut first_normal] = [1u64; 3];

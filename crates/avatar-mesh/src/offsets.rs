@@ -1,8 +1,9 @@
 use glam::Vec3;
 use std::fmt;
 
-/// One offset per vertex of a mesh, stored in the smaller of two ways: all of them, or those of the moved vertices with their
-/// indices. A vertex is moved where its offset is anything but `+0.0` in all coordinates, so that nothing is lost to the bit.
+/// One offset per vertex of a mesh, stored in the smaller of two ways: all of them, or those of the moved
+/// vertices with their indices. A vertex is moved where its offset is anything but `+0.0` in all coordinates,
+/// so that nothing is lost to the bit.
 #[derive(Clone, PartialEq)]
 pub struct Offsets {
     store: Store,
@@ -16,8 +17,9 @@ enum Store {
     Sparse { len: usize, vertices: Vec<u32>, offsets: Vec<Vec3> },
 }
 
-/// Why pairs of vertices and offsets are no [`Offsets`].
+/// Why pairs of vertices and offsets cannot become [`Offsets`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OffsetsError {
     /// A vertex that the mesh lacks.
     #[error("pair {pair}: expected a vertex below {vertices}, found {found}")]
@@ -127,7 +129,8 @@ impl Offsets {
         }
     }
 
-    /// The offset of a vertex; `None` beyond the mesh. A search among the moved vertices where only these are stored.
+    /// The offset of a vertex; `None` beyond the mesh. A search among the moved vertices where only these are
+    /// stored.
     pub fn get(&self, vertex: usize) -> Option<Vec3> {
         match &self.store {
             Store::Dense(offsets) => offsets.get(vertex).copied(),
@@ -155,8 +158,8 @@ impl Offsets {
             .map(move |vertex| moved.next_if(|(next, _)| *next == vertex).map_or(Vec3::ZERO, |(_, d)| d))
     }
 
-    /// Adds `weight · d` to each vertex's sum: for all vertices, or for the moved ones only where only these are stored.
-    /// Vertices without a sum are left out.
+    /// Adds `weight · d` to each vertex's sum: for all vertices, or for the moved ones only where only these
+    /// are stored. Vertices without a sum are left out.
     pub fn add_scaled(&self, weight: f32, sums: &mut [Vec3]) {
         match &self.store {
             Store::Dense(offsets) => {

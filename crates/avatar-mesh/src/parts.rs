@@ -3,8 +3,8 @@
 pub enum PartKind {
     /// Skin, deformed by bones and shapes.
     Skin,
-    /// Every surface without a shading of its own: teeth, gums and tongue of a face; clothes and anything else of other
-    /// files.
+    /// Every surface without a shading of its own: teeth, gums and tongue of a face; clothes and anything
+    /// else of other files.
     Surface,
     /// Eyeball with iris and pupil.
     Eyeball,

@@ -1,9 +1,8 @@
 //! The raw format: vertex buffers (`*_VB.raw`) of little-endian f32 and index buffers (`*_IB.raw`) of u32.
 //!
-//! | vertex | floats |
-//! |---|---|
-//! | skin, 124 bytes | position 3, uv 2, normal 3, bone index 4, weight 4, blend index 3, then position offset 3 and normal offset 3 of each of the two shapes |
-//! | other parts, 32 bytes | position 3, uv 2, normal 3 |
+//! - A vertex of the skin has 124 bytes: position 3, uv 2, normal 3, bone index 4, weight 4, blend index 3,
+//!   then position offset 3 and normal offset 3 of each of the two shapes.
+//! - A vertex of the other parts has 32 bytes: position 3, uv 2, normal 3.
 
 use crate::{FACE_BONES, FACE_SHAPES, Mesh, MeshError, Offsets, Shape, Skinning};
 use glam::{Vec2, Vec3};
@@ -16,7 +15,7 @@ pub const RIGID_FLOATS: usize = 8;
 /// Reads a skin. Bone indices must be whole numbers below 9; everything else is left to [`Mesh::validate`].
 ///
 /// # Errors
-/// Buffers that are no whole number of elements, an empty vertex buffer, an impossible bone index.
+/// Buffers whose lengths are not multiples of an element's, an empty vertex buffer, an impossible bone index.
 pub fn read_skin(vertices: &[u8], indices: &[u8]) -> Result<Mesh, MeshError> {
     let vertices = elements::<{ SKIN_FLOATS * 4 }>("vertices", vertices)?;
     let mut mesh = mesh_with_capacity(vertices.len(), triangles(indices)?);
@@ -49,7 +48,7 @@ pub fn read_skin(vertices: &[u8], indices: &[u8]) -> Result<Mesh, MeshError> {
 /// Reads any part but the skin.
 ///
 /// # Errors
-/// Buffers that are no whole number of elements, an empty vertex buffer.
+/// Buffers whose lengths are not multiples of an element's, an empty vertex buffer.
 pub fn read_rigid(vertices: &[u8], indices: &[u8]) -> Result<Mesh, MeshError> {
     let vertices = elements::<{ RIGID_FLOATS * 4 }>("vertices", vertices)?;
     let mut mesh = mesh_with_capacity(vertices.len(), triangles(indices)?);
@@ -60,8 +59,8 @@ pub fn read_rigid(vertices: &[u8], indices: &[u8]) -> Result<Mesh, MeshError> {
     Ok(mesh)
 }
 
-/// Writes a vertex buffer: of a skin if the mesh has skinning, else of a rigid part. Columns that the mesh lacks (a
-/// third shape is beyond the format) are zero.
+/// Writes a vertex buffer: of a skin if the mesh has skinning, else of a rigid part. Columns that the mesh
+/// lacks (a third shape is beyond the format) are zero.
 pub fn write_vertices(mesh: &Mesh) -> Vec<u8> {
     let mut out = Vec::new();
     let mut push = |values: &[f32]| out.extend(values.iter().flat_map(|value| value.to_le_bytes()));

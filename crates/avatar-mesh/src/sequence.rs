@@ -6,8 +6,8 @@
 //!  s = (t − t_a) / (t_b − t_a)        w_b = f(s)        w_a = 1 − f(s)
 //! ```
 //!
-//! Any function will do; where it leaves 0…1 the geometries are extrapolated. Before the first key and after the last one nothing
-//! moves. Times are seconds, in any range.
+//! Any function will do; where it leaves 0…1 the geometries are extrapolated. Before the first key and after
+//! the last one nothing moves. Times are seconds, in any range.
 
 use crate::Shape;
 use crate::weights::VertexCountError;
@@ -35,10 +35,11 @@ pub struct Between {
     pub weight_b: f32,
 }
 
-/// Why keys are no sequence, or an edit of one is impossible.
+/// Why keys do not form a sequence, or why it cannot be edited so.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SequenceError {
-    /// A time that is no finite number.
+    /// A time that is NaN or infinite.
     #[error("expected a time in seconds, found {found}")]
     Time {
         /// The number.
@@ -104,7 +105,7 @@ impl Sequence {
     /// A sequence of keys in any order.
     ///
     /// # Errors
-    /// Times that are no numbers or not different, geometries of different numbers of vertices.
+    /// Times that are NaN, infinite or equal; geometries of different numbers of vertices.
     pub fn new(mut keys: Vec<SequenceKey>) -> Result<Self, SequenceError> {
         let expected = keys.first().map_or(0, |key| key.positions.len());
         for SequenceKey { time_secs, positions } in &keys {
@@ -121,7 +122,8 @@ impl Sequence {
     /// A sequence of files of positions, such as OBJ, one every `interval_secs` from 0 on.
     ///
     /// # Errors
-    /// An interval of 0 or without end (a negative one runs backward), geometries of different numbers of vertices.
+    /// An interval of 0 or without end (a negative one runs backward), geometries of different numbers of
+    /// vertices.
     pub fn from_frames(
         interval_secs: f64,
         frames: impl IntoIterator<Item = Vec<Vec3>>,
@@ -151,14 +153,15 @@ impl Sequence {
             let only = b.min(last);
             return Some(Between { a: only, b: only, weight_a: 1.0, weight_b: 0.0 });
         }
-        // Halves: the difference of two numbers may be none.
+        // Halves, because the difference of two finite numbers may be infinite.
         let half = |k: usize| self.keys[k].time_secs * 0.5;
         let s = (time_secs * 0.5 - half(b - 1)) / (half(b) - half(b - 1));
         let weight_b = transition(if s.is_finite() { s as f32 } else { 0.0 });
         Some(Between { a: b - 1, b, weight_a: 1.0 - weight_b, weight_b })
     }
 
-    /// The weight of each key at a time. They sum to 1, so that they fit [`Self::shapes`] whatever the base is.
+    /// The weight of each key at a time. They sum to 1, so that they fit [`Self::shapes`] whatever the base
+    /// is.
     ///
     /// # Errors
     /// Another number of weights than there are keys.
@@ -216,7 +219,7 @@ impl Sequence {
     /// Adds a key and returns where it is now.
     ///
     /// # Errors
-    /// A time that is no number or taken, another number of vertices.
+    /// A time that is NaN, infinite or taken; another number of vertices.
     pub fn insert(&mut self, key: SequenceKey) -> Result<usize, SequenceError> {
         if !self.keys.is_empty() {
             check_count(self.vertex_count(), key.positions.len())?;
@@ -229,7 +232,7 @@ impl Sequence {
     /// Makes the in-between at a time a key, and returns where it is.
     ///
     /// # Errors
-    /// A time that is no number or taken.
+    /// A time that is NaN, infinite or taken.
     pub fn bake(&mut self, time_secs: f64, transition: impl Fn(f32) -> f32) -> Result<usize, SequenceError> {
         self.free_place(time_secs)?;
         let mut positions = vec![Vec3::ZERO; self.vertex_count()];
@@ -240,7 +243,7 @@ impl Sequence {
     /// Moves a key in time, past others if need be, and returns where it is now.
     ///
     /// # Errors
-    /// A key that is not there, a time that is no number or another key's; then nothing has changed.
+    /// A key that is not there; a time that is NaN, infinite or another key's. Nothing changes then.
     pub fn move_to(&mut self, key: usize, time_secs: f64) -> Result<usize, SequenceError> {
         check_time(time_secs)?;
         let mut moved = self.delete(key)?;

@@ -20,7 +20,8 @@ pub struct Shape {
     pub name: String,
     /// Offsets of the positions.
     pub positions: Offsets,
-    /// Offsets of the normals; without them the shape leaves normals alone ([`crate::ShapeNormals`] says what else is possible).
+    /// Offsets of the normals; without them the shape leaves normals alone ([`crate::ShapeNormals`] says what
+    /// else is possible).
     pub normals: Option<Offsets>,
     /// Offsets of the tangents' directions, for meshes with [`crate::Mesh::tangents`].
     pub tangents: Option<Offsets>,

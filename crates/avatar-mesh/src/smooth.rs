@@ -2,16 +2,17 @@ use crate::{Mesh, Offsets, weld_positions};
 use glam::Vec3;
 use std::collections::HashMap;
 
-/// Authored normals of one place that differ by less than this (the cosine of 5°) belong to one smooth surface: texture
-/// seams do, hard edges do not.
+/// Authored normals of one place that differ by less than this (the cosine of 5°) belong to one smooth
+/// surface: texture seams do, hard edges do not.
 const SMOOTH_COS: f32 = 0.996_194_7;
 
 /// Normals recomputed from blended positions, for shapes that have none of their own.
 ///
-/// The normal of a smooth group (vertices at one place whose authored normals agree) is
-/// `N(v) = normalize( Σ_corners α · n_face )` with α the angle of the face at the corner (G. Thürmer, C. A. Wüthrich, *Computing
-/// Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998). Each vertex gets its authored normal plus the
-/// change, `n + N(v_blend) − N(v)`: at rest nothing changes, seams stay closed and hard edges stay hard.
+/// The normal of a smooth group (vertices at one place whose authored normals agree) is `N(v) = normalize(
+/// Σ_corners α · n_face )` with α the angle of the face at the corner (G. Thürmer, C. A. Wüthrich, *Computing
+/// Vertex Normals from Polygonal Facets*, Journal of Graphics Tools 3(1), 1998). Each vertex gets its
+/// authored normal plus the change, `n + N(v_blend) − N(v)`: at rest nothing changes, seams stay closed and
+/// hard edges stay hard.
 ///
 /// Its memory is allocated once, by [`Self::new`].
 #[derive(Clone, Debug)]
@@ -56,8 +57,8 @@ impl SmoothNormals {
         self.group_of.len()
     }
 
-    /// Adds `N(positions) − N(v)` to each normal. Where a group has no normal, at rest or now, nothing changes. Slices of
-    /// another length than the mesh are taken as far as they go.
+    /// Adds `N(positions) − N(v)` to each normal. Where a group has no normal, at rest or now, nothing
+    /// changes. Slices of another length than the mesh are taken as far as they go.
     pub fn add_change(&mut self, positions: &[Vec3], normals: &mut [Vec3]) {
         self.sum_up(positions);
         for ((sum, rest), sign) in self.sums.iter_mut().zip(&self.rest).zip(&self.signs) {
@@ -70,8 +71,8 @@ impl SmoothNormals {
         }
     }
 
-    /// The normal offsets of a shape of this mesh as they are at weight 1: an approximation for renderers that blend normals as
-    /// they blend positions, exact at weights 0 and 1 of the shape alone.
+    /// The normal offsets of a shape of this mesh as they are at weight 1: an approximation for renderers
+    /// that blend normals as they blend positions, exact at weights 0 and 1 of the shape alone.
     pub fn offsets(&mut self, mesh: &Mesh, positions: &Offsets) -> Offsets {
         let mut moved = mesh.positions.clone();
         positions.add_scaled(1.0, &mut moved);

@@ -1,7 +1,8 @@
 //! Shape spaces: weights as coordinates along named axes.
 //!
-//! The shapes of a mesh span a space; a face in it is a point. Axes may be expressions or variants of one thing, the mathematics is
-//! the same: points add up and scale, so two faces mix by mixing their coordinates, in any proportion.
+//! The shapes of a mesh span a space; a face in it is a point. Axes may be expressions or variants of one
+//! thing, the mathematics is the same: points add up and scale, so two faces mix by mixing their coordinates,
+//! in any proportion.
 //!
 //! ```
 //! use avatar_mesh::space::{Coordinates, ShapeSpace};
@@ -30,7 +31,8 @@ pub struct Coordinates {
 }
 
 impl Coordinates {
-    /// `Σ share · point`: 0.4 of one and 0.9 of another. Shares need not sum to 1; those below 0 go away from a point.
+    /// `Σ share · point`: 0.4 of one and 0.9 of another. Shares need not sum to 1; those below 0 go away from
+    /// a point.
     pub fn mixed<'a>(parts: impl IntoIterator<Item = (f32, &'a Self)>) -> Self {
         let mut weights: BTreeMap<String, f32> = BTreeMap::new();
         for (share, part) in parts {
@@ -46,14 +48,14 @@ impl Coordinates {
     }
 }
 
-/// Of several weights for one axis the last one counts.
+/// If an axis has several weights, the last one counts.
 impl<S: Into<String>, const N: usize> From<[(S, f32); N]> for Coordinates {
     fn from(weights: [(S, f32); N]) -> Self {
         weights.into_iter().collect()
     }
 }
 
-/// Of several weights for one axis the last one counts.
+/// If an axis has several weights, the last one counts.
 impl<S: Into<String>> FromIterator<(S, f32)> for Coordinates {
     fn from_iter<I: IntoIterator<Item = (S, f32)>>(weights: I) -> Self {
         Self { weights: weights.into_iter().map(|(axis, weight)| (axis.into(), weight)).collect() }
@@ -89,8 +91,9 @@ impl ShapeSpace {
         &self.axes
     }
 
-    /// Writes the weight of each shape at a point, and tells `unknown` the name and weight of each of the point's axes that this
-    /// space lacks, in alphabetical order: another avatar may have them. Allocates nothing.
+    /// Writes the weight of each shape at a point, and tells `unknown` the name and weight of each of the
+    /// point's axes that this space lacks, in alphabetical order: another avatar may have them. Allocates
+    /// nothing.
     ///
     /// # Errors
     /// Another number of weights than there are axes; then nothing is written.
@@ -114,8 +117,8 @@ impl ShapeSpace {
         Ok(())
     }
 
-    /// The point at which the shapes have these weights, without the axes at 0. Of shapes of one name the last one other than 0
-    /// counts; missing weights are 0.
+    /// The point at which the shapes have these weights, without the axes at 0. Of shapes of one name the
+    /// last one other than 0 counts; missing weights are 0.
     pub fn point(&self, weights: &[f32]) -> Coordinates {
         let named = self.axes.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
         named.map(|(axis, weight)| (axis.as_str(), *weight)).collect()

@@ -8,8 +8,9 @@ pub const WEIGHT_SUM_LIMIT: f64 = 1e-3;
 
 /// What is wrong with a mesh or its bytes, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
-    /// A buffer that is no whole number of elements.
+    /// A buffer whose length is not a multiple of an element's.
     #[error("expected a whole number of {element_bytes}-byte {element}, found {found} bytes")]
     PartialElement {
         /// `vertices` or `triangles`.
@@ -54,7 +55,7 @@ pub enum MeshError {
         /// Number of vertices.
         vertices: usize,
     },
-    /// A bone index that is no whole number, negative or beyond the palette.
+    /// A bone index that is not a whole number, is negative, or is beyond the palette.
     #[error("vertex {vertex}, bone {slot}: expected a whole number from 0 to {last}, found {found}")]
     BoneIndex {
         /// The vertex.
@@ -78,8 +79,9 @@ pub enum MeshError {
     },
 }
 
-/// What was mended or deserves a look.
+/// Something that was mended, or that people should look at.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum MeshWarning {
     /// Weights were divided by their sum.
     Renormalised {
@@ -107,8 +109,8 @@ impl fmt::Display for MeshWarning {
 }
 
 impl Mesh {
-    /// Checks everything that deformation and drawing rely on, for a palette of `bones` bones, and renormalises
-    /// weights that are slightly off.
+    /// Checks everything that deformation and drawing rely on, for a palette of `bones` bones, and
+    /// renormalises weights that are slightly off.
     ///
     /// # Errors
     /// The first thing that is wrong, with its vertex or triangle.
@@ -225,8 +227,8 @@ fn finite_offsets(field: &str, offsets: &Offsets) -> Result<(), MeshError> {
     }
 }
 
-/// A float is finite exactly where its exponent is not all ones. The largest exponent of an array is one vectorised
-/// pass without branches; only an array that fails is searched for the place.
+/// A float is finite exactly where its exponent is not all ones. The largest exponent of an array is one
+/// vectorised pass without branches; only an array that fails is searched for the place.
 fn finite<const N: usize>(
     field: &str,
     values: impl Iterator<Item = [f32; N]> + Clone,

@@ -5,8 +5,8 @@
 //!  normalised  S_b + Σ w_i R_i / max(1, Σ w_i)
 //! ```
 //!
-//! Relative and absolute weights are the same numbers: what differs is what a shape stores. Normalising is a map on weights,
-//! so it works with whatever deforms the mesh. Weights below 0 and sums above 1 extrapolate.
+//! Relative and absolute weights are the same numbers: what differs is what a shape stores. Normalising is a
+//! map on weights, so it works with whatever deforms the mesh. Weights below 0 and sums above 1 extrapolate.
 
 use crate::{Offsets, Shape};
 use glam::Vec3;
@@ -62,8 +62,9 @@ pub fn base_weight(weights: &[f32]) -> f32 {
     (1.0 - sum(weights)) as f32
 }
 
-/// Divides by `max(1, Σ w_i)`: shapes at full weight average. A sum of at most 1, below 0 too, leaves the weights as they
-/// are to the bit, so nothing jumps as the sum passes 1 or 0; sums that are no finite number leave them, too.
+/// Divides by `max(1, Σ w_i)`: shapes at full weight average. A sum of at most 1, below 0 too, leaves the
+/// weights as they are to the bit, so nothing jumps as the sum passes 1 or 0; sums that are no finite number
+/// leave them, too.
 pub fn normalise(weights: &mut [f32]) {
     let sum = sum(weights);
     if sum > 1.0 && sum.is_finite() {
@@ -71,7 +72,8 @@ pub fn normalise(weights: &mut [f32]) {
     }
 }
 
-/// Brings weights to `least`…`most`, against extrapolation. NaN becomes one of the two; where `least` is above `most`, all become `least`.
+/// Brings weights to `least`…`most`, against extrapolation. NaN becomes one of the two; where `least` is
+/// above `most`, all become `least`.
 pub fn clamp(weights: &mut [f32], least: f32, most: f32) {
     // Not f32::clamp, which panics for a range without numbers; min and max prefer a number to NaN.
     weights.iter_mut().for_each(|weight| *weight = weight.min(most).max(least));

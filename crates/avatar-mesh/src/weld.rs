@@ -11,9 +11,9 @@ pub struct Welded {
     pub welded_from_original: Vec<u32>,
 }
 
-/// Merges vertices that are alike, to the bit, in every attribute that deformation and drawing use: the welded mesh
-/// deforms and draws exactly as the original does. Of [`Skinning::blend_index`], which nothing uses, each merged
-/// vertex keeps the first. Vertices keep the order of their first appearance.
+/// Merges vertices that are alike, to the bit, in every attribute that deformation and drawing use: the
+/// welded mesh deforms and draws exactly as the original does. Of [`Skinning::blend_index`], which nothing
+/// uses, each merged vertex keeps the first. Vertices keep the order of their first appearance.
 pub fn weld(mesh: &Mesh) -> Welded {
     let mut first_of: HashMap<Vec<u32>, u32> = HashMap::with_capacity(mesh.positions.len());
     let mut originals = Vec::new();
@@ -81,8 +81,8 @@ fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
     bits
 }
 
-/// Gives points that are within `tolerance` of each other (along chains, too) one number, counted from 0 in the
-/// order of first appearance: the topology under vertices that were split for uvs or normals.
+/// Gives points that are within `tolerance` of each other (along chains, too) one number, counted from 0 in
+/// the order of first appearance: the topology under vertices that were split for uvs or normals.
 pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
     if tolerance == 0.0 {
         return weld_equal(positions);
@@ -92,8 +92,8 @@ pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
     let finest = f64::from(extent.min(f32::MAX)) / (1u64 << 40) as f64;
     let cell_size = (f64::from(tolerance) * 2.5).max(finest).max(f64::MIN_POSITIVE);
     let cell_of = |p: DVec3| (p / cell_size).floor().to_array().map(|x| x as i64);
-    // A little more than the tolerance, for the rounding of the division. Cells are wider than twice that, so that
-    // what a point can reach lies in two of them along each axis, often in one.
+    // A little more than the tolerance, for the rounding of the division. Cells are wider than twice that, so
+    // that what a point can reach lies in two of them along each axis, often in one.
     let reach = DVec3::splat(f64::from(tolerance).max(0.0) + cell_size * 1e-3);
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     let mut roots: Vec<u32> = (0..positions.len() as u32).collect();
@@ -121,12 +121,13 @@ pub fn weld_positions(positions: &[Vec3], tolerance: f32) -> Vec<u32> {
         .collect()
 }
 
-/// The same for equal points, in linear time however many of them there are at one place, as files may have it.
+/// The same for equal points, in linear time however many of them there are at one place, as files may have
+/// it.
 fn weld_equal(positions: &[Vec3]) -> Vec<u32> {
     let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(positions.len());
     let mut next = 0;
     let number = |position: &Vec3| {
-        // Adding 0 makes one zero of two. What is no number equals nothing.
+        // Adding 0 turns -0 into 0, so that both are equal. NaN equals nothing.
         let bits = position.to_array().map(|x| (x + 0.0).to_bits());
         let number = if position.is_finite() { *numbers.entry(bits).or_insert(next) } else { next };
         next = next.max(number + 1);

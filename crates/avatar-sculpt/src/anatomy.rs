@@ -1,4 +1,5 @@
-//! The measures that form, mesh, weights and paint must agree on. One unit is about a centimetre of a real head.
+//! The measures that form, mesh, weights and paint must agree on. One unit is about a centimetre of a real
+//! head.
 //!
 //! All of it describes the character's left half (x ≥ 0); the right half is the mirror image.
 
@@ -83,7 +84,8 @@ pub fn lid_crease(offset_x: f64) -> f64 {
     curve(&[(-0.2, -0.25), (0.0, 0.16), (0.25, 0.94), (0.5, 1.16), (0.8, 0.98), (1.0, 0.62), (1.2, 0.3)], s)
 }
 
-/// The middle of the eyebrow at `s` from the inner end (0) to the tail (1), seen from the front, and its half height.
+/// The middle of the eyebrow at `s` from the inner end (0) to the tail (1), seen from the front, and its half
+/// height.
 #[must_use]
 pub fn brow(s: f64) -> (DVec2, f64) {
     let x = lerp(1.25, 5.75, s);
@@ -91,8 +93,8 @@ pub fn brow(s: f64) -> (DVec2, f64) {
     (DVec2::new(x, y), curve(&[(0.0, 0.20), (0.15, 0.27), (0.6, 0.22), (1.0, 0.04)], s))
 }
 
-/// How much of the jaw's motion the skin at `p` takes, before the neck is considered; `lower` says on which side
-/// of the mouth line a point lies that could be on either.
+/// How much of the jaw's motion the skin at `p` takes, before the neck is considered; `lower` says on which
+/// side of the mouth line a point lies that could be on either.
 #[must_use]
 pub fn below_mouth(p: DVec3, lower: bool) -> f64 {
     // The angle about the jaw's pivot, measured down from the level line; the mouth line lies at one angle

@@ -1,7 +1,7 @@
 //! Sharp folds: where one normal cannot serve all triangles of a vertex, the vertex is split.
 //!
-//! Lips that touch and the root of an ear fold the skin by more than a right angle. An averaged normal there points
-//! along neither side and shades both wrongly.
+//! Lips that touch and the root of an ear fold the skin by more than a right angle. An averaged normal there
+//! points along neither side and shades both wrongly.
 
 use glam::DVec3;
 
@@ -10,8 +10,8 @@ use crate::{mesh, surface::half::Half};
 /// Cosine of the largest angle between a triangle and a normal that it uses.
 const LIMIT: f64 = 0.57;
 
-/// Splits vertices until every triangle agrees with its normals. `normal` gives the normals to start from; the
-/// result names, for every vertex, whether it was split off.
+/// Splits vertices until every triangle agrees with its normals. `normal` gives the normals to start from;
+/// the result names, for every vertex, whether it was split off.
 pub fn split(half: &mut Half, normal: &[DVec3]) -> Vec<bool> {
     let mut normals = normal.to_vec();
     let mut split_off = vec![false; half.nodes.len()];

@@ -13,7 +13,8 @@ use crate::{
 /// Turn → distance from the image's middle, in halves of its width: the face gets most of the pixels.
 const ACROSS: [(f64, f64); 5] =
     [(0.0, 0.0), (0.9, 0.48), (1.35, 0.69), (2.1, 0.86), (3.141_592_653_589_793_6, 0.998)];
-/// Elevation → height in the image. The crown stays off the edge: smaller versions of the image repeat across it.
+/// Elevation → height in the image. The crown stays off the edge: smaller versions of the image repeat across
+/// it.
 const DOWN: [(f64, f64); 7] =
     [(-2.9, 0.89), (-1.4, 0.80), (-0.95, 0.735), (0.0, 0.40), (0.6, 0.19), (1.0, 0.09), (1.6, 0.012)];
 
@@ -48,7 +49,8 @@ pub fn corners(half: &Half, triangle: &[usize; 3]) -> [DVec2; 3] {
             if let Some(k) = own.iter().position(|o| o.x == 1.0) {
                 own[k].y = 0.5 * (own[(k + 1) % 3].y + own[(k + 2) % 3].y);
             }
-            // Closed rows run the other way round than the mouth's: turned, no part of the picture is mirrored.
+            // Closed rows run the other way round than the mouth's: turned, no part of the picture is
+            // mirrored.
             let across = |y: f64| if closed { 1.0 - y } else { y };
             own.map(|o| DVec2::new(rect.0 + rect.2 * across(o.y), rect.1 + rect.3 * o.x))
         }

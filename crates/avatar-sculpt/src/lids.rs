@@ -1,8 +1,9 @@
 //! How the lids turn about the eye.
 //!
-//! A lid joint turns about the level axis through the eye's centre, so in coordinates (along the axis, radius,
-//! angle) a lid only changes its angle. Linear blending of a still and a turning bone cuts the corner of that arc
-//! and brings skin nearer to the axis; [`shrink`] says by how much, and the lids' inner side keeps that distance.
+//! A lid joint turns about the level axis through the eye's centre, so in coordinates (along the axis,
+//! radius, angle) a lid only changes its angle. Linear blending of a still and a turning bone cuts the corner
+//! of that arc and brings skin nearer to the axis; [`shrink`] says by how much, and the lids' inner side
+//! keeps that distance.
 
 use glam::DVec3;
 
@@ -34,8 +35,8 @@ fn angle_of(offset_x: f64, height: f64) -> f64 {
     libm::asin((height / radius).clamp(-1.0, 1.0))
 }
 
-/// Angle of a lid's margin, and the share of its joint's largest turn that takes the margin to the line where the
-/// lids meet, and a little past it.
+/// Angle of a lid's margin, and the share of its joint's largest turn that takes the margin to the line where
+/// the lids meet, and a little past it.
 fn margin_and_share(s: f64, lower: bool) -> (f64, f64) {
     let margin = lid_margin(s, !lower);
     let arch = 4.0 * s * (1.0 - s);

@@ -1,8 +1,8 @@
 //! Scalar mathematics whose bytes are the same on every machine.
 //!
-//! The standard library hands `sin`, `exp` and their like to the platform, and platforms differ in the last bit.
-//! Every transcendental function of this crate goes through `libm`, which is plain code; square roots are exact
-//! everywhere and stay with `std`.
+//! The standard library hands `sin`, `exp` and their like to the platform, and platforms differ in the last
+//! bit. Every transcendental function of this crate goes through `libm`, which is plain code; square roots
+//! are exact everywhere and stay with `std`.
 
 use glam::{DVec2, DVec3};
 

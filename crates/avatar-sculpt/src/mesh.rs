@@ -23,8 +23,8 @@ impl Part {
         (self.positions.len() - 1) as u32
     }
 
-    /// Adds a grid of `rows` × `columns` vertices. Seen from outside, columns go left to right and rows from top to
-    /// bottom.
+    /// Adds a grid of `rows` × `columns` vertices. Seen from outside, columns go left to right and rows from
+    /// top to bottom.
     pub fn add_grid(
         &mut self,
         rows: usize,
@@ -92,7 +92,8 @@ impl Part {
     }
 }
 
-/// For every position the number of the first vertex at the same place (after rounding to the file's precision).
+/// For every position the number of the first vertex at the same place (after rounding to the file's
+/// precision).
 #[must_use]
 pub fn weld(positions: &[DVec3]) -> Vec<usize> {
     let key = |p: &DVec3| [p.x, p.y, p.z].map(|c| (c as f32 + 0.0).to_bits());
@@ -100,8 +101,8 @@ pub fn weld(positions: &[DVec3]) -> Vec<usize> {
     positions.iter().enumerate().map(|(i, p)| *first.entry(key(p)).or_insert(i)).collect()
 }
 
-/// Vertex normals: the triangles' normals, weighted by their angle at the vertex, so that the way a surface is
-/// cut into triangles does not show.
+/// Vertex normals: the triangles' normals, weighted by their angle at the vertex, so that the way a surface
+/// is cut into triangles does not show.
 #[must_use]
 pub fn normals(positions: &[DVec3], triangles: &[[usize; 3]]) -> Vec<DVec3> {
     let mut sum = vec![DVec3::ZERO; positions.len()];

@@ -8,11 +8,9 @@ use avatar_mesh::{
 
 use crate::{
     bake::{self, Scene},
-    mesh::Part,
     paint::{self, Detail},
-    parts::{eyes, teeth},
     raw, rig,
-    skin::{self, Skin},
+    sculpture::{Sculpture, sculpt},
 };
 
 /// The controls are text that people read and edit; it goes into the pack as it is.
@@ -23,30 +21,6 @@ const CONTROLS: &str = include_str!("controls.toml");
 pub struct Pack {
     /// Name and content of every file.
     pub files: Vec<(String, Vec<u8>)>,
-}
-
-/// Everything that has a form.
-#[derive(Clone, Debug)]
-pub struct Sculpture {
-    /// The skin.
-    pub skin: Skin,
-    /// The rigid parts by the stem of their files.
-    pub parts: [(&'static str, Part); 6],
-}
-
-/// Sculpts skin and rigid parts.
-#[must_use]
-pub fn sculpt() -> Sculpture {
-    let (eyeball, cornea) = (eyes::eyeball(), eyes::cornea());
-    let parts = [
-        ("UpperJaw", teeth::upper()),
-        ("LowerJaw", teeth::lower()),
-        ("RtEyeBall_smtt", eyeball.mirrored()),
-        ("LtEyeBall_smtt", eyeball),
-        ("RtEyeTransp_smtt", cornea.mirrored()),
-        ("LtEyeTransp_smtt", cornea),
-    ];
-    Sculpture { skin: skin::build(), parts }
 }
 
 /// Joints, controls and meshes: all files but the pictures.

@@ -1,7 +1,8 @@
 //! The blend shapes: named displacement fields over the face at rest.
 //!
 //! A field knows nothing of meshes: it maps a place on the left half to a displacement, and the mesh builder
-//! evaluates, mirrors and differentiates it. A further shape is one more function and one more row in [`SHAPES`].
+//! evaluates, mirrors and differentiates it. A further shape is one more function and one more row in
+//! [`SHAPES`].
 
 mod frown;
 mod smile;

@@ -43,8 +43,8 @@ fn jaw(node: &Node) -> f64 {
     let lower = if node.lip <= 2.0 { node.lower } else { p.y < crate::anatomy::MOUTH_Y };
     let outside = below_mouth(p, lower);
     if node.patch == Patch::Mouth {
-        // Inside, the roof stays and the floor follows; the cheeks' inner side shares the turn evenly. Half way
-        // round the mouth (the corner) lies at 0.5 of the row.
+        // Inside, the roof stays and the floor follows; the cheeks' inner side shares the turn evenly. Half
+        // way round the mouth (the corner) lies at 0.5 of the row.
         let round = smooth(0.22, 0.78, node.own.y);
         // The throat's wall is shared by all.
         let round = lerp(round, 0.5, smooth(0.55, 0.95, node.own.x));

@@ -43,11 +43,13 @@ fn the_distance_from_a_ball_is_that_from_its_middle_less_the_radius() {
     for place in places(4000, 1.12) {
         let near = field.at(center + place);
         let wanted = (place.length() - 1.0).clamp(-field.range(), field.range());
-        // The grid's half cell where distances bend most: in the middle. Where their range ends, they stop within a cell.
+        // The grid's half cell where distances bend most: in the middle. Where their range ends, they stop
+        // within a cell.
         let most = if wanted.abs() < field.range() - field.cell { 0.25 } else { 0.35 };
         assert!((near.distance - wanted).abs() < most * field.cell, "{place}: {} {wanted}", near.distance);
         if (0.6..1.1).contains(&place.length()) {
-            // Smoothing adds half its variance (a cell's square) times the curvature, and facets lie below the ball.
+            // Smoothing adds half its variance (a cell's square) times the curvature, and facets lie below
+            // the ball.
             assert!(
                 (near.distance - wanted).abs() < 0.12 * field.cell,
                 "{place}: {} {wanted}",
@@ -158,8 +160,8 @@ fn the_cut_is_where_the_style_says() {
             grow_guide(&groom, strand as usize, &of, &bones).expect("a guide")[SEGMENTS].y
         })
         .collect();
-    // No lower; and higher by no more than a twentieth of the length, which is how uneven the cut is, and by what a shorter
-    // strand bends otherwise.
+    // No lower; and higher by no more than a twentieth of the length, which is how uneven the cut is, and by
+    // what a shorter strand bends otherwise.
     for y in &guides {
         assert!((-0.01..0.15 + 0.15).contains(&(y - height)), "{y}");
     }

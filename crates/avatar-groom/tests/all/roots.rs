@@ -86,7 +86,8 @@ fn map(seed: u64) -> Map {
     }
 }
 
-/// Density × area, as a share of the skin's height squared: the middles of 40 × 40 small triangles of each triangle.
+/// Density × area, as a share of the skin's height squared: the middles of 40 × 40 small triangles of each
+/// triangle.
 fn integral(mesh: &Mesh, map: &Map, steps: usize) -> f64 {
     let mut sum = 0.0;
     for triangle in &mesh.triangles {
@@ -155,7 +156,8 @@ fn a_single_spot_on_a_large_triangle_is_found_and_grows_its_share() {
             * 512.0;
         columns[(x - 199.0) as usize] += 1;
     }
-    // A column at the edge has half a value's density, falling to 0 over it: an eighth beyond, seven eighths within.
+    // A column at the edge has half a value's density, falling to 0 over it: an eighth beyond, seven eighths
+    // within.
     for (found, share) in columns.iter().zip([0.125, 0.875, 1.0, 1.0, 0.875, 0.125]) {
         let wanted = expected * share / 4.0;
         assert!((f64::from(*found) - wanted).abs() < 5.0 * wanted.sqrt().max(3.0), "{columns:?}");
@@ -177,7 +179,8 @@ fn regions_grow_as_dense_as_their_styles_say() {
     let roots = scatter(&plate(64), &even, &[eye], &style, strands, 4);
     let count = |region| roots.iter().filter(|root| root.region == region).count() as f64;
     let r2 = f64::from(radius * radius);
-    // A rectangle over the eye; a disc of 1.5 radii without its caps beyond 0.75; a strip in the middle of the plate.
+    // A rectangle over the eye; a disc of 1.5 radii without its caps beyond 0.75; a strip in the middle of
+    // the plate.
     let brows = 2.0 * 1.75 * (2.4 - 0.75) * r2;
     let half = (0.75f64 / 1.5).asin();
     let lashes = 2.0 * 1.5 * 1.5 * (half + half.sin() * half.cos()) * r2;
@@ -227,8 +230,8 @@ fn no_density_grows_nothing_and_neither_does_an_empty_mesh() {
     assert!(scatter(&plate(4), &light, &[], &Style::BALD, 1e4, 1).is_empty());
 }
 
-/// Roots on one triangle in n × n cells of equal area: with v = 1 − √(1 − a) and u = b (1 − v) equal steps of a and b are
-/// equal areas.
+/// Roots on one triangle in n × n cells of equal area: with v = 1 − √(1 − a) and u = b (1 − v) equal steps of
+/// a and b are equal areas.
 fn chi_square(strands: f32, seed: u64, n: usize) -> f64 {
     let mesh = Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
@@ -347,7 +350,8 @@ fn what_is_too_much_is_thinned_out_alike_everywhere() {
     }
 }
 
-/// The map is skipped in whole blocks where it is black: also over its edges, and where blocks are cut by them.
+/// The map is skipped in whole blocks where it is black: also over its edges, and where blocks are cut by
+/// them.
 #[test]
 fn hair_at_the_edges_of_a_map_is_not_missed() {
     for size in [1u32, 3, 16, 17, 33, 50] {
@@ -359,7 +363,8 @@ fn hair_at_the_edges_of_a_map_is_not_missed() {
                 let mut mesh = plate(6);
                 mesh.uvs.iter_mut().for_each(|uv| *uv += offset);
                 let roots = scatter(&mesh, &density, &[], &Style::SHORT, 200.0 * (size * size) as f32, 1);
-                // One value alone is seen at a few places only: not exactly its share, but no quarter or half of it.
+                // One value alone is seen at a few places only: not exactly its share, but no quarter or half
+                // of it.
                 assert!((170..=230).contains(&roots.len()), "{size}, {x}, {y}, {offset}: {}", roots.len());
             }
         }

@@ -13,8 +13,9 @@ fn to_eye(n_dot_v: f32) -> Vec3 {
     Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), 0.0, n_dot_v)
 }
 
-/// ∫ f(cosines) n·l dl over the hemisphere, in coordinates around the mirror direction of microfacets: half-way vectors
-/// by polar angle, denser toward the peak of the narrower lobe. Uses none of the crate's sampling.
+/// ∫ f(cosines) n·l dl over the hemisphere, in coordinates around the mirror direction of microfacets:
+/// half-way vectors by polar angle, denser toward the peak of the narrower lobe. Uses none of the crate's
+/// sampling.
 fn reflected(n_dot_v: f32, alpha: f32, brdf: impl Fn(Cosines) -> f32) -> f64 {
     let (rings, spokes) = (600, 256);
     let to_eye = to_eye(n_dot_v);
@@ -74,7 +75,8 @@ fn two_lobes_reflect_at_most_what_they_receive() {
         for n_dot_v in EYES {
             for (sharp_share, sharp_roughness) in [(0.25, 0.55), (1.0, 0.5), (0.5, 0.8), (0.0, 0.5)] {
                 let lobes = Lobes { roughness, sharp_share, sharp_roughness };
-                // The narrower one decides where the integral has to look; 0.05² is the least that it resolves.
+                // The narrower one decides where the integral has to look; 0.05² is the least that it
+                // resolves.
                 let alpha = (roughness * sharp_roughness).max(0.05).powi(2);
                 let lobes = Lobes { sharp_roughness: alpha.sqrt() / roughness, ..lobes };
                 let whole = reflected(n_dot_v, alpha, |cosines| two_lobe_specular(cosines, 1.0, lobes));

@@ -1,4 +1,5 @@
-//! Environments: what is looked up, summed over hemispheres, and blurred, against sums that share no code with them.
+//! Environments: what is looked up, summed over hemispheres, and blurred, against sums that share no code
+//! with them.
 
 use avatar_look::{CUBE_FACES, Environment, PANEL_COUNT, Panel, cube_direction, irradiance_at};
 use glam::{DVec3, Vec3};
@@ -83,8 +84,8 @@ fn irradiance_of_the_presets_is_near_the_sum() {
             square += (light - sum).length_squared();
             mean += sum.length_squared();
         }
-        // Ramamoorthi and Hanrahan found 3 % at most for photographed surroundings; the panels of a dark room are all
-        // there is, and get the window.
+        // Ramamoorthi and Hanrahan found 3 % at most for photographed surroundings; the panels of a dark room
+        // are all there is, and get the window.
         let limit = if environment == Environment::DARK_ROOM { 0.08 } else { 0.03 };
         assert!((square / mean).sqrt() < limit, "{}", (square / mean).sqrt());
     }
@@ -92,7 +93,8 @@ fn irradiance_of_the_presets_is_near_the_sum() {
 
 #[test]
 fn cube_directions_are_those_of_the_sampler() {
-    // The major axis picks the face, s and t are the other two over it: the rules of WebGPU's texture sampling.
+    // The major axis picks the face, s and t are the other two over it: the rules of WebGPU's texture
+    // sampling.
     for face in 0..CUBE_FACES {
         for (column, row) in [(0, 0), (5, 2), (7, 7), (3, 6)] {
             let d = cube_direction(face, 8, column, row);

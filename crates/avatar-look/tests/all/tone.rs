@@ -27,8 +27,8 @@ fn the_chart_comes_out_as_computed_elsewhere() {
 
 #[test]
 fn agx_is_near_its_published_polynomials() {
-    // B. Wrensch, "Minimal AgX Implementation", 2023: fits of degree 6 and 7. Their coefficients are published with four
-    // digits, and cancel: at white that costs the better fit 0.018.
+    // B. Wrensch, "Minimal AgX Implementation", 2023: fits of degree 6 and 7. Their coefficients are
+    // published with four digits, and cancel: at white that costs the better fit 0.018.
     let sixth = [-0.00232, 0.1191, 0.4298, -6.868, 31.96, -40.14, 15.5];
     let seventh = [0.002857, -0.1718, 4.361, -28.72, 92.06, -126.7, 78.01, -17.86];
     for (fit, most, mean_square) in [(&sixth[..], 0.006, 8e-6), (&seventh[..], 0.0185, 3.2e-5f32)] {

@@ -36,7 +36,8 @@ fn weights(n: std::ops::Range<usize>) -> impl Strategy<Value = Vec<f32>> {
     prop::collection::vec(prop_oneof![-1.5..2.5f32, Just(0.0f32), Just(1.0f32)], n)
 }
 
-/// Of coordinates up to 64 a step of f32 is 4e-6; a sum of up to six products of three roundings each is within twenty.
+/// Of coordinates up to 64 a step of f32 is 4e-6; a sum of up to six products of three roundings each is
+/// within twenty.
 const ROUNDING: f32 = 20.0 * 4e-6;
 
 proptest! {

@@ -1,4 +1,5 @@
-//! Deformation against the formulas of the crate documentation written out in f64, and the facts that follow from them.
+//! Deformation against the formulas of the crate documentation written out in f64, and the facts that follow
+//! from them.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::common::Random;

@@ -64,9 +64,9 @@ fn six_poses_of_a_real_face_agree_to_a_ten_thousandth() {
             close(&format!("{pose}: normal {vertex}"), out.normals[i], &expected["n"], TOLERANCE);
             compared += 1;
         }
-        // The sum tells of all vertices. Rounding goes both ways and the six printed digits of the matrices weigh
-        // less; were every vertex off by 1e-6 in the same direction, one step of f32 at these coordinates and a
-        // hundredth of what a single one may be, the sum would be off by this much.
+        // The sum tells of all vertices. Rounding goes both ways and the six printed digits of the matrices
+        // weigh less; were every vertex off by 1e-6 in the same direction, one step of f32 at these
+        // coordinates and a hundredth of what a single one may be, the sum would be off by this much.
         let sum: [f64; 3] = std::array::from_fn(|k| out.positions.iter().map(|p| f64::from(p[k])).sum());
         let tolerance = 1e-6 * mesh.positions.len() as f64;
         for (found, expected) in sum.into_iter().zip(numbers(&case["skin_sum"])) {

@@ -1,4 +1,5 @@
-//! Tests of avatar-mesh as its users see it, in one binary; those that count allocations have one of their own.
+//! Tests of avatar-mesh as its users see it, in one binary; those that count allocations have one of their
+//! own.
 
 mod common;
 mod blend;

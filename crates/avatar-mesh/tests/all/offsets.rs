@@ -1,4 +1,5 @@
-//! Shapes that store moved vertices only are those that store all; normals recomputed or left alone; tangents.
+//! Shapes that store moved vertices only are those that store all; normals recomputed or left alone;
+//! tangents.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::common::{Random, edit_offset};
@@ -119,7 +120,8 @@ fn pairs_name_each_vertex_once() {
     assert!(Offsets::from_pairs(0, []).unwrap().is_empty());
 }
 
-/// A cube of six quads with normals of their own: every edge is hard. The upper face is cut in two by a texture seam.
+/// A cube of six quads with normals of their own: every edge is hard. The upper face is cut in two by a
+/// texture seam.
 fn cube() -> Mesh {
     let mut mesh = Mesh::default();
     for axis in 0..3 {
@@ -188,7 +190,8 @@ fn recomputed_normals_follow_the_faces_and_edges_stay_hard() {
     assert_eq!(run(&inside_out, &[1.0, 0.0], ShapeNormals::Recomputed(&mut smooth)), turned);
 }
 
-/// However faces are cut into triangles: only weighting by angles makes the corners of a cube point outward evenly.
+/// However faces are cut into triangles: only weighting by angles makes the corners of a cube point outward
+/// evenly.
 #[test]
 fn corners_of_a_smooth_cube_point_outward_evenly() {
     let sharp = cube();

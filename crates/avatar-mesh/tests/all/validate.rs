@@ -1,4 +1,5 @@
-//! What a valid mesh is: each error at its vertex or triangle, each warning, and the thresholds from both sides.
+//! What a valid mesh is: each error at its vertex or triangle, each warning, and the thresholds from both
+//! sides.
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::common::{Random, edit_offset};
@@ -128,7 +129,8 @@ fn every_bone_is_in_the_palette() {
     }
 }
 
-/// Weights 1/2, 1/4, 1/8 and the rest: their sum in f64 is 1 + `off` but for the rounding of the last weight, 4e-9.
+/// Weights 1/2, 1/4, 1/8 and the rest: their sum in f64 is 1 + `off` but for the rounding of the last weight,
+/// 4e-9.
 fn off(off: f64) -> [f32; 4] {
     [0.5, 0.25, 0.125, (0.125 + off) as f32]
 }

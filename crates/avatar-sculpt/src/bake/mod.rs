@@ -1,7 +1,7 @@
 //! Light that the form itself decides: how open a place is to the sky, and how thick the flesh behind it is.
 //!
-//! Both are measured at the mesh's vertices by rays against the real meshes and drawn between them. Vertices lie
-//! densest where folds are, so nothing is lost; and a value between vertices cannot become a speck.
+//! Both are measured at the mesh's vertices by rays against the real meshes and drawn between them. Vertices
+//! lie densest where folds are, so nothing is lost; and a value between vertices cannot become a speck.
 
 mod bvh;
 
@@ -12,7 +12,7 @@ pub use bvh::Bvh;
 use crate::{
     anatomy::{EYE, JAW},
     math::{cos, exp, lerp, sin, smooth},
-    pack::Sculpture,
+    sculpture::Sculpture,
     skin::Skin,
     surface::{
         half::{Node, Patch},
@@ -119,8 +119,8 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Directions over a half space, denser around its axis as matte surfaces see it (Malley's method on a Hammersley
-/// set): always the same ones.
+/// Directions over a half space, denser around its axis as matte surfaces see it (Malley's method on a
+/// Hammersley set): always the same ones.
 fn directions() -> Vec<DVec3> {
     (0..RAYS)
         .map(|i| {
@@ -154,8 +154,8 @@ fn openness(tree: &Bvh, p: DVec3, n: DVec3, fan: &[DVec3]) -> f64 {
     1.0 - closed / fan.len() as f64
 }
 
-/// Depth of the flesh below a place, as light would measure it: short ways count for more than long ones (Beer and
-/// Lambert's law over the rays inward).
+/// Depth of the flesh below a place, as light would measure it: short ways count for more than long ones
+/// (Beer and Lambert's law over the rays inward).
 fn thickness(tree: &Bvh, p: DVec3, n: DVec3, fan: &[DVec3]) -> f64 {
     const FADE: f64 = 0.6;
     let (u, v) = across(n);

@@ -24,12 +24,14 @@ pub(super) fn add_eyes(d: f64, q: DVec3) -> f64 {
     let inner = ball(q, DVec3::new(1.75, 0.05, 3.72), 0.58);
     let d = carve(carve(d, socket, 1.15), inner, 0.8);
     // The lids' ball sits a trace high, so that the upper lid passes in front of the lower one, and a second
-    // swelling keeps the fold above the lid clear of the eye when the lid comes down and the fold is drawn flat.
+    // swelling keeps the fold above the lid clear of the eye when the lid comes down and the fold is drawn
+    // flat.
     let lids = ball(q, EYE + DVec3::new(0.0, 0.20, 0.0), LID_RADIUS + 0.01);
     let fold = ball(q, EYE + DVec3::new(0.16, 0.47, -0.08), LID_RADIUS - 0.05);
     // Below, a tight fillet: the cheek must not rise above the lower lid, where the upper one comes to rest.
     let fillet = lerp(0.34, 0.5, smooth(-0.9, 0.2, q.y - EYE.y));
-    // Toward the nose the hollow between lid and brow is filled: a deep one would be smeared over the closed lid.
+    // Toward the nose the hollow between lid and brow is filled: a deep one would be smeared over the closed
+    // lid.
     let filled = ellipsoid(q, DVec3::new(2.25, 1.26, 2.74), DVec3::new(0.95, 0.78, 0.64));
     let d = join(d, filled, 0.8);
     join(d, join(lids, fold, 0.3), fillet)

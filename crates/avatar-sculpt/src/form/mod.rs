@@ -1,8 +1,10 @@
-//! The head as a solid: one distance-like function, put together from the skull, the features and fine furrows.
+//! The head as a solid: one distance-like function, put together from the skull, the features and fine
+//! furrows.
 //!
-//! A sculpt of smooth unions was chosen over a hand-placed control mesh because every feature stays a named thing
-//! with a place and a size, because forms that meet blend by themselves, and because any mesh density can be drawn
-//! from it. What a distance function is poor at (thin sheets: lids' edges, mouth bag, ears) is swept directly.
+//! A sculpt of smooth unions was chosen over a hand-placed control mesh because every feature stays a named
+//! thing with a place and a size, because forms that meet blend by themselves, and because any mesh density
+//! can be drawn from it. What a distance function is poor at (thin sheets: lids' edges, mouth bag, ears) is
+//! swept directly.
 
 mod features;
 mod furrows;

@@ -70,7 +70,7 @@ fn face(q: DVec3) -> f64 {
     let depth = if dz > 0.0 { front - mid } else { mid - back };
     let (a, b) = (q.x / half, dz.abs() / depth);
     let level = pow(pow(a, n) + pow(b, n), 1.0 / n);
-    // First-order distance: the value over its slope, bounded so that the axis is no singular place.
+    // First-order distance: the value over its slope, bounded so that the axis is not singular.
     let slope = ((a / half) * (a / half) + (b / depth) * (b / depth)).sqrt() / level.max(0.05);
     let radial = (level - 1.0) / slope.max(1.0 / 9.0);
     let above = (q.y - 8.0).max(-10.07 - q.y);

@@ -95,8 +95,8 @@ impl<'a> Sites<'a> {
         })
     }
 
-    /// Paints every pixel that shows something and lets colours run over the borders of the islands; the rest gets
-    /// `empty`.
+    /// Paints every pixel that shows something and lets colours run over the borders of the islands; the rest
+    /// gets `empty`.
     #[must_use]
     pub fn paint(&self, empty: DVec3, colour: impl Fn(&Site) -> DVec3) -> Picture {
         let mut pixels: Vec<DVec3> =
@@ -117,8 +117,8 @@ fn shares(uv: &[DVec2; 3], x: usize, y: usize) -> Option<[f64; 3]> {
     (area != 0.0).then_some([1.0 - b - c, b, c])
 }
 
-/// Grows the islands ring by ring: small mip levels mix far neighbours, at the crown above all, and must find the
-/// island's own colours there.
+/// Grows the islands ring by ring: small mip levels mix far neighbours, at the crown above all, and must find
+/// the island's own colours there.
 fn spill(owner: &[u32], side: usize, rings: usize) -> Vec<(u32, u32)> {
     let mut source: Vec<u32> = (0..).zip(owner).map(|(i, o)| if *o == NOBODY { NOBODY } else { i }).collect();
     let mut found = Vec::new();

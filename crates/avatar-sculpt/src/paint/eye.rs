@@ -42,8 +42,8 @@ impl Shade {
     /// Cells per side of the picture.
     const SIDE: usize = 40;
 
-    /// Spreads openness measured at directions from the eye's centre over the picture. The spread is wide on purpose:
-    /// the shade turns with the eye, and only a soft one may.
+    /// Spreads openness measured at directions from the eye's centre over the picture. The spread is wide on
+    /// purpose: the shade turns with the eye, and only a soft one may.
     #[must_use]
     pub fn of(measured: &[(DVec3, f64)]) -> Self {
         let cell = |i: usize| (i as f64 + 0.5) / Self::SIDE as f64;

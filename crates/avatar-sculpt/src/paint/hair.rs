@@ -68,7 +68,8 @@ pub fn brows(p: DVec3, strokes: bool) -> f64 {
     body * (0.62 + 0.38 * hair) * reach
 }
 
-/// Density of the lashes: a thin line on the outer edge of the lids, stronger above and toward the outer corner.
+/// Density of the lashes: a thin line on the outer edge of the lids, stronger above and toward the outer
+/// corner.
 fn lashes(site: &Site) -> f64 {
     let node = &site.node;
     if node.patch != Patch::Sheet || node.lid > 0.05 {

@@ -1,5 +1,5 @@
-//! The markings of her people: two arcs of small freckle-like spots, from the temple over the cheekbone and above
-//! the brow toward the middle of the forehead.
+//! The markings of her people: two arcs of small freckle-like spots, from the temple over the cheekbone and
+//! above the brow toward the middle of the forehead.
 
 use glam::{DVec2, DVec3};
 

@@ -1,5 +1,5 @@
-//! The pictures of the pack, painted as functions of the place on the face rather than of the pixel: the layout of
-//! the texture may change without a single stroke moving.
+//! The pictures of the pack, painted as functions of the place on the face rather than of the pixel: the
+//! layout of the texture may change without a single stroke moving.
 
 pub mod canvas;
 pub mod eye;

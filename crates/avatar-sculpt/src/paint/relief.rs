@@ -89,8 +89,8 @@ pub fn depth(site: &Site) -> f64 {
 
 /// The normal in the frame of the picture: x to the right, y up, z outward.
 ///
-/// The renderer takes the gradients of u and −v on the surface for its axes, both over the longer one's length; in
-/// these axes the slopes below are exact even where the layout stretches the face.
+/// The renderer takes the gradients of u and −v on the surface for its axes, both over the longer one's
+/// length; in these axes the slopes below are exact even where the layout stretches the face.
 #[must_use]
 pub fn normal(site: &Site) -> DVec3 {
     let kinds = kinds(site);

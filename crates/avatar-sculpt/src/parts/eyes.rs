@@ -27,7 +27,8 @@ fn uv(angle: f64, turn: f64) -> DVec2 {
     DVec2::splat(0.5) + image_radius(angle) * DVec2::new(cos(turn), -sin(turn))
 }
 
-/// A surface around the gaze axis: `profile` gives (distance from the axis, depth) for an angle from the gaze.
+/// A surface around the gaze axis: `profile` gives (distance from the axis, depth) for an angle from the
+/// gaze.
 fn around_gaze(angles: &[f64], profile: impl Fn(f64) -> (f64, f64)) -> Part {
     let mut part = Part::default();
     part.add_grid(angles.len(), AROUND + 1, |r, c| {

@@ -81,7 +81,8 @@ fn row(sizes: &[(f64, f64)], arch: &Arch, gum_y: f64, grow: f64) -> Part {
     part
 }
 
-/// One tooth: a rounded block; front teeth taper to an edge, back teeth are broad. `size` is (width, length, gum).
+/// One tooth: a rounded block; front teeth taper to an edge, back teeth are broad. `size` is (width, length,
+/// gum).
 fn tooth(part: &mut Part, arch: &Arch, angle: f64, kind: usize, size: DVec3, grow: f64) {
     const ROWS: usize = 9;
     const COLUMNS: usize = 15;

@@ -1,8 +1,9 @@
 //! The planar layout of the skin: every point of the outer skin is one point of a chart.
 //!
-//! Rays leave a vertical axis inside the head; `phi` is the turn of a ray from straight ahead (0) to the back (π),
-//! `t` its elevation. Above the chin all rays leave one centre. Below it the start slides down the axis while the
-//! rays level out, so that they meet the throat, the neck and the shoulders at a good angle and never cross.
+//! Rays leave a vertical axis inside the head; `phi` is the turn of a ray from straight ahead (0) to the back
+//! (π), `t` its elevation. Above the chin all rays leave one centre. Below it the start slides down the axis
+//! while the rays level out, so that they meet the throat, the neck and the shoulders at a good angle and
+//! never cross.
 
 use glam::{DVec2, DVec3};
 

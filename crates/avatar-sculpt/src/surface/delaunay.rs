@@ -1,5 +1,5 @@
-//! Delaunay triangulation of points in the plane (Bowyer and Watson, with points taken from left to right so that
-//! finished triangles leave the search).
+//! Delaunay triangulation of points in the plane (Bowyer and Watson, with points taken from left to right so
+//! that finished triangles leave the search).
 
 use glam::DVec2;
 

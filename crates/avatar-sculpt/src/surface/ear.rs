@@ -3,35 +3,15 @@
 use glam::{DVec2, DVec3};
 
 use super::{
+    ear_root::{EAR_AROUND, to_head},
     half::{Half, Node, Patch},
-    rings::{EAR_AROUND, Loops},
+    rings::Loops,
 };
 use crate::math::{bell, cos, lerp, sin, smooth};
 
 const PI: f64 = std::f64::consts::PI;
-/// Middle of the ear as (z, y).
-const CENTRE: DVec2 = DVec2::new(-5.15, -1.35);
-/// How far the ear leans back.
-const LEAN: f64 = 0.20;
 /// Steps of the path between its knots.
 const STEPS: usize = 3;
-
-/// From the ear's own plane (back, up) to (z, y).
-fn to_head(own: DVec2) -> DVec2 {
-    let (s, c) = (sin(LEAN), cos(LEAN));
-    CENTRE + DVec2::new(-c * own.x - s * own.y, -s * own.x + c * own.y)
-}
-
-/// The line where the ear grows out of the head, as (z, y); `beta` runs from the back over the top.
-#[must_use]
-pub fn root(beta: f64) -> DVec2 {
-    to_head(root_own(beta))
-}
-
-fn root_own(beta: f64) -> DVec2 {
-    let up = if sin(beta) > 0.0 { 2.1 } else { 1.95 };
-    DVec2::new(-0.25 + 0.66 * cos(beta), up * sin(beta))
-}
 
 /// The rim in the ear's own plane: a long ear with a soft point behind its top.
 fn rim(beta: f64) -> DVec2 {
@@ -41,7 +21,8 @@ fn rim(beta: f64) -> DVec2 {
     DVec2::new(0.30 + width * cos(beta), up * sin(beta)) + DVec2::new(0.46, 1.0) * point
 }
 
-/// Knots of the path at `beta`: share of the way from the ear's middle to its rim, and height over the front edge.
+/// Knots of the path at `beta`: share of the way from the ear's middle to its rim, and height over the front
+/// edge.
 fn knots(beta: f64, root: DVec3, front_x: f64) -> Vec<DVec3> {
     let edge = rim(beta);
     let middle = DVec2::new(-0.18, -0.15);

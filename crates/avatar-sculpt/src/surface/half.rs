@@ -29,8 +29,8 @@ pub struct Node {
     pub patch: Patch,
     /// For points on or near lips and lids: whether they belong to the lower one.
     pub lower: bool,
-    /// Distance across the lip: 0 at the line between the lips, 1 at the border of the red, 2 at the last ring;
-    /// negative inside the mouth; 3 elsewhere.
+    /// Distance across the lip: 0 at the line between the lips, 1 at the border of the red, 2 at the last
+    /// ring; negative inside the mouth; 3 elsewhere.
     pub lip: f64,
     /// Distance across the lid: 0 at its outer edge, 1 at the last ring; negative inside; 3 elsewhere.
     pub lid: f64,
@@ -70,8 +70,8 @@ impl Half {
         self.nodes.len() - 1
     }
 
-    /// Joins two rows of equal length with triangles. Seen from outside, `from` → `to` turns left of the row's
-    /// direction. `closed` joins the ends too.
+    /// Joins two rows of equal length with triangles. Seen from outside, `from` → `to` turns left of the
+    /// row's direction. `closed` joins the ends too.
     pub fn stitch(&mut self, from: &[usize], to: &[usize], closed: bool) {
         let n = from.len().min(to.len());
         let last = if closed { n } else { n.saturating_sub(1) };

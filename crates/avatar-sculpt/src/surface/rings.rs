@@ -1,10 +1,11 @@
-//! Rows of vertices that follow the features: around the eye, around the mouth, around the ear's root, along the
-//! neck's edge and over the crown.
+//! Rows of vertices that follow the features: around the eye, around the mouth, around the ear's root, along
+//! the neck's edge and over the crown.
 
 use glam::{DVec2, DVec3};
 
 use super::{
     chart::{self, Place},
+    ear_root::{self, EAR_AROUND},
     half::{Half, Node},
 };
 use crate::{
@@ -21,13 +22,12 @@ const PI: f64 = std::f64::consts::PI;
 pub const EYE_AROUND: usize = 76;
 /// Vertices from the middle of the upper lip over the corner to the middle of the lower lip.
 pub const MOUTH_AROUND: usize = 61;
-/// Vertices around an ear's root.
-pub const EAR_AROUND: usize = 44;
 
 /// Where the outer skin stops, as rows of vertex numbers.
 #[derive(Clone, Debug, Default)]
 pub struct Loops {
-    /// Outer edge of the lids, counter-clockwise seen from the front, from the inner corner along the lower lid.
+    /// Outer edge of the lids, counter-clockwise seen from the front, from the inner corner along the lower
+    /// lid.
     pub eye: Vec<usize>,
     /// Line between the lips: from the midline of the upper lip over the corner to that of the lower lip.
     pub mouth: Vec<usize>,
@@ -148,7 +148,7 @@ pub fn stitch(half: &mut Half, loops: &Loops) {
 pub fn ear(half: &mut Half, loops: &mut Loops) {
     for i in 0..EAR_AROUND {
         let beta = 2.0 * PI * i as f64 / EAR_AROUND as f64;
-        let at = super::ear::root(beta);
+        let at = ear_root::root(beta);
         let p = chart::cast(DVec3::new(14.0, at.y, at.x), DVec3::NEG_X);
         loops.ear.push(half.add(Node::sheet(p)));
     }

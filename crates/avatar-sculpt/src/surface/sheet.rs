@@ -40,7 +40,8 @@ fn triangles(half: &Half, loops: &Loops) -> Vec<[usize; 3]> {
         taken[i] = false;
     }
     let numbers: Vec<usize> = (0..count).filter(|&i| taken[i]).collect();
-    // Mirrored twins next to the midline make it a line of the mesh; without them thin triangles could span it.
+    // Mirrored twins next to the midline make it a line of the mesh; without them thin triangles could span
+    // it.
     let mut points: Vec<DVec2> = numbers.iter().map(|&i| flat[i]).collect();
     let twins: Vec<DVec2> = points.iter().filter(|p| p.x > 0.0).map(|p| DVec2::new(-p.x, p.y)).collect();
     points.extend(twins);

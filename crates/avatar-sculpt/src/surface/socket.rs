@@ -45,7 +45,8 @@ pub fn add(half: &mut Half, loops: &Loops) {
                 let f = (k - EDGE) as f64 / (INSIDE + 1) as f64;
                 let spread = lerp(opening, std::f64::consts::PI, 0.45 * f + 0.55 * f * f);
                 let direction = polar(spread, turn);
-                // Past the edge nothing shows: the inner side may stay close to the eye, and must stay under the skin.
+                // Past the edge nothing shows: the inner side may stay close to the eye, and must stay under
+                // the skin.
                 let edge = inner_radius(rel.normalize_or_zero(), outer.lower);
                 EYE + direction * lerp(edge, EYEBALL_RADIUS + 0.03, smooth(0.0, 0.2, f))
             };

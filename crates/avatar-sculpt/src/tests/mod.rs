@@ -14,7 +14,8 @@ use glam::{DMat3, DVec2, DVec3};
 
 use crate::{
     anatomy::EYE,
-    pack::{self, Pack, Sculpture},
+    pack::{self, Pack},
+    sculpture::{self, Sculpture},
 };
 
 /// A part as read back from its files.
@@ -37,7 +38,7 @@ pub(super) struct SkinData {
 /// The sculpture, made once for all tests.
 pub(super) fn sculpture() -> &'static Sculpture {
     static SCULPTURE: OnceLock<Sculpture> = OnceLock::new();
-    SCULPTURE.get_or_init(pack::sculpt)
+    SCULPTURE.get_or_init(sculpture::sculpt)
 }
 
 /// Its files, without the pictures.

@@ -1,5 +1,7 @@
+mod fields;
+mod text;
+
 use crate::{LookError, Material};
-use crate::{materials_fields, materials_toml};
 use avatar_mesh::{FACE_PARTS, PartKind};
 
 /// The kinds of parts, by the names of their tables.
@@ -12,8 +14,8 @@ pub(crate) const KINDS: [(&str, PartKind); 4] = [
 
 /// The looks of all parts of a face: the content of a `materials.toml`.
 ///
-/// Each value is the default of the kind ([`Material::of`]) unless the kind's table sets it, and that unless the part's
-/// table sets it. [`Materials::EXAMPLE`] lists all keys.
+/// Each value is the default of the kind ([`Material::of`]) unless the kind's table sets it, and that unless
+/// the part's table sets it. [`Materials::EXAMPLE`] lists all keys.
 ///
 /// ```
 /// use avatar_look::{Material, Materials};
@@ -63,26 +65,27 @@ impl Default for Materials {
 impl Materials {
     /// A `materials.toml` with all keys, their meaning, and the defaults as values:
     ///
-    #[doc = concat!("```toml\n", include_str!("materials.toml"), "```")]
+    #[doc = concat!("```toml\n", include_str!("../materials.toml"), "```")]
     ///
     /// ```
     /// use avatar_look::Materials;
     /// assert_eq!(Materials::from_toml(Materials::EXAMPLE)?, Materials::default());
     /// # Ok::<(), avatar_look::LookError>(())
     /// ```
-    pub const EXAMPLE: &str = include_str!("materials.toml");
+    pub const EXAMPLE: &str = include_str!("../materials.toml");
 
     /// Reads a `materials.toml`; an empty one means the defaults.
     ///
     /// # Errors
     ///
-    /// What is no TOML, names that do not exist, and values that are out of range: with the place, what would be right
-    /// there, what stands there, and the name that is probably meant.
+    /// A text that is not TOML, names that do not exist, values out of range: with the place, what would
+    /// be right there, what stands there, and the name that is probably meant.
     pub fn from_toml(text: &str) -> Result<Self, LookError> {
-        materials_toml::read(text)
+        text::read(text)
     }
 
-    /// The material of a part. A part that is none of [`FACE_PARTS`], or of another kind there, has its kind's.
+    /// The material of a part. A part that is none of [`FACE_PARTS`], or of another kind there, has its
+    /// kind's.
     pub fn of(&self, part_name: &str, kind: PartKind) -> Material {
         let is_meant = |part: &avatar_mesh::PartSpec| part.name == part_name && part.kind == kind;
         match FACE_PARTS.iter().position(is_meant) {
@@ -91,21 +94,21 @@ impl Materials {
         }
     }
 
-    /// Gives one of [`FACE_PARTS`] looks of its own, with numbers taken into the ranges of `materials.toml`; other names change
-    /// nothing. The skin's are also those of its kind.
+    /// Gives one of [`FACE_PARTS`] looks of its own, with numbers taken into the ranges of `materials.toml`;
+    /// other names change nothing. The skin's are also those of its kind.
     pub fn set(&mut self, part_name: &str, material: Material) {
         let Some(index) = FACE_PARTS.iter().position(|part| part.name == part_name) else { return };
-        let material = materials_fields::in_range(material);
+        let material = fields::in_range(material);
         self.parts[index] = material;
         if let Some(kind) = KINDS.iter().position(|(name, _)| *name == part_name) {
             self.kinds[kind] = material;
         }
     }
 
-    /// A text that [`Materials::from_toml`] reads as exactly these materials: all values of the kinds, and of the parts
-    /// those that differ.
+    /// A text that [`Materials::from_toml`] reads as exactly these materials: all values of the kinds, and of
+    /// the parts those that differ.
     pub fn to_toml(&self) -> String {
-        materials_toml::write(self)
+        text::write(self)
     }
 }
 

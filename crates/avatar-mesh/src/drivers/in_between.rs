@@ -1,4 +1,4 @@
-use crate::drivers::{DriversError, Input, Rule, ShapeRule};
+use super::{DriversError, Input, Rule, ShapeRule};
 use std::collections::HashMap;
 
 /// A piecewise linear function: 1 at `at`, 0 at its neighbours and beyond.

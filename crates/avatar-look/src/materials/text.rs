@@ -1,7 +1,7 @@
 //! The format of `materials.toml`.
 
-use crate::materials::{KINDS, kind_index};
-use crate::materials_fields::{FIELDS, IRIS, IRIS_FIELDS};
+use super::fields::{FIELDS, IRIS, IRIS_FIELDS};
+use super::{KINDS, kind_index};
 use crate::{LookError, Material, Materials};
 use avatar_mesh::{FACE_PARTS, PartKind};
 use placed_toml::{Document, Entry, Field, read_field, read_fields};

@@ -1,16 +1,18 @@
 //! Which shapes follow which drivers: in-between shapes and combinations of shapes.
 //!
-//! A *driver* is whatever an animator moves: a slider, a control, a channel of a file. Most shapes follow one driver; two kinds
-//! do not.
+//! A *driver* is whatever an animator moves: a slider, a control, a channel of a file. Most shapes follow one
+//! driver; two kinds do not.
 //!
-//! - *In-between* shapes show what a driver does on its way: each shape of a driver has the value at which it stands alone (FBX:
-//!   full weight). Between two neighbours both fade linearly into each other, and the base shape stands at 0. Beyond the outermost
-//!   the outermost span goes on as it is: extrapolation.
+//! - *In-between* shapes show what a driver does on its way: each shape of a driver has the value at which it
+//!   stands alone (FBX: full weight). Between two neighbours both fade linearly into each other, and the base
+//!   shape stands at 0. Beyond the outermost the outermost span goes on as it is: extrapolation.
 //! - *Combination* (corrective) shapes count as the product of others: mouth open times smile.
 //!
 //! [`ShapeDrivers`] is a small program made of such rules; running it allocates nothing.
 
-use crate::in_between::{Peak, peaks};
+mod in_between;
+
+use in_between::{Peak, peaks};
 use std::collections::HashMap;
 
 /// A number that a rule reads.
@@ -25,12 +27,13 @@ pub enum Input {
 /// How a shape gets its weight.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rule {
-    /// 1 where the input is `full_weight`, 0 at 0 and where the next shape of the same input stands alone, linear between.
-    /// A single shape with full weight 1 has the input's value as its weight.
+    /// 1 where the input is `full_weight`, 0 at 0 and where the next shape of the same input stands alone,
+    /// linear between. A single shape with full weight 1 has the input's value as its weight.
     Follows {
         /// What it follows.
         input: Input,
-        /// Where it stands alone: not 0, and unlike those of other shapes of this input. FBX counts in percent, divide by 100.
+        /// Where it stands alone: not 0, and unlike those of other shapes of this input. FBX counts in
+        /// percent, divide by 100.
         full_weight: f32,
     },
     /// The product of these; 1 without any.
@@ -48,6 +51,7 @@ pub struct ShapeRule {
 
 /// Rules that cannot be followed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DriversError {
     /// A rule for, or an input from, a shape that the mesh lacks.
     #[error("rule of shape {rule:?}: expected a shape of the mesh, found {found:?}")]
@@ -57,7 +61,7 @@ pub enum DriversError {
         /// The unknown name.
         found: String,
     },
-    /// An input from a driver that there is not.
+    /// An input from a driver that does not exist.
     #[error("rule of shape {rule:?}: expected a driver, found {found:?}")]
     UnknownDriver {
         /// Whose rule.
@@ -119,7 +123,7 @@ pub struct LengthError {
 /// let rules = [
 ///     rule("half shut", Rule::Follows { input: blink(), full_weight: 0.5 }),
 ///     rule("shut", Rule::Follows { input: blink(), full_weight: 1.0 }),
-///     rule("squint", Rule::Product(vec![Input::Shape("shut".to_owned()), Input::Driver("smile".to_owned())])),
+///     rule("squint", Rule::Product(vec![Input::Shape("shut".into()), Input::Driver("smile".into())])),
 /// ];
 /// // A shape without a rule follows the driver of its name.
 /// let shapes = ["smile", "half shut", "shut", "squint"];
@@ -158,8 +162,8 @@ enum Weight {
 }
 
 impl ShapeDrivers {
-    /// A program for these drivers and shapes, in the orders that [`Self::run`] will use. A shape without a rule follows the
-    /// driver of its name; if there is none it stays at 0.
+    /// A program for these drivers and shapes, in the orders that [`Self::run`] will use. A shape without a
+    /// rule follows the driver of its name; if there is none it stays at 0.
     ///
     /// # Errors
     /// Unknown names, two rules for a shape, impossible full weights, shapes that depend on themselves.

@@ -1,4 +1,6 @@
-use crate::{Style, TomlError, style_toml};
+mod text;
+
+use crate::{Style, TomlError};
 
 /// Which hair a head has: the content of a `hair.toml`.
 ///
@@ -35,17 +37,17 @@ impl Default for Hair {
 impl Hair {
     /// A `hair.toml` with all keys, their meaning, and the defaults as values:
     ///
-    #[doc = concat!("```toml\n", include_str!("hair.toml"), "```")]
+    #[doc = concat!("```toml\n", include_str!("../hair.toml"), "```")]
     ///
     /// ```
     /// use avatar_groom::Hair;
     /// assert_eq!(Hair::from_toml(Hair::EXAMPLE)?, Hair::default());
     /// # Ok::<(), avatar_groom::TomlError>(())
     /// ```
-    pub const EXAMPLE: &str = include_str!("hair.toml");
+    pub const EXAMPLE: &str = include_str!("../hair.toml");
 
-    /// Hair has at most so many times the usual number of strands: on the built-in head what a binding of WebGPU's default
-    /// limits holds.
+    /// Hair has at most so many times the usual number of strands: on the built-in head what a binding of
+    /// WebGPU's default limits holds.
     pub const MAX_DENSITY: f32 = 7.0;
 
     /// Strands over a square of the skin's height where density is 1: some 80,000 on the built-in head.
@@ -54,10 +56,10 @@ impl Hair {
     /// Reads a `hair.toml`; an empty one means the defaults.
     ///
     /// # Errors
-    /// What is no TOML, names that do not exist, and values that are out of range: with the place, what would be right
-    /// there, what stands there, and the name that is probably meant.
+    /// A text that is not TOML, names that do not exist, values out of range: with the place, what would
+    /// be right there, what stands there, and the name that is probably meant.
     pub fn from_toml(text: &str) -> Result<Self, TomlError> {
-        style_toml::read(text)
+        text::read(text)
     }
 
     /// A text that [`Hair::from_toml`] reads as exactly this hair.
@@ -69,7 +71,7 @@ impl Hair {
     /// # Ok::<(), avatar_groom::TomlError>(())
     /// ```
     pub fn to_toml(&self) -> String {
-        style_toml::write(self)
+        text::write(self)
     }
 
     /// Strands over a square of the skin's height, as [`crate::Groom::new`] takes them.
