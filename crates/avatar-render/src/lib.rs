@@ -45,12 +45,13 @@
 //!                       in one pass with the avatars
 //! ```
 //!
-//! [`Shading`] decides which passes run and which terms programs have; [`Quality`] and [`Style`] choose a shading.
+//! [`Shading`] decides which passes run and which terms programs have; [`Quality`] and [`Style`] choose a
+//! shading.
 //!
-//! Of the bind groups of passes that draw, the first change rarely and the last often: 0 frame (camera, light, tables),
-//! 1 view (what earlier passes left), 2 part looks (material, textures). The vertices are buffers that the
-//! deform pass has written; its twin on the CPU is [`avatar_mesh::deform()`]. Materials, lights and their
-//! mathematics are those of [`avatar_look`], whose types are reexported here.
+//! Of the bind groups of passes that draw, the first change rarely and the last often: 0 frame (camera,
+//! light, tables), 1 view (what earlier passes left), 2 part looks (material, textures). The vertices are
+//! buffers that the deform pass has written; its twin on the CPU is [`avatar_mesh::deform()`]. Materials,
+//! lights and their mathematics are those of [`avatar_look`], whose types are reexported here.
 //!
 //! # Example
 //!

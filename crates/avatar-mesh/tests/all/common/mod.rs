@@ -5,8 +5,8 @@
 use avatar_mesh::{Mesh, Offsets, Shape, Skinning};
 use glam::{Affine3A, Quat, Vec2, Vec3};
 
-/// The folder of real data beside the repository, or `None` with a printed reason; under `MIMIK_REQUIRE_DATA` its
-/// absence is a failure.
+/// The folder of real data beside the repository, or `None` with a printed reason; under `MIMIK_REQUIRE_DATA`
+/// its absence is a failure.
 pub(crate) fn shared_data() -> Option<std::path::PathBuf> {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     if folder.is_dir() {
