@@ -190,7 +190,7 @@ fn motion(lines: &mut Lines<'_>, name: &str, joints: Vec<Joint>) -> Result<RawSc
             channel(ChannelTarget::Rotation);
         }
     }
-    // Without channels a frame is an empty line, of which none is kept.
+    // Without channels a frame is an empty line, and empty lines are skipped.
     for frame in 0..if numbers == 0 { 0 } else { frames } {
         let text = lines.expect(&format!("frame {frame} of {frames}"))?;
         let line = lines.line;

@@ -1,5 +1,5 @@
-//! Limits of what a file may unpack to. A few bytes can describe gigabytes: accessors without data, many parts that
-//! share one mesh, the same mesh at thousands of nodes.
+//! Limits of what a file may unpack to. A few bytes can describe gigabytes: accessors without data, many
+//! parts that share one mesh, the same mesh at thousands of nodes.
 
 use crate::scene::ImportError;
 
@@ -43,10 +43,17 @@ impl Exceeded {
 }
 
 impl Budget {
-    /// Counts vertices of all parts, of their shapes and of motion: [`MAX_VERTICES`] whatever the file's size.
+    /// Counts vertices of all parts, of their shapes and of motion: [`MAX_VERTICES`] whatever the file's
+    /// size.
     #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
     pub(crate) fn of_vertices() -> Self {
         Self { left: MAX_VERTICES, unit: Unit::Vertices }
+    }
+
+    /// As [`Budget::of_vertices`], with so many left.
+    #[cfg(all(test, feature = "fbx"))]
+    pub(crate) fn with_vertices_left(left: u64) -> Self {
+        Self { left, ..Self::of_vertices() }
     }
 
     /// Counts bytes: 256 MiB and 64 times the file's own bytes.

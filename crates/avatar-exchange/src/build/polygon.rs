@@ -100,20 +100,20 @@ impl Ring {
                 ears.insert(corner);
             }
         }
-        let (mut triangles, mut crosses) = (Vec::with_capacity(self.flat.len() - 2), false);
+        let mut triangles = Vec::with_capacity(self.flat.len() - 2);
+        // Twice the area of all triangles, and of those that face the other way than the polygon.
+        let (mut all, mut turned) = (0.0, 0.0);
+        let mut add = |area: f64| {
+            all += area.abs();
+            turned += (-area).max(0.0);
+        };
         while self.left.len() > 3 {
             let first = *self.left.first()?;
             // From the second corner on, so that triangles lie around the first one where they can.
             let ear = ears.range(first + 1..).next().or(ears.get(&first)).copied();
-            let ear = match ear {
-                Some(ear) => ear,
-                // Only corners in one line, or a polygon that crosses itself, have none.
-                None => {
-                    let second = self.next[first];
-                    crosses |= self.area(second) < 0.0;
-                    second
-                }
-            };
+            // Only corners in one line, or a polygon that crosses itself, have none.
+            let ear = ear.unwrap_or(self.next[first]);
+            add(self.area(ear));
             let (last, next) = (self.last[ear], self.next[ear]);
             triangles.push([last, ear, next]);
             self.left.remove(&ear);
@@ -137,10 +137,10 @@ impl Ring {
         }
         if let Some(&first) = self.left.first() {
             let second = self.next[first];
-            crosses |= self.area(second) < 0.0;
+            add(self.area(second));
             triangles.push([first, second, self.next[second]]);
         }
-        Some((triangles, crosses))
+        Some((triangles, turned > 1e-6 * all))
     }
 
     /// Twice the area of the triangle at a corner; negative where the corner is reflex.

@@ -4,7 +4,7 @@ use glam::Vec3;
 /// Bytes that [`shape`] takes for each vertex at most.
 pub(crate) const SHAPE_BYTES_PER_VERTEX: usize = 2 * size_of::<Vec3>();
 
-/// A shape from dense offsets, one for each of `vertices` vertices; what the file leaves out does not move.
+/// A shape from dense offsets, one for each of `vertices` vertices; shapes without offsets do not move.
 pub(crate) fn shape(
     name: String,
     vertices: usize,

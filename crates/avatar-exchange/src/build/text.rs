@@ -33,7 +33,7 @@ pub(crate) fn at_line(line: usize, expected: impl Into<String>, found: impl Into
     ImportError::new(format!("line {line}"), expected, found)
 }
 
-/// A word of a file as messages show it: not more of it than one wants to read.
+/// A word of a file for messages, quoted and cut after 40 characters.
 #[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
 pub(crate) fn shown(word: &str) -> String {
     const LONGEST: usize = 40;

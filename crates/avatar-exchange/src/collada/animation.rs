@@ -1,5 +1,5 @@
-//! Animations move numbers in the steps of a node's transform; clips move nodes. So transforms are computed wherever
-//! something has a key, and 30 times a second where straight lines between these would not do.
+//! Animations move numbers in the steps of a node's transform; clips move nodes. So transforms are computed
+//! wherever something has a key, and 30 times a second where straight lines between these would not do.
 
 use super::Reader;
 use super::node::Nodes;
@@ -11,7 +11,7 @@ use crate::scene::{
     Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Transform, Trs, widen,
 };
 use glam::{DAffine3, DMat4, DQuat};
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Samples in a second of curves and turns, and between two keys at most.
 const RATE: f64 = 30.0;
@@ -55,14 +55,21 @@ impl<'a> Reader<'a> {
         }
         let told: Vec<At<'a>> =
             root.all("library_animation_clips").flat_map(|library| library.all("animation_clip")).collect();
+        let mut of_animation: HashMap<usize, Vec<usize>> = HashMap::new();
+        for (number, track) in tracks.iter().enumerate().filter(|_| !told.is_empty()) {
+            track.of.iter().for_each(|animation| of_animation.entry(*animation).or_default().push(number));
+        }
         for clip in &told {
             let number = |key| {
                 clip.attribute(key).and_then(|text| text.trim().parse::<f64>().ok()).filter(|x| x.is_finite())
             };
             let window = (number("start").unwrap_or(0.0), number("end").unwrap_or(f64::MAX));
-            let parts: HashSet<usize> =
-                clip.all("instance_animation").filter_map(|at| Some(at.target("url").ok()?.number)).collect();
-            let chosen = tracks.iter().filter(|track| track.of.iter().any(|at| parts.contains(at))).collect();
+            let animations =
+                clip.all("instance_animation").filter_map(|at| Some(at.target("url").ok()?.number));
+            let chosen: BTreeSet<usize> =
+                animations.filter_map(|at| of_animation.get(&at)).flatten().copied().collect();
+            self.take(*clip, chosen.len())?;
+            let chosen = chosen.into_iter().filter_map(|number| tracks.get(number)).collect();
             self.clip(clip.label(), chosen, window, nodes)?;
         }
         if told.is_empty() && !tracks.is_empty() {
@@ -153,7 +160,8 @@ impl<'a> Reader<'a> {
         window: Window,
         clip: &mut Clip,
     ) -> Result<(), ImportError> {
-        // Straight lines of angles are none of rotations, and those of one factor among several none of their product.
+        // Angles that change linearly make no linear change of a rotation, nor do linear factors of a
+        // product.
         let turns = |(_, step): &(&Track, usize)| {
             steps
                 .get(*step)

@@ -190,7 +190,7 @@ impl Layout {
     }
 }
 
-/// The first three numbers of an item; what is missing is 0.
+/// The first three numbers of an item; missing numbers are 0.
 fn vec3(item: Option<&[f64]>) -> Vec3 {
     let at = |k: usize| item.and_then(|item| item.get(k)).map_or(0.0, |x| *x as f32);
     Vec3::new(at(0), at(1), at(2))

@@ -47,7 +47,7 @@ use xml::{At, Tree};
 /// ```
 ///
 /// # Errors
-/// Whatever is no COLLADA, refers to what is not there, or asks for far more memory than its size explains.
+/// Data that is not COLLADA, references without a target, or a need of memory far beyond the file's size.
 pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
     let raw = read_raw(file, bytes, resolve)?;
     Scene::from_raw(raw).map_err(|error| error.in_file(file))

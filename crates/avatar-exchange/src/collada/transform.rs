@@ -63,7 +63,7 @@ pub(super) fn product<'a>(steps: impl Iterator<Item = (&'a Step, &'a [f64])>) ->
     steps.fold(DMat4::IDENTITY, |product, (step, values)| product * step.matrix(values))
 }
 
-/// Sixteen numbers by rows; what is missing is 0.
+/// Sixteen numbers by rows; missing numbers are 0.
 pub(super) fn row_major(values: &[f64]) -> DMat4 {
     let mut columns = [0.0; 16];
     columns.iter_mut().zip(values).for_each(|(to, from)| *to = *from);

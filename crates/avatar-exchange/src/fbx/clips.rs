@@ -81,8 +81,8 @@ fn keys_of_weights(baked: &ufbx::BakedAnim) -> HashMap<u32, Vec<(f64, f64)>> {
     keys
 }
 
-/// The weights of a node's shapes: with keys wherever one of its channels has one, and where a shape begins or stops
-/// to fade.
+/// The weights of a node's shapes: with keys wherever one of its channels has one, and where a shape begins
+/// or stops to fade.
 fn weights(
     blend: &Blend<'_>,
     keys: &HashMap<u32, Vec<(f64, f64)>>,
@@ -137,5 +137,28 @@ fn value_at(keys: &[(f64, f64)], time: f64, after: bool) -> f64 {
         (Some(a), Some(b)) if b.0 > a.0 => a.1 + (b.1 - a.1) * (time - a.0) / (b.0 - a.0),
         (Some(key), _) | (None, Some(key)) => key.1,
         (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "a test may panic")]
+mod tests {
+    use super::super::{load, memory, read_nodes};
+    use super::read;
+    use crate::build::budget::Budget;
+    use crate::scene::RawScene;
+
+    #[test]
+    fn keys_of_nodes_count_against_the_budget() {
+        let bytes = include_bytes!("../../tests/all/fbx/face.fbx");
+        let fbx = load(bytes).expect("a good file");
+        let read_with = |left| {
+            let mut scene = RawScene::default();
+            read_nodes(&fbx, &mut scene).expect("nodes");
+            read(&fbx, &[], &mut scene, &mut Budget::with_vertices_left(left), memory(bytes.len()))
+                .map(|()| scene.clips.len())
+        };
+        assert_eq!(read_with(1000), Ok(1));
+        assert_eq!(read_with(1).expect_err("too many keys").place, "take 0 'nod'");
     }
 }

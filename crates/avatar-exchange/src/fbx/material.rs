@@ -54,7 +54,7 @@ struct Images<'a, 'b> {
 impl Images<'_, '_> {
     fn of(&mut self, map: &ufbx::MaterialMap, scene: &mut RawScene) -> Option<usize> {
         let texture = map.texture.as_ref().filter(|_| map.texture_enabled)?;
-        // What is layered or computed: the first picture in it.
+        // Of a layered or computed texture, the first picture.
         let texture = texture.file_textures.first().unwrap_or(texture);
         let key = texture.element.typed_id;
         if let Some(known) = self.of_texture.get(&key) {

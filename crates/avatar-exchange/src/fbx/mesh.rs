@@ -8,7 +8,8 @@ use crate::build::corners::{Corner, Corners};
 use crate::scene::{Finding, ImportError, RawScene, ScenePart};
 use glam::{Vec2, Vec3};
 
-/// Reads all parts, and their skins, shapes and weights on the way. Returns the shapes of nodes that have any.
+/// Reads all parts, and their skins, shapes and weights on the way. Returns the shapes of nodes that have
+/// any.
 pub(super) fn read<'a>(
     fbx: &'a ufbx::Scene,
     scene: &mut RawScene,
@@ -23,6 +24,7 @@ pub(super) fn read<'a>(
         let points: Vec<Vec3> = mesh.vertices.iter().map(|point| vec3(*point)).collect();
         let blend = Blend::of(node, mesh, &mut scene.notes);
         let mut skin = None;
+        let parts_before = scene.parts.len();
         for (primitive, segment) in mesh.material_parts.iter().enumerate() {
             let corners = corners(mesh, segment, budget, &place)?;
             if corners.is_empty() {
@@ -55,7 +57,9 @@ pub(super) fn read<'a>(
             note(&mut scene.notes, place.as_str(), Finding::LeftOut(text));
         }
         if let Some(blend) = blend {
-            blend.write(scene);
+            if scene.parts.len() > parts_before {
+                blend.write(scene);
+            }
             blends.push(blend);
         }
     }
@@ -113,8 +117,8 @@ fn corner(mesh: &ufbx::Mesh, index: usize) -> Corner {
     let bitangent = value(&mesh.vertex_bitangent);
     let tangent = match (normal, tangent, bitangent) {
         (Some(normal), Some(tangent), Some(bitangent)) => {
-            // v grows downward here and upward in FBX, so its direction is the opposite one; glTF's definition of the
-            // bitangent counts v upward on the picture, too, and keeps the sign.
+            // v grows downward here and upward in FBX, so its direction is the opposite one; glTF's
+            // definition of the bitangent counts v upward on the picture, too, and keeps the sign.
             let hand = if normal.cross(tangent).dot(bitangent) < 0.0 { -1.0 } else { 1.0 };
             tangent.extend(hand)
         }

@@ -23,7 +23,7 @@ use glam::{Quat, Vec3};
 
 /// Nesting of nodes that the library accepts.
 const MAX_DEPTH: u32 = 1024;
-/// Memory that the library may take: this much, and so much for each byte of the file. Arrays in files are
+/// Memory that the library may take: this much, and 128 bytes for each byte of the file. Arrays in files are
 /// compressed, by a factor of up to a thousand if they are hostile.
 const MEMORY_BYTES: usize = 64 << 20;
 const MEMORY_PER_BYTE: usize = 128;
@@ -45,8 +45,7 @@ const PROGRESS_BYTES: u64 = 1024;
 /// ```
 ///
 /// # Errors
-/// Whatever is no FBX, what a scene cannot hold, and files that ask for far more memory than their size
-/// explains.
+/// Data that is not FBX, contents that a scene cannot hold, or a need of memory far beyond the file's size.
 pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
     let raw = read_raw(file, bytes, resolve)?;
     Scene::from_raw(raw).map_err(|error| error.in_file(file))

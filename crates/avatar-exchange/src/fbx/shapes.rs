@@ -101,7 +101,7 @@ impl<'a> Blend<'a> {
         })
     }
 
-    /// The weights of shapes for weights of channels; values that are no numbers count as 0.
+    /// The weights of shapes for weights of channels; values that are not finite count as 0.
     pub(super) fn weights(&self, channels: &[f32]) -> Vec<f32> {
         let mut weights = vec![0.0; self.targets.len()];
         // There is a value for each driver and a weight for each shape, so that this cannot fail.
@@ -125,11 +125,9 @@ impl<'a> Blend<'a> {
     /// Weights at rest, and rules where a slider is not simply a shape's weight.
     pub(super) fn write(&self, scene: &mut RawScene) {
         let rest: Vec<f32> = self.channels.iter().map(|(_, weight)| *weight).collect();
-        if scene.parts.iter().any(|part| part.node == self.node) {
-            scene.nodes[self.node].weights = self.weights(&rest);
-            if self.in_betweens {
-                scene.drivers.push(self.drivers.clone());
-            }
+        scene.nodes[self.node].weights = self.weights(&rest);
+        if self.in_betweens {
+            scene.drivers.push(self.drivers.clone());
         }
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn float(kind: ComponentType, normalized: bool, bytes: &[u8]) -> f32 
     if normalized { (value / largest).max(-1.0) } else { value }
 }
 
-/// One component as a whole number; `None` for kinds that are none without a sign.
+/// One component as a whole number; `None` for kinds with a sign or a fraction.
 pub(super) fn whole(kind: ComponentType, bytes: &[u8]) -> Option<u32> {
     match (kind, bytes) {
         (ComponentType::U8, &[a]) => Some(a.into()),

@@ -14,7 +14,7 @@ const REPRESENTED_EXTENSIONS: usize = 1;
 /// The place of notes on extensions of the file as a whole.
 pub(crate) const EXTENSIONS_USED: &str = "extensionsUsed";
 
-/// A file while it is read: its structures, the bytes behind them, and what remains to be said about it.
+/// A file while it is read: its structures, the bytes behind them, and the notes so far.
 pub(super) struct Document<'a> {
     pub(super) root: Root,
     pub(super) budget: Budget,
@@ -134,7 +134,7 @@ impl<'a> Document<'a> {
         Ok(View { number, bytes: &self.stores[store][start..end], stride })
     }
 
-    /// Says something about a place, once.
+    /// Adds a note, once.
     pub(super) fn note(&mut self, place: impl Into<String>, finding: Finding) {
         let note = Note::new(place, finding);
         if self.noted.insert(note.clone()) {
@@ -146,7 +146,7 @@ impl<'a> Document<'a> {
         self.notes
     }
 
-    /// Notes what concerns the file as a whole and is not represented.
+    /// Notes extensions and cameras, which are not represented.
     pub(super) fn note_the_rest(&mut self) {
         let root = &self.root;
         let left_out: Vec<_> = root

@@ -22,8 +22,8 @@ impl<'u> Use<'u> {
 }
 
 impl Document<'_> {
-    /// Encoded pictures. One that cannot be brought is empty, with a note: a face without a texture is still
-    /// a face.
+    /// Encoded pictures. One that is not found is empty, with a note: a face without a texture is still a
+    /// face.
     pub(super) fn read_images(&mut self, scene: &mut RawScene) -> Result<(), ImportError> {
         for (number, image) in std::mem::take(&mut self.root.images).into_iter().enumerate() {
             let place = format!("image {number}");
@@ -112,7 +112,7 @@ impl Document<'_> {
         Ok(())
     }
 
-    /// The image behind a texture; what a position in the images cannot say is noted.
+    /// The image of a texture. Wrapping modes, further texture coordinates and extensions get a note.
     fn texture(&mut self, place: &str, used: Option<Use<'_>>) -> Result<Option<usize>, ImportError> {
         let Some(used) = used else { return Ok(None) };
         let place = format!("{place}, {}", used.what);

@@ -1,12 +1,12 @@
 //! glTF 2.0 and its binary form GLB.
 //!
 //! ```text
-//!  bytes ──container──▶ JSON, BIN ──document──▶ views ──accessor──▶ numbers ──▶ nodes, parts, skins, clips, materials
+//!  bytes ──container──▶ JSON, BIN ──document──▶ views ──accessor──▶ numbers ──▶ nodes, parts, skins, clips
 //! ```
 //!
-//! Structures of the JSON come from the crate `gltf`; everything behind them is read here with checked arithmetic,
-//! since its own iterators trust counts and positions of a file. Whatever a file says, reading ends with a scene or
-//! an error, in time and memory that are linear in the bytes given.
+//! Structures of the JSON come from the crate `gltf`; everything behind them is read here with checked
+//! arithmetic, since its own iterators trust counts and positions of a file. Whatever a file says, reading
+//! ends with a scene or an error, in time and memory that are linear in the bytes given.
 
 mod accessor;
 mod animation;
@@ -30,8 +30,9 @@ pub use container::{Container, split};
 
 /// Reads `.gltf` (JSON) or `.glb`. `file` is its name for messages.
 ///
-/// Every node of the file is in the scene; meshes of nodes that the file's default scene does not show are left out, with a
-/// note. Primitives without normals get some, with a note. Points and lines are left out, with a note.
+/// Every node of the file is in the scene; meshes of nodes that the file's default scene does not show are
+/// left out, with a note. Primitives without normals get some, with a note. Points and lines are left out,
+/// with a note.
 ///
 /// ```
 /// let json = br#"{"asset": {"version": "2.0"}, "nodes": [{"name": "hip", "translation": [0, 1, 0]}]}"#;
@@ -41,7 +42,8 @@ pub use container::{Container, split};
 /// ```
 ///
 /// # Errors
-/// Whatever is not glTF 2.0, required extensions that are not known here, files that `resolve` does not bring.
+/// Data that is not glTF 2.0, required extensions that are not read here, files that `resolve` does not
+/// bring.
 pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
     let raw = read_raw(file, bytes, resolve)?;
     Scene::from_raw(raw).map_err(|error| error.in_file(file))
@@ -55,9 +57,38 @@ pub fn read_raw(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<R
     read_all(bytes, resolve).map_err(|error| error.in_file(file))
 }
 
-fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportError> {
+/// What formats that build on glTF read beside the scene.
+#[cfg(feature = "vrm")]
+pub(crate) struct Extras {
+    /// The file's extensions by name.
+    pub(crate) extensions: serde_json::Map<String, serde_json::Value>,
+    /// For each mesh of the file the nodes that show it.
+    pub(crate) nodes_of_meshes: Vec<Vec<usize>>,
+}
+
+/// As [`read_raw()`], with what the scene lacks; the JSON is parsed once.
+#[cfg(feature = "vrm")]
+pub(crate) fn read_with_extras(
+    bytes: &[u8],
+    resolve: &mut Resolve<'_>,
+) -> Result<(RawScene, Extras), ImportError> {
     let container = split(bytes)?;
     let mut document = Document::open(&container, bytes.len(), resolve)?;
+    let extensions = document.root.extensions.take().map(|extensions| extensions.others).unwrap_or_default();
+    let mut nodes_of_meshes = vec![Vec::new(); document.root.meshes.len()];
+    for (number, node) in document.root.nodes.iter().enumerate() {
+        let mesh = node.mesh.and_then(|mesh| nodes_of_meshes.get_mut(mesh.value()));
+        mesh.into_iter().for_each(|nodes| nodes.push(number));
+    }
+    Ok((read_scene(document)?, Extras { extensions, nodes_of_meshes }))
+}
+
+fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportError> {
+    let container = split(bytes)?;
+    read_scene(Document::open(&container, bytes.len(), resolve)?)
+}
+
+fn read_scene(mut document: Document<'_>) -> Result<RawScene, ImportError> {
     let mut scene = RawScene::default();
     document.read_nodes(&mut scene)?;
     document.read_skins(&mut scene)?;

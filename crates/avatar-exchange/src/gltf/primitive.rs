@@ -13,7 +13,7 @@ use gltf::json::validation::Checked;
 use gltf::json::{self, Accessor, Index};
 use serde_json::Value;
 
-/// What a primitive without any data counts, in bytes.
+/// Bytes that a primitive without any data takes from the budget.
 const PRIMITIVE_COST: usize = 1024;
 /// The same of one of its targets, half of it.
 const TARGET_COST: usize = 256;
@@ -266,7 +266,7 @@ impl Document<'_> {
         for vertex in 0..vertices {
             bones.clear();
             for (joints, weights) in &sets {
-                // Beyond u16 there is no joint; which one it was not is told when the scene is checked.
+                // No skin has a joint beyond u16; the check of the scene finds it and names the part.
                 let joint = |joint: u32| u16::try_from(joint).unwrap_or(u16::MAX);
                 bones.extend(joints[vertex].map(joint).into_iter().zip(weights[vertex].map(f64::from)));
             }

@@ -46,7 +46,7 @@ pub struct ObjFile {
     pub materials: Vec<Material>,
     /// Their textures.
     pub images: Vec<SceneImage>,
-    /// What is left out or was not found.
+    /// How the scene differs from the file.
     pub notes: Vec<Note>,
 }
 
@@ -80,7 +80,7 @@ pub struct ObjPart {
 /// Reads a file as a scene.
 ///
 /// # Errors
-/// The first line that is wrong, or none with a face.
+/// The first line that is wrong, or a file without faces.
 pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
     read_obj(file, bytes, resolve)?.into_scene()
 }
@@ -88,7 +88,7 @@ pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<Scene
 /// Reads a file with the order of its vertices. Libraries and images that `resolve` does not bring get notes.
 ///
 /// # Errors
-/// The first line that is wrong, in the file or in one of its libraries, or none with a face.
+/// The first line that is wrong, in the file or in one of its libraries, or a file without faces.
 pub fn read_obj(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<ObjFile, ImportError> {
     let in_file = |error: ImportError| if error.file.is_empty() { error.in_file(file) } else { error };
     let lines = parse::parse(&decode(bytes)).map_err(in_file)?;
@@ -98,7 +98,8 @@ pub fn read_obj(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<O
 }
 
 impl ObjFile {
-    /// Gives every part a shape that moves some of the file's vertices; those of no face do not matter.
+    /// Gives every part a shape that moves some of the file's vertices. Vertices that no face uses are
+    /// ignored.
     ///
     /// # Errors
     /// A vertex that the file lacks, one that comes twice, or a shape of this name that is there already.
@@ -196,7 +197,7 @@ impl ObjFile {
     /// The same, checked.
     ///
     /// # Errors
-    /// Whatever was made of its public fields that is no scene.
+    /// Public fields that were changed so that they contradict each other.
     pub fn into_scene(self) -> Result<Scene, ImportError> {
         let file = self.file.clone();
         Scene::from_raw(self.into_raw()).map_err(|error| error.in_file(&file))

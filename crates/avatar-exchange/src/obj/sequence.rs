@@ -1,7 +1,7 @@
 //! Sequences of OBJ files: one connectivity, a geometry for each time.
 
 use super::{ObjFile, read_obj};
-use crate::build::budget::Budget;
+use crate::build::budget::{Budget, Exceeded};
 use crate::build::names::unique_names;
 use crate::build::text::stem;
 use crate::scene::{Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Note, Resolve, Scene};
@@ -23,12 +23,13 @@ pub struct ObjFrame<'a> {
     pub time_secs: f64,
 }
 
-/// Reads files of the same vertices and faces as one scene: a shape for each frame, named like its file, and a clip that
-/// goes from each to the next in a straight line. At rest it is the first in time. Materials are those of that one.
+/// Reads files of the same vertices and faces as one scene: a shape for each frame, named like its file, and
+/// a clip that goes from each to the next in a straight line. At rest it is the first in time. Materials are
+/// those of that one.
 ///
 /// # Errors
-/// No frames or too many, a time that is not finite or comes twice, a file that is wrong or differs in its vertices or
-/// faces.
+/// No frames or too many, a time that is not finite or comes twice, a file that is wrong or differs in its
+/// vertices or faces.
 pub fn read_sequence(frames: &[ObjFrame<'_>], resolve: &mut Resolve<'_>) -> Result<Scene, ImportError> {
     let mut order: Vec<&ObjFrame<'_>> = frames.iter().collect();
     if let Some(frame) = order.iter().find(|frame| !frame.time_secs.is_finite()) {
@@ -48,10 +49,10 @@ pub fn read_sequence(frames: &[ObjFrame<'_>], resolve: &mut Resolve<'_>) -> Resu
     };
     let mut base = read_obj(first.file, first.bytes, resolve)?;
     let names = unique_names(order.iter().map(|frame| stem(frame.file).to_owned()).collect());
-    let mut budget = Budget::of_vertices();
     let vertices: usize = base.parts.iter().map(|part| part.mesh.positions.len()).sum();
+    let too_much = |exceeded: Exceeded| exceeded.at("the sequence").in_file(first.file);
+    Budget::of_vertices().take(vertices, count).map_err(too_much)?;
     for (number, (frame, name)) in order.iter().zip(names).enumerate() {
-        budget.take(vertices, 1).map_err(|exceeded| exceeded.at("the sequence").in_file(frame.file))?;
         if number == 0 {
             base.add_shape(&name, &[])?;
         } else {
@@ -76,7 +77,8 @@ pub fn read_sequence(frames: &[ObjFrame<'_>], resolve: &mut Resolve<'_>) -> Resu
 }
 
 impl ObjFile {
-    /// Gives every part a shape that turns it into another file of the same vertices and faces, with its normals.
+    /// Gives every part a shape that turns it into another file of the same vertices and faces, with its
+    /// normals.
     ///
     /// # Errors
     /// Other vertices or faces, with both counts, or a shape of this name that is there already.
@@ -122,7 +124,8 @@ impl ObjFile {
         Geometry { file: &self.file, shape, positions: &self.positions, faces }
     }
 
-    /// The vertices around a face and their normals, from where it reads the same whatever corner it begins at.
+    /// The vertices around a face and their normals, from where it reads the same whatever corner it begins
+    /// at.
     fn around(&self, face: usize) -> Option<impl Iterator<Item = (usize, Vec3)>> {
         let corners = self.geometry("").faces.corners(face);
         let end = *self.faces.ends.get(face)? as usize;

@@ -21,7 +21,7 @@ pub struct RawScene {
     pub materials: Vec<Material>,
     /// Textures of materials.
     pub images: Vec<SceneImage>,
-    /// What the file has and this does not represent.
+    /// How the scene differs from its file.
     pub notes: Vec<Note>,
 }
 

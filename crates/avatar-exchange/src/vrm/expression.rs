@@ -26,7 +26,7 @@ impl ShapeWeights {
 }
 
 impl Expression {
-    /// What counts of a value: between 0 and 1, and one of both for binary expressions. NaN counts as 0.
+    /// The value that is used: clamped to 0…1, and either 0 or 1 for binary expressions. NaN counts as 0.
     pub fn output(&self, value: f32) -> f32 {
         let value = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
         match self.is_binary {
@@ -53,8 +53,7 @@ impl Override {
 /// ```text
 /// output = clamp(value), or 1 where a binary one is above 0.5, else 0
 /// rate   = Σ over expressions, 1 for a block with output > 0, the output for a blend
-/// factor = 1 − clamp(rate)                 for blinks, looks and mouths; a binary one has 0 where the rate is
-///                                          above 0
+/// factor = 1 − clamp(rate)             for blinks, looks and mouths; 0 of a binary one with a rate above 0
 /// weight = Σ output · factor · weight of the bind
 /// ```
 ///
@@ -65,8 +64,8 @@ impl Override {
 /// use avatar_exchange::vrm::{Expression, MorphBind, Override, Vrm, expression_weights};
 ///
 /// let bind = |shape| vec![MorphBind { node: 0, shape, weight: 1.0 }];
-/// let override_blink = Override::Blend;
-/// let happy = Expression { name: "happy".into(), override_blink, binds: bind(0), ..Default::default() };
+/// let mut happy = Expression { name: "happy".into(), binds: bind(0), ..Default::default() };
+/// happy.override_blink = Override::Blend;
 /// let blink = Expression { name: "blink".into(), is_preset: true, binds: bind(1), ..Default::default() };
 /// let vrm = Vrm { expressions: vec![happy, blink], ..Default::default() };
 /// let weights = expression_weights(&vrm, &[("happy", 0.75), ("blink", 1.0)]);

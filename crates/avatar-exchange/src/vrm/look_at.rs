@@ -58,7 +58,8 @@ impl Default for RangeMap {
 }
 
 impl RangeMap {
-    /// `min(|angle|, max) / max · scale` with the sign of the angle. A range of no width is left at once.
+    /// `min(|angle|, max) / max · scale` with the sign of the angle. With a maximum of 0 every angle counts
+    /// as the maximum.
     pub fn map(&self, angle_deg: f32) -> f32 {
         let most = self.input_max_deg.max(0.0);
         let share = if most > 0.0 { angle_deg.abs().min(most) / most } else { 1.0 };

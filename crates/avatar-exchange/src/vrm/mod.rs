@@ -1,4 +1,5 @@
-//! VRM 1.0 and 0.x: avatars in GLB that say which node is which bone, what expressions are made of, and how eyes look.
+//! VRM 1.0 and 0.x: avatars in GLB that say which node is which bone, what expressions are made of, and how
+//! eyes look.
 //!
 //! ```text
 //!  bytes ──gltf──▶ scene
@@ -35,7 +36,7 @@ pub struct VrmModel {
     pub vrm: Vrm,
 }
 
-/// What VRM says of a scene.
+/// What a VRM file says beside its scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Vrm {
     /// Which generation of the format the file is of.
@@ -73,7 +74,7 @@ pub struct Meta {
     pub licence: String,
 }
 
-/// Something that a face does: shapes with their weights, and what other expressions do meanwhile.
+/// An expression of the face: shapes with their weights, and how it changes other expressions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Expression {
     /// Unique name; of presets the one of VRM 1.0: `happy`, `blinkLeft`, `aa` …
@@ -82,11 +83,11 @@ pub struct Expression {
     pub is_preset: bool,
     /// Whether values above 0.5 count as 1 and others as 0.
     pub is_binary: bool,
-    /// What becomes of `blink`, `blinkLeft` and `blinkRight`.
+    /// How it changes `blink`, `blinkLeft` and `blinkRight`.
     pub override_blink: Override,
-    /// What becomes of `lookUp`, `lookDown`, `lookLeft` and `lookRight`.
+    /// How it changes `lookUp`, `lookDown`, `lookLeft` and `lookRight`.
     pub override_look_at: Override,
-    /// What becomes of `aa`, `ih`, `ou`, `ee` and `oh`.
+    /// How it changes `aa`, `ih`, `ou`, `ee` and `oh`.
     pub override_mouth: Override,
     /// Shapes that make it.
     pub binds: Vec<MorphBind>,
@@ -148,32 +149,28 @@ const REQUIRED_BONES: [&str; 15] = [
 
 /// Reads a VRM. `file` is its name for messages.
 ///
-/// Bones that the standard asks for and the file lacks, colours and textures that expressions change, and curves of
-/// looking are told in the scene's notes.
+/// Bones that the standard asks for and the file lacks, colours and textures that expressions change, and
+/// curves of looking are told in the scene's notes.
 ///
 /// # Errors
-/// As [`gltf::read()`], and whatever of VRM's own data is missing or not as the standard says, with its place in the JSON.
+/// As [`gltf::read()`], and data of VRM that is missing or not as the standard says, with its place in the
+/// JSON.
 pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<VrmModel, ImportError> {
-    let mut raw = gltf::read_raw(file, bytes, resolve)?;
-    let vrm = read_vrm(&mut raw, bytes).map_err(|error| error.in_file(file))?;
-    let scene = Scene::from_raw(raw).map_err(|error| error.in_file(file))?;
+    let in_file = |error: ImportError| error.in_file(file);
+    let (mut raw, extras) = gltf::read_with_extras(bytes, resolve).map_err(in_file)?;
+    let vrm = read_vrm(&mut raw, extras).map_err(in_file)?;
+    let scene = Scene::from_raw(raw).map_err(in_file)?;
     Ok(VrmModel { scene, vrm })
 }
 
-fn read_vrm(raw: &mut RawScene, bytes: &[u8]) -> Result<Vrm, ImportError> {
-    let json: Value = serde_json::from_slice(gltf::split(bytes)?.json)
-        .map_err(|error| ImportError::new("JSON", "glTF 2.0", error.to_string()))?;
-    let root = Place::root(&json);
-    let extension = |name: &str| {
-        Ok::<_, ImportError>(match root.get("extensions")? {
-            Some(extensions) => extensions.get(name)?,
-            None => None,
-        })
-    };
+fn read_vrm(raw: &mut RawScene, extras: gltf::Extras) -> Result<Vrm, ImportError> {
+    let extensions = Value::Object(extras.extensions);
+    let extensions = Place::new(&extensions, "extensions");
+    let extension = |name: &str| extensions.get(name);
     // A file may carry both, for older programs.
     let (vrm, name) = match (extension("VRMC_vrm")?, extension("VRM")?) {
         (Some(vrm), _) => (v1::read(&vrm, raw)?, "VRMC_vrm"),
-        (None, Some(vrm)) => (v0::read(&root, &vrm, raw)?, "VRM"),
+        (None, Some(vrm)) => (v0::read(&vrm, &extras.nodes_of_meshes, raw)?, "VRM"),
         (None, None) => {
             return Err(ImportError::new("extensions", "VRMC_vrm (VRM 1.0) or VRM (0.x)", "neither"));
         }

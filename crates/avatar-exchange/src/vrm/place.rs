@@ -9,8 +9,8 @@ pub(super) struct Place<'v> {
 }
 
 impl<'v> Place<'v> {
-    pub(super) fn root(value: &'v Value) -> Self {
-        Self { value, path: String::new() }
+    pub(super) fn new(value: &'v Value, path: &str) -> Self {
+        Self { value, path: path.to_owned() }
     }
 
     pub(super) fn path(&self) -> &str {
@@ -19,13 +19,11 @@ impl<'v> Place<'v> {
 
     pub(super) fn wrong(&self, expected: impl Into<String>) -> ImportError {
         let shown: String = self.value.to_string().chars().take(80).collect();
-        let path = if self.path.is_empty() { "JSON" } else { &self.path };
-        ImportError::new(path, expected, shown)
+        ImportError::new(&self.path, expected, shown)
     }
 
     fn below(&self, key: &str, value: &'v Value) -> Self {
-        let path = if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) };
-        Self { value, path }
+        Self { value, path: format!("{}.{key}", self.path) }
     }
 
     /// A member of an object; null counts as none.

@@ -41,7 +41,12 @@ fn translated<'n>(names: &[(&str, &'n str)], name: &str) -> Option<&'n str> {
     names.iter().find(|(old, _)| *old == name).map(|(_, new)| *new)
 }
 
-pub(super) fn read(root: &Place<'_>, vrm: &Place<'_>, raw: &mut RawScene) -> Result<Vrm, ImportError> {
+/// `nodes_of_meshes` are per mesh of the file the nodes that show it: expressions of 0.x speak of meshes.
+pub(super) fn read(
+    vrm: &Place<'_>,
+    nodes_of_meshes: &[Vec<usize>],
+    raw: &mut RawScene,
+) -> Result<Vrm, ImportError> {
     let mut humanoid = Vec::new();
     for place in vrm.need("humanoid")?.list("humanBones")? {
         let bone = place.need("bone")?.str()?;
@@ -52,10 +57,9 @@ pub(super) fn read(root: &Place<'_>, vrm: &Place<'_>, raw: &mut RawScene) -> Res
     }
     let mut expressions: Vec<Expression> = Vec::new();
     if let Some(master) = vrm.get("blendShapeMaster")? {
-        let nodes = nodes_of_meshes(root, raw.nodes.len())?;
         let (mut names, mut binds_left) = (HashSet::new(), MOST_BINDS);
         for place in master.list("blendShapeGroups")? {
-            let expression = expression(&place, &nodes, &mut binds_left, raw)?;
+            let expression = expression(&place, nodes_of_meshes, &mut binds_left, raw)?;
             if !names.insert(expression.name.clone()) {
                 let text = format!("a second expression '{}' is left out", expression.name);
                 note(raw, place.path(), Finding::LeftOut(text));
@@ -79,18 +83,6 @@ fn meta(vrm: &Place<'_>) -> Result<Meta, ImportError> {
         authors: if author.is_empty() { Vec::new() } else { vec![author] },
         licence,
     })
-}
-
-/// Per mesh of the file the nodes that show it: expressions of 0.x speak of meshes.
-fn nodes_of_meshes(root: &Place<'_>, nodes: usize) -> Result<Vec<Vec<usize>>, ImportError> {
-    let mut of_meshes = vec![Vec::new(); root.list("meshes")?.len()];
-    for (number, node) in root.list("nodes")?.iter().enumerate().take(nodes) {
-        if let Some(mesh) = node.get("mesh")? {
-            let mesh = mesh.index("a mesh", of_meshes.len())?;
-            of_meshes[mesh].push(number);
-        }
-    }
-    Ok(of_meshes)
 }
 
 fn expression(

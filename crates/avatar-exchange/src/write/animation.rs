@@ -30,6 +30,8 @@ pub(super) fn unit(rotation: [f32; 4]) -> [f32; 4] {
 
 pub(super) fn animations(scene: &Scene, plan: &Plan, buffer: &mut Buffer) -> Vec<Value> {
     let mut animations = Vec::new();
+    let mut groups_at: Vec<Vec<usize>> = vec![Vec::new(); scene.nodes.len()];
+    plan.groups.iter().for_each(|group| groups_at[group.node].push(group.at));
     for clip in &scene.clips {
         let start = clip.channels.iter().filter_map(|channel| channel.times.first().copied());
         let start = start.fold(0.0, f64::min);
@@ -47,9 +49,7 @@ pub(super) fn animations(scene: &Scene, plan: &Plan, buffer: &mut Buffer) -> Vec
         for (_, channel) in counting {
             let nodes: Vec<usize> = match channel.target {
                 ChannelTarget::Weights if scene.nodes[channel.node].weights.is_empty() => Vec::new(),
-                ChannelTarget::Weights => {
-                    plan.groups.iter().filter(|g| g.node == channel.node).map(|g| g.at).collect()
-                }
+                ChannelTarget::Weights => groups_at[channel.node].clone(),
                 _ => vec![channel.node],
             };
             if nodes.is_empty() {
@@ -115,7 +115,8 @@ impl Keys {
         let mut values: Vec<f32> = Vec::with_capacity(channel.values.len());
         for (key, of_key) in channel.times.iter().zip(channel.values.chunks_exact(per_key.max(1))) {
             let time = (key - start) as f32;
-            // Where the value jumps, the key before the jump moves to just before it; those between do not count.
+            // Where the value jumps, the key before the jump moves to just before it; those between do not
+            // count.
             if times.last() == Some(&time) {
                 let earlier = time.next_down();
                 let before = times.len().checked_sub(2).map(|before| times[before]);

@@ -10,7 +10,7 @@ const F32: u32 = 5126;
 /// What the JSON of an accessor with two more views takes at least.
 const SPARSE_OVERHEAD_BYTES: usize = 256;
 
-/// What a graphics card takes a view for.
+/// What a buffer view is used for on the graphics card.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Target {
     /// Attributes of vertices.
@@ -63,7 +63,7 @@ impl Buffer {
         self.accessors.len() - 1
     }
 
-    /// Says something more of the last accessor.
+    /// Adds a member to the JSON of the last accessor.
     fn add(&mut self, key: &str, value: Value) {
         if let Some(Value::Object(accessor)) = self.accessors.last_mut() {
             accessor.insert(key.to_owned(), value);

@@ -68,7 +68,7 @@ pub(super) fn materials(scene: &Scene, images: &Images) -> Vec<Value> {
     scene.materials.iter().map(|material| one(material, images)).collect()
 }
 
-/// A number between two others; what is none becomes the default.
+/// A number clamped to a range; NaN becomes the default.
 fn within(value: f32, least: f32, most: f32, default: f32) -> f32 {
     if value.is_nan() { default } else { value.clamp(least, most) }
 }

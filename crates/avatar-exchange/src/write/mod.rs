@@ -1,7 +1,7 @@
 //! A scene as GLB.
 //!
 //! ```text
-//!  Scene ──plan──▶ nodes, meshes ──▶ primitives, materials, animations ──buffer──▶ JSON, BIN ──▶ GLB
+//!  Scene ──plan──▶ nodes and meshes ──▶ primitives, materials, animations ──buffer──▶ JSON, BIN ──▶ GLB
 //! ```
 
 mod animation;
@@ -26,7 +26,7 @@ pub enum ExportError {
     /// The scene contradicts itself.
     #[error(transparent)]
     Scene(#[from] ImportError),
-    /// A bone that pushes a vertex away: glTF has no word for it.
+    /// A negative bone weight, which glTF cannot express.
     #[error("part {part} '{name}', vertex {vertex}: expected weights that are not negative, found {found}")]
     NegativeWeight {
         /// Position of the part.
@@ -48,8 +48,8 @@ pub enum ExportError {
 
 /// Writes a scene as one GLB: glTF 2.0 with all its data inside. The same scene gives the same bytes.
 ///
-/// Reading the bytes gives the scene again, to the bit, where glTF has a word for it. Elsewhere the file
-/// deforms and looks the same, but
+/// Reading the bytes gives the scene again, to the bit, where glTF can express it. Elsewhere the file deforms
+/// and looks the same, but
 ///
 /// * parts of one node with different skins or shape names get nodes of their own below it; so does a joint
 ///   that is in a skin twice; and trees whose nodes share a skin hang from one new root;

@@ -1,7 +1,8 @@
 use crate::scene::{Scene, Transform};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Which nodes and meshes the file has: those of the scene in their order, then those that glTF's rules ask for.
+/// Nodes and meshes of the written file: those of the scene in their order, then those that glTF's rules ask
+/// for.
 #[derive(Debug)]
 pub(super) struct Plan<'s> {
     pub(super) nodes: Vec<PlannedNode<'s>>,
@@ -36,6 +37,15 @@ pub(super) struct Group {
     pub(super) parts: Vec<usize>,
 }
 
+/// What the parts of a group have in common.
+#[derive(PartialEq, Eq, Hash)]
+struct GroupKey<'s> {
+    node: usize,
+    skin: Option<usize>,
+    name: &'s str,
+    shapes: Vec<&'s str>,
+}
+
 impl<'s> Plan<'s> {
     pub(super) fn of(scene: &'s Scene) -> Self {
         let nodes = scene.nodes.iter();
@@ -49,37 +59,35 @@ impl<'s> Plan<'s> {
     }
 
     fn group(&mut self, scene: &'s Scene) {
-        let mut by_node: Vec<Vec<usize>> = vec![Vec::new(); scene.nodes.len()];
+        let mut known: HashMap<GroupKey<'s>, usize> = HashMap::new();
+        let mut is_taken = vec![false; scene.nodes.len()];
         for (number, part) in scene.parts.iter().enumerate() {
-            let first = |group: &usize| self.groups.get(*group).map(|group: &Group| group.parts[0]);
-            let same = by_node[part.node].iter().copied().find(|group| {
-                let Some(other) = first(group).and_then(|first| scene.parts.get(first)) else { return false };
-                let names = part.mesh.shapes.iter().map(|shape| &shape.name);
+            let key = GroupKey {
+                node: part.node,
+                skin: part.skin,
                 // Readers call all primitives of a mesh as its node.
-                other.skin == part.skin
-                    && other.name == part.name
-                    && names.eq(other.mesh.shapes.iter().map(|shape| &shape.name))
-            });
-            if let Some(group) = same {
-                self.groups[group].parts.push(number);
+                name: &part.name,
+                shapes: part.mesh.shapes.iter().map(|shape| shape.name.as_str()).collect(),
+            };
+            if let Some(group) = known.get(&key) {
+                self.groups[*group].parts.push(number);
                 continue;
             }
             let is_nodes = part.name.is_empty() || part.name == scene.nodes[part.node].name;
-            let at = if by_node[part.node].iter().all(|group| self.groups[*group].at != part.node) && is_nodes
-            {
+            let at = if is_nodes && !std::mem::replace(&mut is_taken[part.node], true) {
                 part.node
             } else {
                 self.nodes.push(PlannedNode::still(&part.name, Some(part.node)));
                 self.nodes.len() - 1
             };
-            by_node[part.node].push(self.groups.len());
+            known.insert(key, self.groups.len());
             self.groups.push(Group { node: part.node, at, skin: part.skin, parts: vec![number] });
         }
-        // Readers go from node to node.
+        // Readers list parts in the order of their nodes.
         self.groups.sort_by_key(|group| group.at);
     }
 
-    /// A joint may be in a skin only once: of further ones, children that rest are.
+    /// A joint may be in a skin only once: a second use gets a child of the joint that does not move.
     fn alias_joints(&mut self, scene: &'s Scene) {
         for skin in &scene.skins {
             let mut seen = BTreeSet::new();

@@ -188,6 +188,41 @@ fn the_face_of_a_body_is_its_head() {
     assert!(face.min.abs_diff_eq(expected.min, 1e-5) && face.max.abs_diff_eq(expected.max, 1e-5), "{face:?}");
 }
 
+/// Two parts on skins of their own: the first of so many joints, the second of one, 5 above.
+fn two_skins(joints_of_the_first: usize) -> Scene {
+    let skinned = || {
+        let skinning = Skinning {
+            bones: vec![[0; 4]; 3],
+            weights: vec![[1.0, 0.0, 0.0, 0.0]; 3],
+            ..Skinning::default()
+        };
+        Mesh { skinning: Some(skinning), ..mesh(&[Vec3::ZERO], &[]) }
+    };
+    let skin = |joints: Vec<usize>| Skin {
+        name: String::new(),
+        inverse_binds: vec![Affine3A::IDENTITY; joints.len()],
+        joints,
+    };
+    let scene = RawScene {
+        nodes: vec![node("low", None, Vec3::ZERO), node("high", None, Vec3::Y * 5.0)],
+        skins: vec![skin(vec![0; joints_of_the_first]), skin(vec![1])],
+        parts: vec![ScenePart::skinned("low", 0, skinned(), 0), ScenePart::skinned("high", 0, skinned(), 1)],
+        ..RawScene::default()
+    };
+    Scene::from_raw(scene).expect("a scene")
+}
+
+#[test]
+fn bones_of_a_part_are_those_of_its_own_skin() {
+    let pack = Import::from_scene(two_skins(3)).expect("an avatar").pack;
+    let mut state = FaceState::new(&pack);
+    state.pose(&pack, &pack.controls().defaults()).expect("a pose");
+    assert_eq!(state.deform(&pack, 0).expect("it fits").positions[0], Vec3::ZERO);
+    assert_eq!(state.deform(&pack, 1).expect("it fits").positions[0], Vec3::Y * 5.0);
+    let error = Import::from_scene(two_skins(70_000)).expect_err("too many joints");
+    assert_eq!(error.to_string(), "expected at most 65536 joints in all skins, found 70001");
+}
+
 #[test]
 fn without_a_head_the_face_is_where_shapes_are() {
     let body = |height: f32| {

@@ -217,11 +217,19 @@ fn targets_move_tangents() {
         r#""nodes": [{{"mesh": 0}}], "meshes": [{{"primitives": [{{"attributes": {{"POSITION": {position}, "TANGENT": {tangents}}},
         "targets": [{{"POSITION": {position}, "TANGENT": {offsets}}}]}}]}}]"#
     );
-    let part = &file.scene(&rest).parts[0];
+    let scene = file.scene(&rest);
+    let part = &scene.parts[0];
     assert_eq!(part.mesh.tangents[0], Vec4::new(1.0, 0.0, 0.0, -1.0));
     let moved = part.mesh.shapes[0].tangents.as_ref().expect("tangents");
     let moved: Vec<_> = (0..3).map(|vertex| moved.get(vertex).unwrap_or(Vec3::ZERO)).collect();
     assert_eq!(moved, [Vec3::new(0.0, 0.5, 0.0), Vec3::ZERO, Vec3::new(-1.0, 0.0, 2.0)]);
+    // So that deformation moves them.
+    let mut out = part.mesh.deformed();
+    let bones = scene.bones(&scene.rest());
+    avatar_mesh::deform(&part.mesh, scene.bones_of(0, &bones), &[1.0], &mut out).expect("it fits");
+    let turned = Vec3::new(1.0, 0.5, 0.0).normalize();
+    assert!(out.tangents[0].abs_diff_eq(turned.extend(-1.0), 1e-6), "{}", out.tangents[0]);
+    assert_eq!(out.tangents[1], Vec4::X + Vec4::W);
 }
 
 #[test]
