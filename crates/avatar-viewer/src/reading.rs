@@ -32,7 +32,7 @@ impl From<std::io::Error> for Unread {
     }
 }
 
-/// Reads a regular file, or one that a link leads to, of at most 4 GiB.
+/// Reads a regular file or a pipe, or what a link leads to, of at most 4 GiB.
 pub(crate) fn file(path: &Path) -> Result<Vec<u8>, Unread> {
     read_at_most(path, MAX_FILE_BYTES)
 }
@@ -62,11 +62,21 @@ pub(crate) fn text(path: &Path) -> anyhow::Result<Option<String>> {
     }
 }
 
+#[cfg(unix)]
+fn is_pipe(metadata: &std::fs::Metadata) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &std::fs::Metadata) -> bool {
+    false
+}
+
 fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
-    // Before it is opened: a pipe would keep us waiting for somebody to write.
+    // Before it is opened: opening a device may do something. A pipe ends when its writer ends.
     let metadata = std::fs::metadata(path)?;
-    if !metadata.is_file() {
-        let found = if metadata.is_dir() { "a folder" } else { "a device, pipe or socket" };
+    if !metadata.is_file() && !is_pipe(&metadata) {
+        let found = if metadata.is_dir() { "a folder" } else { "a device or socket" };
         return Err(Unread::Refused(format!("expected a file, found {found}")));
     }
     let too_large =
@@ -127,7 +137,7 @@ mod tests {
         }
         assert_eq!(
             file(&folder.join("endless")).expect_err("endless").to_string(),
-            "expected a file, found a device, pipe or socket"
+            "expected a file, found a device or socket"
         );
     }
 }
