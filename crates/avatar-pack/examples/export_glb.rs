@@ -1,5 +1,5 @@
-//! Writes the pack in a folder as GLB: `export_glb FOLDER OUT.glb [OUT.tsv]`. The third argument is for comparing other
-//! programs' results: pose, part and the mean of its vertices, as this program computes it.
+//! Writes the pack in a folder as GLB: `export_glb FOLDER OUT.glb [OUT.tsv]`. The third argument is for
+//! comparing other programs' results: pose, part and the mean of its vertices, as this program computes it.
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_types,

@@ -11,12 +11,13 @@ use std::fmt;
 pub struct PackError {
     /// The file, as [`crate::Source::locate`] names it.
     pub file: String,
-    /// What is wrong with it; boxed, for results that are passed around stay small.
+    /// What is wrong with it; boxed, so that results stay small.
     pub problem: Box<PackProblem>,
 }
 
 /// What is wrong with a file of a pack.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PackProblem {
     /// A file that every pack needs is missing.
     #[error("expected the file {0}, found none")]
@@ -38,7 +39,7 @@ pub enum PackProblem {
     /// A vertex or index buffer is not as the format demands.
     #[error("{0}")]
     Mesh(MeshError),
-    /// A text file that is no UTF-8.
+    /// A text file that is not UTF-8.
     #[error("expected UTF-8 text, found a bad byte at offset {offset}")]
     NotText {
         /// Offset of the first bad byte.
@@ -96,6 +97,7 @@ pub enum ContentsError {
 
 /// Something that was mended or replaced while a pack was loaded; the face can be shown all the same.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Warning {
     /// A mesh was mended, or has nothing to show.
     Mesh {

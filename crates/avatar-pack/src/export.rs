@@ -18,15 +18,19 @@ use std::ops::Range;
 /// Makes a scene of an avatar.
 ///
 /// * Each joint is a node with its bind matrix, and each part a node at the root with a mesh.
-/// * All parts share one skin, the pack's palette; vertices of a rigid part have all their weight on its one bone. So no
-///   vertex is moved into another space and rounded there: a reader that does as glTF 2.0 says has the avatar's own numbers.
-/// * Shapes are morph targets, their weights at rest what the controls' defaults make of them; of [`Pack::sliders`] that is all that is left.
-/// * Each pose is a clip with one key at 0 s: where its controls and the couplings take joints and shapes from the defaults.
+/// * All parts share one skin, the pack's palette; vertices of a rigid part have all their weight on its one
+///   bone. So no vertex is moved into another space and rounded there: a reader that does as glTF 2.0 says
+///   has the avatar's own numbers.
+/// * Shapes are morph targets, their weights at rest what the controls' defaults make of them; of
+///   [`Pack::sliders`] that is all that is left.
+/// * Each pose is a clip with one key at 0 s: where its controls and the couplings take joints and shapes
+///   from the defaults.
 /// * Parts whose triangles contradict their normals are turned around, as for drawing.
-/// * Looks are glTF's metallic-roughness model: colour, relief, occlusion, roughness from gloss. Textures are PNG.
+/// * Looks are glTF's metallic-roughness model: colour, relief, occlusion, roughness from gloss. Textures are
+///   PNG.
 ///
-/// Notes of the scene say what of the avatar it does not represent. The scene of a pack that was loaded is valid: [`avatar_exchange::Scene::from_raw`]
-/// takes it.
+/// Notes of the scene say what of the avatar it does not represent. The scene of a pack that was loaded is
+/// valid: [`avatar_exchange::Scene::from_raw`] takes it.
 pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut scene = RawScene { nodes: joints(pack), ..RawScene::default() };
     let joint_from_mesh = pack.palette().iter().map(|bone| bone.joint_from_mesh);
@@ -80,8 +84,8 @@ fn widen(affine: Affine3A) -> DAffine3 {
     DAffine3::from_cols_array(&affine.to_cols_array().map(f64::from))
 }
 
-/// The nearest product of translation, rotation and scale: clips move nothing else. Bind matrices are rigid to within the
-/// digits that their files print.
+/// The nearest product of translation, rotation and scale: clips move nothing else. Bind matrices are rigid
+/// to within the digits that their files print.
 fn trs(parent_from_joint: DAffine3) -> Trs {
     let (scale, rotation, translation) = parent_from_joint.to_scale_rotation_translation();
     let rotation =
@@ -93,13 +97,13 @@ fn trs(parent_from_joint: DAffine3) -> Trs {
     }
 }
 
-/// Scale that is nothing but the rounding of a rotation is none.
+/// The scale without what is only the rounding of a rotation.
 fn unit_scale(scale: Vec3) -> Vec3 {
     if scale.abs_diff_eq(Vec3::ONE, 1e-6) { Vec3::ONE } else { scale }
 }
 
-/// The mesh as a scene has it: its shapes with the names that they have in the pack, and triangles that agree with their
-/// normals.
+/// The mesh as a scene has it: its shapes with the names that they have in the pack, and triangles that agree
+/// with their normals.
 fn mesh(pack: &Pack, part: &Part) -> Mesh {
     let mut mesh = part.mesh.clone();
     for (shape, name) in mesh.shapes.iter_mut().zip(&pack.shapes()[part.shapes()]) {
@@ -285,8 +289,8 @@ impl<'a> Images<'a> {
     }
 }
 
-/// A scene whose pictures are all PNG or JPEG, the formats that glTF knows (2.0, section 3.8.2): TGA and BMP become PNG. What cannot
-/// be decoded stays as it is. Borrowed where there is nothing to do.
+/// A scene whose pictures are all PNG or JPEG, the formats that glTF knows (2.0, section 3.8.2): TGA and BMP
+/// become PNG. What cannot be decoded stays as it is. Borrowed where there is nothing to do.
 pub fn portable_pictures(scene: &Scene) -> Cow<'_, Scene> {
     let is_foreign = |image: &SceneImage| {
         let begins = |start: &[u8]| image.bytes.starts_with(start);

@@ -5,6 +5,7 @@ use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
 
 /// Why control values could not be turned into a face.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FaceError {
     /// Another number of values than the pack has controls.
     #[error("expected {expected} control values, found {found}")]
@@ -28,8 +29,8 @@ pub enum FaceError {
     Apply(#[from] pose_anim::ApplyError),
 }
 
-/// The way from control values to what a renderer takes: bone matrices and blend weights. Reused from frame to
-/// frame; only making it allocates.
+/// The way from control values to what a renderer takes: bone matrices and blend weights. Reused from frame
+/// to frame; only making it allocates.
 #[derive(Clone, Debug)]
 pub struct FaceState {
     effective: Vec<f32>,
@@ -58,7 +59,8 @@ impl FaceState {
         }
     }
 
-    /// Takes control values (degrees or weights, in the table's order) through the couplings, then to the joints.
+    /// Takes control values (degrees or weights, in the table's order) through the couplings, then to the
+    /// joints.
     ///
     /// # Errors
     /// The number of values is not the number of controls, or the state was made for another pack.
@@ -66,8 +68,8 @@ impl FaceState {
         self.pose_with(pack, values, |_| {}, &[])
     }
 
-    /// As [`FaceState::pose`], with a hand on the way: `adjust` may change the values after the couplings, and
-    /// `locals` replaces the `L` of single joints after the controls.
+    /// As [`FaceState::pose`], with a hand on the way: `adjust` may change the values after the couplings,
+    /// and `locals` replaces the `L` of single joints after the controls.
     ///
     /// # Errors
     /// As [`FaceState::pose`].
@@ -85,8 +87,9 @@ impl FaceState {
         self.update(pack)
     }
 
-    /// As [`FaceState::pose`], and from there a share of the way to what a clip of the avatar's file sets: 0 is the face of the
-    /// values, 1 the clip's. Joints are turned on the shortest way. Several calls with a rising share lead into the clip smoothly.
+    /// As [`FaceState::pose`], and from there a share of the way to what a clip of the avatar's file sets: 0
+    /// is the face of the values, 1 the clip's. Joints are turned on the shortest way. Several calls with a
+    /// rising share lead into the clip smoothly.
     ///
     /// # Errors
     /// As [`FaceState::pose`].
@@ -113,7 +116,8 @@ impl FaceState {
         self.update(pack)
     }
 
-    /// Control values to `L` and weights. Joints without a control come to rest: something else may have moved them before.
+    /// Control values to `L` and weights. Joints without a control come to rest: something else may have
+    /// moved them before.
     fn apply(
         &mut self,
         pack: &Pack,
@@ -140,15 +144,21 @@ impl FaceState {
     /// `L` to world and bone matrices.
     fn update(&mut self, pack: &Pack) -> Result<(), FaceError> {
         pack.rig().update(self.locals.as_slice(), &mut self.pose)?;
-        let joints = self.pose.world_from_joint();
-        for (bone, PaletteBone { joint, joint_from_mesh }) in self.bones.iter_mut().zip(pack.palette()) {
+        let (joints, of_joints) = (self.pose.world_from_joint(), self.pose.posed_from_bind());
+        for (slot, (PaletteBone { joint, joint_from_mesh }, is_of_joint)) in
+            self.bones.iter_mut().zip(pack.bones())
+        {
             let unknown = UnknownJoint { index: joint.index(), joints: joints.len() };
-            *bone = *joints.get(joint.index()).ok_or(unknown)? * *joint_from_mesh;
+            *slot = match is_of_joint {
+                true => *of_joints.get(joint.index()).ok_or(unknown)?,
+                false => *joints.get(joint.index()).ok_or(unknown)? * *joint_from_mesh,
+            };
         }
         Ok(())
     }
 
-    /// Replaces weights of shapes, by their places in [`Pack::shapes`]; places that there are not are left out.
+    /// Replaces weights of shapes, by their places in [`Pack::shapes`]; places out of range are
+    /// ignored.
     pub fn set_weights(&mut self, weights: &[(usize, f32)]) {
         for &(shape, weight) in weights {
             if let Some(slot) = self.weights.get_mut(shape) {
@@ -202,7 +212,8 @@ impl FaceState {
     }
 }
 
-/// A share of the way from one transform to another: translation and scale in a straight line, rotation on the shortest way.
+/// A share of the way from one transform to another: translation and scale in a straight line, rotation on
+/// the shortest way.
 fn between(from: Affine3A, to: Affine3A, share: f32) -> Affine3A {
     // The ends are exact; a transform with shear is not what its scale and rotation say.
     if share <= 0.0 {

@@ -1,4 +1,5 @@
-//! Names of the files of a pack in the raw format. Those of pictures are [`Texture::stem`](crate::Texture::stem).
+//! Names of the files of a pack in the raw format. Those of pictures are
+//! [`Texture::stem`](crate::Texture::stem).
 
 use avatar_mesh::PartSpec;
 

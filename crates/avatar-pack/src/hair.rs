@@ -3,8 +3,9 @@ use avatar_groom::{DensityMap, Groom, Hair};
 use avatar_mesh::{Bounds, PartKind};
 
 impl Pack {
-    /// Plants hair: the index of the skin among [`Pack::parts`], and what grows on it. `None` where nothing says where hair
-    /// grows ([`Texture::HairDensity`], whose first channel counts), or where there is no skin.
+    /// Plants hair: the index of the skin among [`Pack::parts`], and what grows on it. `None` where nothing
+    /// says where hair grows ([`Texture::HairDensity`], whose first channel counts), or where there is no
+    /// skin.
     ///
     /// It takes some tenths of a second for a whole head.
     pub fn groom(&self, textures: &Textures, hair: &Hair) -> Option<(usize, Groom)> {

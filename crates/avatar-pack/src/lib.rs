@@ -1,19 +1,47 @@
 //! Avatar packs: rig, meshes, textures, controls and poses from a set of named byte strings.
 //!
 //! ```text
-//!  Source ──▶ Pack  { rig, parts, palette, controls, poses, clips, materials, hair } geometry and motion
-//!         └─▶ Textures { skin, eyes, teeth … }                    pictures, missing ones with a warning
+//!  Source ──▶ Pack { rig, parts, palette, controls, poses, clips, materials, hair }: geometry and motion
+//!         └─▶ Textures { skin, eyes, teeth … }: pictures; missing ones give a warning
 //!
 //!  Pack + Textures + Hair ──Pack::groom──▶ Groom: the hair, planted
-//!  Pack + control values ──FaceState──▶ bone matrices + blend weights ──▶ avatar-render, or avatar_mesh::deform
-//!  Pack + control values + target ──Gaze──▶ values of eyes and head that look at it
-//!  Pack ──Reach──▶ which vertices a control moves, which controls move a vertex; Pack::hit: which vertex a ray hits
+//!  Pack + control values ──FaceState──▶ bone matrices + blend weights ──▶ avatar-render, avatar_mesh::deform
+//!  Pack + control values + target ──Gaze──▶ values of eyes and head that look at the target
+//!  Pack ──Reach──▶ which vertices a control moves, and which controls move a vertex
+//!  Pack + ray ──Pack::hit──▶ the vertex that the ray hits first
 //! ```
 //!
-//! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and an index
-//! buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally `controls.toml`,
-//! `poses.toml`, `clips.toml`, `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or
-//! bytes in the program.
+//! # From a control to a vertex
+//!
+//! Five lists are counted by index. Each arrow says what leads from one to the next:
+//!
+//! ```text
+//!  control 3 "jaw.open", in degrees           Pack::controls: what people, poses and clips set
+//!      │ Coupling: adds a share of one control to another, so an open jaw pulls the mouth's corners
+//!      ▼
+//!  effective control values                   FaceState::effective, one per control
+//!      │ Binding: what the control drives
+//!      ├──▶ joint "JawJoint"                  Pack::rig ──palette──▶ bone matrices, FaceState::bones
+//!      ▼
+//!  slider 7 "smile"                           Pack::sliders; packs without have one for each shape
+//!      │ ShapeDrivers: in-between shapes, products of sliders (here sliders are called drivers)
+//!      ▼
+//!  shape 12 "smile 50 %"                      Pack::shapes: one weight each, FaceState::weights
+//!      │ Part::shapes: which range of the shapes is that part's own
+//!      ▼
+//!  vertices of the parts                      avatar_mesh::deform, or avatar-render on the GPU
+//! ```
+//!
+//! - Values of **controls** have ranges and defaults; several controls may drive one joint.
+//! - **Sliders** and shapes may share names: a control drives all of its name at once.
+//! - In a pack in the raw format a control drives shapes directly, and all parts share two of them.
+//!
+//! # Files
+//!
+//! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and
+//! an index buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally
+//! `controls.toml`, `poses.toml`, `clips.toml`, `materials.toml` and `hair.toml`. This crate opens no files
+//! itself: a [`Source`] does, be it a folder, an archive, a web server or bytes in the program.
 //!
 //! ```
 //! use avatar_pack::{Pack, Source, SourceError};
@@ -31,7 +59,9 @@
 mod source;
 pub mod files;
 mod sliders;
+mod unique;
 mod motion;
+mod error;
 mod pack;
 mod load;
 mod textures;
@@ -43,8 +73,6 @@ mod hair;
 mod import;
 mod export;
 mod raw;
-mod unique;
-mod error;
 
 pub use error::{ContentsError, PackError, PackProblem, Warning};
 pub use export::{export, portable_pictures};

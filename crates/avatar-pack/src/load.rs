@@ -157,8 +157,8 @@ fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) 
     })
 }
 
-/// Reads the looks of a pack's parts: `materials.toml`, or the defaults where there is none. [`Pack::load`] calls it;
-/// by itself it serves programs that take over a changed file while they run.
+/// Reads the looks of a pack's parts: `materials.toml`, or the defaults where there is none. [`Pack::load`]
+/// calls it; by itself it serves programs that take over a changed file while they run.
 ///
 /// # Errors
 /// A file that cannot be read, or that is not as its format demands, and where in it.
@@ -170,8 +170,8 @@ pub fn load_materials(source: &impl Source) -> Result<Materials, PackError> {
     }
 }
 
-/// Reads which hair a pack has: `hair.toml`, or `None` where there is none. [`Pack::load`] calls it; by itself it serves
-/// programs that take over a changed file while they run.
+/// Reads which hair a pack has: `hair.toml`, or `None` where there is none. [`Pack::load`] calls it; by
+/// itself it serves programs that take over a changed file while they run.
 ///
 /// # Errors
 /// A file that cannot be read, or that is not as its format demands, and where in it.

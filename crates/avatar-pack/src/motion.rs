@@ -29,7 +29,8 @@ impl Moved {
                 |node: &usize| nodes.get(*node).is_some_and(|node| matches!(node.local, Transform::Trs(_)));
             match channel.target {
                 ChannelTarget::Weights => moved.weights.push(channel.node),
-                // A node whose place is given as a matrix has none of what channels set.
+                // A node whose transform is a matrix has no translation, rotation or scale that a channel
+                // could set.
                 _ => moved.locals.extend(Some(channel.node).filter(is_movable)),
             }
         }
@@ -41,7 +42,7 @@ impl Moved {
     }
 }
 
-/// A clip that there is not.
+/// A clip that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected the name of a clip, found {found:?}; there are: {}", if .clips.is_empty() { "none".to_owned() } else { .clips.join(", ") })]
 pub struct MotionError {
@@ -54,8 +55,8 @@ pub struct MotionError {
 /// What a clip sets at one time: the `L` of joints, and weights by their places in [`crate::Pack::shapes`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionAt {
-    /// Local transforms of all joints that the clip moves, also of those that are at rest at this time: a control must not
-    /// move them meanwhile.
+    /// Local transforms of all joints that the clip moves, also of those that are at rest at this time: a
+    /// control must not move them meanwhile.
     pub locals: Vec<(JointId, Affine3A)>,
     /// Weights of all shapes that the clip moves.
     pub weights: Vec<(usize, f32)>,
@@ -100,7 +101,7 @@ impl SceneMotion {
     /// How long a clip is, in seconds.
     ///
     /// # Errors
-    /// A clip that there is not.
+    /// A clip that does not exist.
     pub fn duration_secs(&self, clip: &str) -> Result<f64, MotionError> {
         Ok(self.graph.clips()[self.find(clip)?].duration_secs())
     }
@@ -108,7 +109,7 @@ impl SceneMotion {
     /// What a clip sets at a time in seconds; before its first key and after its last one these hold.
     ///
     /// # Errors
-    /// A clip that there is not.
+    /// A clip that does not exist.
     pub fn at(&self, clip: &str, time_secs: f64) -> Result<MotionAt, MotionError> {
         let mut sampler = self.sampler(self.find(clip)?)?;
         self.sample(&mut sampler, time_secs);
@@ -118,7 +119,7 @@ impl SceneMotion {
     /// What a clip is played with: asked for again and again, it allocates nothing after the first time.
     ///
     /// # Errors
-    /// A clip that there is not, by its place in [`SceneMotion::clips`].
+    /// A clip that does not exist, by its place in [`SceneMotion::clips`].
     pub fn sampler(&self, clip: usize) -> Result<MotionSampler, MotionError> {
         match self.graph.clips().get(clip) {
             Some(_) => Ok(MotionSampler { clip, pose: self.graph.rest(), at: MotionAt::default() }),

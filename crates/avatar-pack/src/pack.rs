@@ -9,12 +9,15 @@ use std::ops::Range;
 
 /// A face, ready to be posed: everything of a pack but its textures.
 ///
-/// What it holds agrees: every index of a joint, bone, shape, slider or control that occurs in it is in range. Hence its
-/// fields are private; [`Pack::into_contents`] takes it apart and [`Pack::new`] puts it together again.
+/// What it holds agrees: every index of a joint, bone, shape, slider or control that occurs in it is in
+/// range. Hence its fields are private; [`Pack::into_contents`] takes it apart and [`Pack::new`] puts it
+/// together again.
 #[derive(Clone, Debug)]
 pub struct Pack {
     contents: PackContents,
     binding: Binding,
+    /// Per bone of the palette whether `X` is that of its joint: meshes in world space, as in the raw format.
+    is_of_joint: Vec<bool>,
 }
 
 /// What a [`Pack`] is made of: to be filled in, then checked by [`Pack::new`].
@@ -24,11 +27,13 @@ pub struct PackContents {
     pub rig: Rig,
     /// The parts; of a pack in the raw format in the order of [`avatar_mesh::FACE_PARTS`].
     pub parts: Vec<Part>,
-    /// What each bone index of the meshes means; in the raw format in the order of [`avatar_mesh::FACE_BONES`].
+    /// What each bone index of the meshes means; in the raw format in the order of
+    /// [`avatar_mesh::FACE_BONES`].
     pub palette: Vec<PaletteBone>,
     /// Names of the blend shapes, in the order of the blend weights.
     pub shapes: Vec<String>,
-    /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have none.
+    /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have
+    /// none.
     pub sliders: Option<Sliders>,
     /// The controls: of joints, and of sliders, or shapes where there are no sliders.
     pub controls: ControlTable,
@@ -42,8 +47,8 @@ pub struct PackContents {
     pub hair: Option<Hair>,
     /// The clips of a file of an interchange format, of whole joints; packs in the raw format have none.
     pub motion: Option<SceneMotion>,
-    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind pose in
-    /// world space.
+    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind
+    /// pose in world space.
     pub face: Option<Bounds>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
@@ -54,8 +59,8 @@ pub struct PackContents {
 pub struct PaletteBone {
     /// The joint.
     pub joint: JointId,
-    /// From the space that the meshes' vertices are in to the joint's at bind pose: `W⁻¹` where meshes are in world
-    /// space.
+    /// From the space that the meshes' vertices are in to the joint's at bind pose: `W⁻¹` where meshes are in
+    /// world space.
     pub joint_from_mesh: Affine3A,
 }
 
@@ -88,10 +93,12 @@ impl Part {
 }
 
 impl Pack {
-    /// Puts a pack together, and binds its controls to its joints and to its sliders, or shapes where it has no sliders.
+    /// Puts a pack together, and binds its controls to its joints and to its sliders, or shapes where it has
+    /// no sliders.
     ///
     /// # Errors
-    /// The first contradiction: an index out of range, a list of the wrong length, a control of something that is missing.
+    /// The first contradiction: an index out of range, a list of the wrong length, a control of something
+    /// that is missing.
     pub fn new(contents: PackContents) -> Result<Self, ContentsError> {
         check(&contents)?;
         check_poses(&contents.poses, &contents.controls)?;
@@ -99,7 +106,11 @@ impl Pack {
         let driven = contents.sliders.as_ref().map_or(&contents.shapes, |sliders| &sliders.names);
         let driven: Vec<&str> = driven.iter().map(String::as_str).collect();
         let binding = contents.controls.bind(&contents.rig, &driven)?;
-        Ok(Self { contents, binding })
+        let is_of_joint = |bone: &PaletteBone| {
+            contents.rig.bind_from_world().get(bone.joint.index()) == Some(&bone.joint_from_mesh)
+        };
+        let is_of_joint = contents.palette.iter().map(is_of_joint).collect();
+        Ok(Self { contents, binding, is_of_joint })
     }
 
     /// Takes the pack apart, to change something of it and make another pack.
@@ -117,9 +128,15 @@ impl Pack {
         &self.contents.parts
     }
 
-    /// What each bone index of the meshes means; in the raw format in the order of [`avatar_mesh::FACE_BONES`].
+    /// What each bone index of the meshes means; in the raw format in the order of
+    /// [`avatar_mesh::FACE_BONES`].
     pub fn palette(&self) -> &[PaletteBone] {
         &self.contents.palette
+    }
+
+    /// The bones, each with whether its `X` is that of its joint.
+    pub(crate) fn bones(&self) -> impl Iterator<Item = (&PaletteBone, bool)> {
+        self.palette().iter().zip(self.is_of_joint.iter().copied())
     }
 
     /// Names of the blend shapes, in the order of the blend weights.
@@ -127,7 +144,8 @@ impl Pack {
         &self.contents.shapes
     }
 
-    /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have none.
+    /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have
+    /// none.
     pub fn sliders(&self) -> Option<&Sliders> {
         self.contents.sliders.as_ref()
     }
@@ -197,8 +215,8 @@ impl Pack {
         self.contents.motion.as_ref()
     }
 
-    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind pose in
-    /// world space.
+    /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind
+    /// pose in world space.
     pub fn face(&self) -> Option<Bounds> {
         self.contents.face
     }

@@ -14,10 +14,12 @@ pub struct Hit {
 }
 
 impl Pack {
-    /// What a ray hits first. `deformed` are the parts in their order, in world space, as [`crate::FaceState::deform`] makes them; parts that
-    /// are missing there are not hit. Both sides of triangles count; corneas are looked through.
+    /// What a ray hits first. `deformed` are the parts in their order, in world space, as
+    /// [`crate::FaceState::deform`] makes them; parts that are missing there are not hit. Both sides of
+    /// triangles count; corneas are looked through.
     ///
-    /// A plain loop over all triangles (Möller & Trumbore 1997): about a millisecond for fifty thousand. Allocates nothing.
+    /// A plain loop over all triangles (Möller & Trumbore 1997): about a millisecond for fifty thousand.
+    /// Allocates nothing.
     pub fn hit(&self, deformed: &[Deformed], origin: Vec3, direction: Vec3) -> Option<Hit> {
         let mut first: Option<Hit> = None;
         for (index, (part, Deformed { positions, .. })) in self.parts().iter().zip(deformed).enumerate() {

@@ -8,12 +8,12 @@ const MOVED: f32 = 0.002;
 /// A control that moves more than this share of the face's vertices moves the whole head.
 const WHOLE: f32 = 0.9;
 
-/// Which vertices each control moves, and which controls move a vertex: for highlighting what a slider does, and the sliders
-/// of what is pointed at.
+/// Which vertices each control moves, and which controls move a vertex: for highlighting what a slider does,
+/// and the sliders of what is pointed at.
 ///
-/// A control moves a vertex if at one end of its range, with the other controls at their defaults and couplings at work, the vertex is
-/// more than 0.2 % of the face's height from where it is at the default. The face is what follows the joint of `head.turn`; all vertices
-/// without such a control.
+/// A control moves a vertex if at one end of its range, with the other controls at their defaults and
+/// couplings at work, the vertex is more than 0.2 % of the face's height from where it is at the default. The
+/// face is what follows the joint of `head.turn`; all vertices without such a control.
 #[derive(Clone, Debug)]
 pub struct Reach {
     controls: Vec<ControlReach>,
@@ -27,19 +27,19 @@ struct ControlReach {
     share: f32,
 }
 
-/// Some of a part's vertices, each with a byte: a bit per vertex, and the bytes of those whose bit is set.
+/// A byte for some of a part's vertices: a bit per vertex, and a byte for each bit that is set.
 #[derive(Clone, Debug)]
 struct Field {
     bits: Vec<u64>,
     /// Per word of bits how many are set before it.
     before: Vec<u32>,
-    /// Way of the vertex, 255 being the longest that the control makes any go.
+    /// How far the vertex moves; 255 is the furthest that the control moves any.
     strengths: Vec<u8>,
 }
 
 impl Reach {
-    /// Tries out both ends of all controls on the CPU, part by part; parts that a control leaves alone cost nothing. It takes long
-    /// enough to be left to a thread beside the one that draws.
+    /// Tries out both ends of all controls on the CPU, part by part; parts that a control leaves alone cost
+    /// nothing. It takes long enough to be left to a thread beside the one that draws.
     pub fn new(pack: &Pack) -> Self {
         let mut state = FaceState::new(pack);
         let mut values = pack.controls().defaults();
@@ -73,7 +73,8 @@ impl Reach {
         Self { controls }
     }
 
-    /// The vertices that a control moves, as pairs of part and vertex; none for a control that there is not.
+    /// The vertices that a control moves, as pairs of part and vertex; none for a control that does not
+    /// exist.
     pub fn moved(&self, control: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let parts = self.controls.get(control).map_or(&[][..], |control| &control.parts);
         parts.iter().enumerate().flat_map(|(part, field)| {
@@ -81,14 +82,15 @@ impl Reach {
         })
     }
 
-    /// Whether a control moves a vertex, and how far: as a share of the longest way that it makes any vertex go, above 0 to 1.
+    /// Whether a control moves a vertex, and how far: as a share of the longest way that it makes any vertex
+    /// go, above 0 to 1.
     pub fn strength(&self, control: usize, part: usize, vertex: usize) -> Option<f32> {
         let byte = self.controls.get(control)?.parts.get(part)?.as_ref()?.get(vertex)?;
         Some(f32::from(byte) / 255.0)
     }
 
-    /// Fills `out` with the controls that move a vertex, the one that is most about it first: by [`Reach::strength`], divided by
-    /// how much of the face moves. Those that move the whole head come last.
+    /// Fills `out` with the controls that move a vertex, the one that is most about it first: by
+    /// [`Reach::strength`], divided by how much of the face moves. Those that move the whole head come last.
     pub fn controls_at(&self, part: usize, vertex: usize, out: &mut Vec<usize>) {
         out.clear();
         out.extend(
@@ -97,7 +99,7 @@ impl Reach {
         let rank = |control: usize| {
             let share = self.controls.get(control).map_or(1.0, |control| control.share);
             let about = self.strength(control, part, vertex).unwrap_or(0.0) / share.max(f32::MIN_POSITIVE);
-            // What is not negative is ordered as its bits are.
+            // Numbers that are not negative are in the order of their bits.
             (share > WHOLE, Reverse(about.to_bits()), control)
         };
         out.sort_unstable_by_key(|control| rank(*control));

@@ -1,12 +1,12 @@
 //! Where eyes look: control values that turn the eyes, and the head after them, to a point.
 //!
 //! ```text
-//!  values + target ──look_at───────▶ eye.left.ud, eye.left.lr, eye.right.ud, eye.right.lr   both eyes meet at the target
-//!                  └─face_toward──▶ head.turn, head.bow                                    the face, by a share of the way
+//!  values + target ──look_at──────▶ controls of the eyes: both meet at the target
+//!                  └─face_toward──▶ head.turn, head.bow: the face turns by a share of the way
 //! ```
 //!
-//! Nothing is assumed about axes and signs of controls: what looks along +Z at bind pose is turned by its joint's bone matrix
-//! `X`, and the values are found by steps that try out what each control does.
+//! Nothing is assumed about axes and signs of controls: what looks along +Z at bind pose is turned by its
+//! joint's bone matrix `X`, and the values are found by steps that try out what each control does.
 
 mod solve;
 
@@ -18,9 +18,11 @@ use solve::Unknown;
 /// Directions further from straight ahead say nothing about the side.
 const WIDEST_RAD: f32 = 0.95 * std::f32::consts::PI;
 
-/// Finds the values of controls that make a face look at a point. Made once for a pack; afterwards nothing allocates.
+/// Finds the values of controls that make a face look at a point. Made once for a pack; afterwards nothing
+/// allocates.
 ///
-/// The results depend on the values and the target only, not on where the eyes were before: a viewer may smooth them as it likes.
+/// The results depend on the values and the target only, not on where the eyes were before: a viewer may
+/// smooth them as it likes.
 #[derive(Clone, Debug)]
 pub struct Gaze {
     state: FaceState,
@@ -51,8 +53,9 @@ struct Sight {
 }
 
 impl Gaze {
-    /// The eyes of this pack, by the names of their controls (`eye.left.ud`, `eye.left.lr` and those of the right eye), and its head
-    /// (`head.turn`, `head.bow`). Some of them may be missing; `None` where no control turns an eye's joint.
+    /// The eyes of this pack, by the names of their controls (`eye.left.ud`, `eye.left.lr` and those of the
+    /// right eye), and its head (`head.turn`, `head.bow`). Some of them may be missing; `None` where no
+    /// control turns an eye's joint.
     pub fn new(pack: &Pack) -> Option<Self> {
         let mut eyes: Vec<Turned> = face::EYES.iter().filter_map(|names| Turned::of(pack, *names)).collect();
         let middle = eyes.iter().map(|eye| eye.origin).sum::<Vec3>() / eyes.len().max(1) as f32;
@@ -64,12 +67,13 @@ impl Gaze {
         (!eyes.is_empty()).then_some(Self { state, values, eyes, head })
     }
 
-    /// Values of the eyes' controls, as pairs of control and value, at which each eye looks at `target` (in world space)
-    /// while all other controls are as in `values`. `out` is cleared first; it stays empty for a target that is not finite.
+    /// Values of the eyes' controls, as pairs of control and value, at which each eye looks at `target` (in
+    /// world space) while all other controls are as in `values`. `out` is cleared first; it stays empty for a
+    /// target that is not finite.
     ///
-    /// Where the target is out of an eye's reach, the eye turns toward it as far as it can: along the way from straight ahead to
-    /// the target, and then to the nearest direction within the ranges. Behind the eyes both take the direction from the middle
-    /// between them, so that they do not part or cross.
+    /// Where the target is out of an eye's reach, the eye turns toward it as far as it can: along the way
+    /// from straight ahead to the target, and then to the nearest direction within the ranges. Behind the
+    /// eyes both take the direction from the middle between them, so that they do not part or cross.
     ///
     /// # Errors
     /// As [`FaceState::pose`].
@@ -110,12 +114,13 @@ impl Gaze {
         Ok(())
     }
 
-    /// Values of `head.turn` and `head.bow`, as pairs of control and value, at which the face has gone `share` of the way from
-    /// straight ahead, where both are at their defaults, to facing `target` (in world space), while all other controls are as in `values`. `out` is
-    /// cleared first; it stays empty for a target that is not finite and for a face without these controls.
+    /// Values of `head.turn` and `head.bow`, as pairs of control and value, at which the face has gone
+    /// `share` of the way from straight ahead, where both are at their defaults, to facing `target` (in world
+    /// space), while all other controls are as in `values`. `out` is cleared first; it stays empty for a
+    /// target that is not finite and for a face without these controls.
     ///
-    /// The face looks from the middle between the eyes, which moves as the head turns. The eyes are to be found afterwards, with the
-    /// values of the head that is shown.
+    /// The face looks from the middle between the eyes, which moves as the head turns. The eyes are to be
+    /// found afterwards, with the values of the head that is shown.
     ///
     /// # Errors
     /// As [`FaceState::pose`].
@@ -210,8 +215,9 @@ impl Turned {
         }
     }
 
-    /// The direction that lies `share` of the way from `ahead` to `wanted`, or as far on that way as the controls reach. Without
-    /// the limit the nearest direction within the ranges would lie at the top or bottom for what is far to the side.
+    /// The direction that lies `share` of the way from `ahead` to `wanted`, or as far on that way as the
+    /// controls reach. Without the limit the nearest direction within the ranges would lie at the top or
+    /// bottom for what is far to the side.
     fn within_reach(&self, ahead: Vec3, wanted: Vec3, share: f32) -> Vec3 {
         let way = turn(ahead, wanted);
         let angle = way.length();

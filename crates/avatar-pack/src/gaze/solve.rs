@@ -13,9 +13,9 @@ pub(super) struct Unknown {
     pub(super) start: f32,
 }
 
-/// The values within their ranges at which `residual` is shortest: damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) with
-/// difference quotients. A value at an end of its range rests while the descent leads beyond it. Unknowns without a
-/// range stay where they start.
+/// The values within their ranges at which `residual` is shortest: damped Gauss-Newton steps (Levenberg 1944,
+/// Marquardt 1963) with difference quotients. A value at an end of its range rests while the descent leads
+/// beyond it. Unknowns without a range stay where they start.
 ///
 /// # Errors
 /// The first one of `residual`.

@@ -8,11 +8,12 @@ use glam::Vec3;
 use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, face};
 use std::collections::{HashMap, HashSet};
 
-/// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its hinge.
+/// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its
+/// hinge.
 const JUT: Vec3 = Vec3::new(0.0, 0.811_534_35, 0.584_304_75);
 
-/// The controls of the nine-joint face that a role has: name, axis in world space at rest, range in degrees. The
-/// character looks along +Z and its left is +X.
+/// The controls of the nine-joint face that a role has: name, axis in world space at rest, range in degrees.
+/// The character looks along +Z and its left is +X.
 fn face_controls(role: Role) -> &'static [(&'static str, Vec3, f32, f32)] {
     match role {
         Role::Head => &[

@@ -5,11 +5,11 @@ use avatar_mesh::Bounds;
 use glam::Vec3;
 use rig_core::JointId;
 
-/// What is higher than this share of the whole is no body with a face, but a face.
+/// A face that is higher than this share of the whole avatar is the whole avatar, not a part of a body.
 const MOST: f32 = 0.6;
-/// A shape moves what it moves by more than this share of its greatest offset.
+/// A vertex counts as moved by a shape from this share of the shape's greatest offset on.
 const MOVED: f32 = 0.1;
-/// A head is this much higher than what expressions move in it, above and below.
+/// How much higher a head is than what expressions move in it, above and below, as a share of that.
 const AROUND: f32 = 0.35;
 
 /// Takes in the parts of an avatar one by one.

@@ -1,4 +1,5 @@
-//! Avatars from interchange formats: a scene becomes rig, parts, shapes and controls, and a report says what of it did not.
+//! Avatars from interchange formats: a scene becomes rig, parts, shapes and controls, and a report says what
+//! of it did not.
 
 mod controls;
 mod face;
@@ -53,10 +54,11 @@ pub struct ImportReport {
     pub notes: Vec<String>,
 }
 
-/// Why a scene is no avatar.
+/// Why a scene cannot become an avatar.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ImportFailure {
-    /// Nodes that are no rig.
+    /// Nodes that do not form a rig.
     #[error(transparent)]
     Rig(#[from] RigError),
     /// Controls that contradict each other.
@@ -88,11 +90,12 @@ pub enum ImportFailure {
 }
 
 impl Import {
-    /// Makes an avatar of a scene: nodes become joints, meshes parts, morph targets shapes. Joints and shapes that are known
-    /// by their names get the controls of the nine-joint face; all others get controls of their own names.
+    /// Makes an avatar of a scene: nodes become joints, meshes parts, morph targets shapes. Joints and shapes
+    /// that are known by their names get the controls of the nine-joint face; all others get controls of
+    /// their own names.
     ///
     /// # Errors
-    /// Numbers that are no rig.
+    /// Nodes, controls or parts that do not fit together.
     pub fn from_scene(scene: Scene) -> Result<Self, ImportFailure> {
         Self::with_roles(scene, &[], None)
     }
@@ -139,8 +142,8 @@ impl Import {
     }
 }
 
-/// Leaves out of MakeHuman's base mesh the parts that only serve to fit clothes, hair and bones. Returns how many these
-/// were. [`Import::from_scene`] does so by itself.
+/// Leaves out of MakeHuman's base mesh the parts that only serve to fit clothes, hair and bones. Returns how
+/// many these were. [`Import::from_scene`] does so by itself.
 pub fn leave_helpers_out(scene: &mut Scene) -> usize {
     let parts = scene.parts.len();
     if scene.parts.iter().any(|part| part.name == "body") {

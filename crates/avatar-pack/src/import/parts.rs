@@ -6,6 +6,7 @@ use avatar_exchange::{AlphaMode, Scene, ScenePart};
 use avatar_look::Material;
 use avatar_mesh::{Mesh, PartKind, Shape};
 use image::RgbaImage;
+use std::collections::HashMap;
 
 /// The shapes of all nodes in one list.
 pub(super) struct ShapeNames {
@@ -67,8 +68,8 @@ pub(super) fn parts(
     Ok((parts, textures))
 }
 
-/// Bones of a scene's part are joints of its skin; those of a pack's part are entries of the palette, in which the joints
-/// of all skins follow each other.
+/// Bones of a scene's part are joints of its skin; those of a pack's part are entries of the palette, in
+/// which the joints of all skins follow each other.
 fn to_palette(scene: &Scene, part: &ScenePart, mesh: &mut Mesh) -> Result<(), ImportFailure> {
     let (Some(skin), Some(skinning)) = (part.skin, &mut mesh.skinning) else { return Ok(()) };
     let palette = scene.palette();
@@ -109,6 +110,8 @@ struct Images {
     own: OwnImages,
     /// Which picture of the scene each of `own.images` is, and the colour that it is multiplied by.
     sources: Vec<(usize, [f32; 4])>,
+    /// Their places, by picture and bits of the colour.
+    places: HashMap<(usize, [u32; 4]), usize>,
 }
 
 impl Images {
@@ -121,7 +124,7 @@ impl Images {
         name: &str,
         report: &mut ImportReport,
     ) -> Material {
-        // Not white: that would show no shapes in bright light.
+        // Not white, on which bright light would show no relief.
         let fallback = avatar_exchange::Material {
             metallic: 0.0,
             base_color: [0.6, 0.6, 0.6, 1.0],
@@ -165,8 +168,7 @@ impl Images {
     }
 
     fn place(&mut self, image: usize, factor: [f32; 4]) -> usize {
-        let known = self.sources.iter().position(|source| *source == (image, factor));
-        known.unwrap_or_else(|| {
+        *self.places.entry((image, factor.map(f32::to_bits))).or_insert_with(|| {
             self.sources.push((image, factor));
             self.sources.len() - 1
         })

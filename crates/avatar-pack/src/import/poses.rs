@@ -38,8 +38,8 @@ fn lines() -> impl Iterator<Item = &'static str> {
     STAND_INS.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// Those default poses of which the face can show what matters, by joints or by shapes that mean the same, and one for each
-/// shape. `neutral` puts everything to rest.
+/// Those default poses of which the face can show what matters, by joints or by shapes that mean the same,
+/// and one for each shape. `neutral` puts everything to rest.
 pub(super) fn poses(controls: &ControlTable) -> PoseSet {
     let translation = Translation::new(controls);
     let mut set = PoseSet::default_face(&translation.face);
@@ -127,7 +127,8 @@ impl<'a> Translation<'a> {
         true
     }
 
-    /// The shapes that stand for a control in each of its directions, by their controls, and its value where they are there in full.
+    /// The shapes that stand for a control in each of its directions, by their controls, and its value where
+    /// they are there in full.
     fn shapes_for(&self, control: &str) -> impl Iterator<Item = (f32, Vec<usize>)> {
         let stand_ins = StandIn::all().iter().filter(move |stand_in| stand_in.control == control);
         stand_ins.filter_map(|StandIn { full, ways, .. }| {

@@ -106,7 +106,8 @@ fn moves(scene: &Scene) -> Vec<bool> {
     moves
 }
 
-/// The nodes whose roles are known, then the first one of each other role that moves something, from the roots.
+/// The nodes whose roles are known, then the first one of each other role that moves something, from the
+/// roots.
 fn roles(scene: &Scene, known: &[(Role, usize)], names: &[String], moves: &[bool]) -> Vec<(Role, usize)> {
     let is_there = |(_, node): &&(Role, usize)| moves.get(*node).is_some_and(|moves| *moves);
     let mut found: Vec<(Role, usize)> = known.iter().filter(is_there).copied().collect();

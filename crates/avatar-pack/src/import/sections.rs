@@ -1,6 +1,7 @@
 //! Lists of names in texts that are compiled in.
 
-/// The sections of a text: a heading in brackets, then one entry a line. Empty lines and lines that begin with `#` are left out.
+/// The sections of a text: a heading in brackets, then one entry a line. Empty lines and lines that begin
+/// with `#` are left out.
 pub(super) fn sections(text: &'static str) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut sections: Vec<(&str, Vec<&str>)> = Vec::new();
     for line in text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#')) {

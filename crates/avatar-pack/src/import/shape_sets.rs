@@ -58,8 +58,9 @@ impl ShapeSet {
         sets.iter().find(|(heading, _)| *heading == self.heading()).map_or(&[], |(_, names)| names)
     }
 
-    /// The set that a shape of this name belongs to, and how the set has the name: upper and lower case, separators, and what
-    /// stands before the last dot do not count, `_L` and `_R` stand for `Left` and `Right`.
+    /// The set that a shape of this name belongs to, and how the set has the name: upper and lower case,
+    /// separators, and what stands before the last dot do not count, `_L` and `_R` stand for `Left` and
+    /// `Right`.
     pub(super) fn find(name: &str) -> Option<(Self, &'static str)> {
         let last = name.rsplit(['.', ':']).next().unwrap_or(name);
         let known = |name: &str| by_plain_name().get(name).copied();
@@ -91,8 +92,8 @@ fn by_plain_name() -> &'static HashMap<String, (ShapeSet, &'static str)> {
     })
 }
 
-/// Whether a part is one of those that MakeHuman's base mesh has for fitting clothes, hair and bones to it, which are not to be
-/// seen. (Its plain eyes, teeth and tongue are.)
+/// Whether a part is one of those that MakeHuman's base mesh has for fitting clothes, hair and bones to it,
+/// which are not to be seen. (Its plain eyes, teeth and tongue are.)
 pub(super) fn is_fitting_helper(part: &str) -> bool {
     let helpers = [
         "hair",

@@ -2,6 +2,8 @@ use super::parts::ShapeNames;
 use crate::Sliders;
 use avatar_exchange::{NodeDrivers, Scene};
 use avatar_mesh::drivers::{DriversError, Input, Rule, ShapeDrivers, ShapeRule};
+use std::collections::{HashMap, HashSet};
+use std::hash::Hash;
 
 /// What controls are made for: a slider of each name.
 #[derive(Debug, Default)]
@@ -18,10 +20,11 @@ impl Wanted {
         let mut wanted = Self::default();
         // Names may come more than once, numbers do not.
         let (mut keys, mut rules) = (Vec::new(), Vec::new());
+        let of_nodes = first_of(scene.drivers.iter().map(|drivers| (drivers.node, drivers)));
         for node in 0..scene.nodes.len() {
             let first = shapes.first.get(node).copied().unwrap_or(0);
             let end = shapes.first.get(node + 1).copied().unwrap_or(shapes.names.len());
-            match scene.drivers.iter().find(|drivers| drivers.node == node) {
+            match of_nodes.get(&node) {
                 Some(drivers) => wanted.add_node(drivers, first..end, &mut keys, &mut rules),
                 None => {
                     for shape in first..end {
@@ -40,7 +43,8 @@ impl Wanted {
         if !scene.drivers.is_empty() {
             let of_shapes: Vec<String> = (0..shapes.names.len()).map(key_of).collect();
             let drivers = ShapeDrivers::new(&keys, &of_shapes, &rules)?;
-            let of_shapes = of_shapes.iter().map(|shape| followed(shape, &keys, &rules)).collect();
+            let followed = Followed::new(&keys, &rules);
+            let of_shapes = of_shapes.iter().map(|shape| followed.by(shape)).collect();
             wanted.sliders = Some(Sliders { names: wanted.names.clone(), of_shapes, drivers });
         }
         Ok(wanted)
@@ -64,35 +68,33 @@ impl Wanted {
         keys: &mut Vec<String>,
         rules: &mut Vec<ShapeRule>,
     ) {
+        let mut outermost: HashMap<&str, [f32; 2]> = HashMap::new();
+        for rule in &drivers.rules {
+            if let Rule::Follows { input: Input::Driver(input), full_weight } = &rule.rule {
+                let [min, max] = outermost.entry(input).or_insert([0.0, 1.0]);
+                (*min, *max) = (min.min(*full_weight), max.max(*full_weight));
+            }
+        }
         let own: Vec<String> = (drivers.drivers.iter().enumerate())
             .map(|(number, name)| {
-                let mut outermost = [0.0f32, 1.0];
-                for rule in &drivers.rules {
-                    if let Rule::Follows { input: Input::Driver(input), full_weight } = &rule.rule
-                        && input == name
-                    {
-                        outermost = [outermost[0].min(*full_weight), outermost[1].max(*full_weight)];
-                    }
-                }
+                let outermost = outermost.get(name.as_str()).copied().unwrap_or([0.0, 1.0]);
                 let rest = drivers.rest.get(number).copied().unwrap_or(0.0);
                 self.add(name.clone(), rest, outermost, keys)
             })
             .collect();
-        let driver = |name: &str| {
-            let number = drivers.drivers.iter().position(|other| other == name);
-            number.and_then(|number| own.get(number).cloned())
-        };
-        let shape = |name: &str| {
-            let number = drivers.shapes.iter().position(|other| other == name);
-            number.map(|number| places.start + number).filter(|place| places.contains(place)).map(key_of)
-        };
-        // A name that there is not stays, and is refused.
+        // Of several of one name the first counts.
+        let driver_keys = first_of(drivers.drivers.iter().map(String::as_str).zip(&own));
+        let driver = |name: &str| driver_keys.get(name).map(|key| (*key).clone());
+        let shape_numbers = first_of(drivers.shapes.iter().map(String::as_str).zip(places.clone()));
+        let shape = |name: &str| shape_numbers.get(name).copied().map(key_of);
+        let rule_of = first_of(drivers.rules.iter().map(|rule| (rule.shape.as_str(), &rule.rule)));
+        // An unknown name is kept as it is; `ShapeDrivers` refuses it.
         let renamed = |input: &Input| match input {
             Input::Driver(name) => Input::Driver(driver(name).unwrap_or_else(|| name.clone())),
             Input::Shape(name) => Input::Shape(shape(name).unwrap_or_else(|| name.clone())),
         };
         for (number, name) in drivers.shapes.iter().enumerate() {
-            let rule = match drivers.rules.iter().find(|rule| rule.shape == *name).map(|rule| &rule.rule) {
+            let rule = match rule_of.get(name.as_str()) {
                 Some(Rule::Follows { input, full_weight }) => {
                     Rule::Follows { input: renamed(input), full_weight: *full_weight }
                 }
@@ -114,24 +116,50 @@ fn key_of(shape: usize) -> String {
     format!("shape {shape}")
 }
 
-/// The sliders that a shape follows, itself or by way of other shapes. Rules that were accepted run in no circles.
-fn followed(shape: &str, keys: &[String], rules: &[ShapeRule]) -> Vec<usize> {
-    let mut found = Vec::new();
-    let mut left = vec![shape];
-    while let Some(shape) = left.pop() {
-        let inputs = match rules.iter().find(|rule| rule.shape == shape).map(|rule| &rule.rule) {
-            Some(Rule::Follows { input, .. }) => std::slice::from_ref(input),
-            Some(Rule::Product(inputs)) => inputs,
-            None => &[],
-        };
-        for input in inputs {
-            match input {
-                Input::Shape(other) => left.push(other),
-                Input::Driver(key) => found.extend(keys.iter().position(|other| other == key)),
-            }
+/// Values by keys, of which the first of each counts.
+fn first_of<K: Eq + Hash, V>(pairs: impl IntoIterator<Item = (K, V)>) -> HashMap<K, V> {
+    let mut first = HashMap::new();
+    for (key, value) in pairs {
+        first.entry(key).or_insert(value);
+    }
+    first
+}
+
+/// Finds the sliders that shapes follow.
+struct Followed<'a> {
+    sliders: HashMap<&'a str, usize>,
+    rules: HashMap<&'a str, &'a Rule>,
+}
+
+impl<'a> Followed<'a> {
+    fn new(keys: &'a [String], rules: &'a [ShapeRule]) -> Self {
+        Self {
+            sliders: first_of(keys.iter().map(String::as_str).zip(0..)),
+            rules: first_of(rules.iter().map(|rule| (rule.shape.as_str(), &rule.rule))),
         }
     }
-    found.sort_unstable();
-    found.dedup();
-    found
+
+    /// The sliders that a shape follows, itself or by way of other shapes, each shape once.
+    fn by(&self, shape: &'a str) -> Vec<usize> {
+        let mut found = Vec::new();
+        let (mut left, mut seen) = (vec![shape], HashSet::from([shape]));
+        while let Some(shape) = left.pop() {
+            let inputs = match self.rules.get(shape) {
+                Some(Rule::Follows { input, .. }) => std::slice::from_ref(input),
+                Some(Rule::Product(inputs)) => inputs,
+                None => &[],
+            };
+            for input in inputs {
+                match input {
+                    Input::Shape(other) => {
+                        left.extend(Some(other.as_str()).filter(|other| seen.insert(other)))
+                    }
+                    Input::Driver(key) => found.extend(self.sliders.get(key.as_str())),
+                }
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
 }

@@ -3,11 +3,13 @@ use super::{Import, ImportFailure, Role};
 use crate::Pack;
 use avatar_exchange::vrm::{Gaze, LookAt, LookAtKind, RangeMap, Vrm, VrmModel, expression_weights};
 use pose_anim::{Drive, Pose, face};
+use std::collections::{BTreeMap, HashMap};
 
 impl Import {
-    /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word, and a pose for each
-    /// expression, which puts the shapes of all others to rest. Where the file lets eye bones look, the controls of the eyes
-    /// go as far as it says ([`gaze_values`]); where it lets expressions look, these are poses as all others.
+    /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word,
+    /// and a pose for each expression, which puts the shapes of all others to rest. Where the file lets eye
+    /// bones look, the controls of the eyes go as far as it says ([`gaze_values`]); where it lets expressions
+    /// look, these are poses as all others.
     ///
     /// # Errors
     /// As [`Import::from_scene`].
@@ -23,16 +25,28 @@ impl Import {
             bones.into_iter().filter_map(|(role, bone)| Some((role, vrm.bone(bone)?))).collect();
         let turning = vrm.look_at.filter(|look_at| look_at.kind == LookAtKind::Bone);
         let mut import = Self::with_roles(scene, &known, turning.map(|look_at| eye_ranges(&look_at)))?;
-        let expressions: Vec<Pose> =
-            vrm.expressions.iter().map(|expression| pose(&import.pack, &vrm, &expression.name)).collect();
+        let mut control_of = HashMap::new();
+        for (index, control) in import.pack.controls().controls().iter().enumerate() {
+            if let Drive::Shape { shape } = &control.drives {
+                control_of.entry(shape.as_str()).or_insert(index);
+            }
+        }
+        let expressions: Vec<Pose> = (vrm.expressions.iter())
+            .map(|expression| pose(&import.pack, &control_of, &vrm, &expression.name))
+            .collect();
         let mut poses = import.pack.poses().clone();
+        let mut places: HashMap<String, usize> =
+            poses.iter().enumerate().rev().map(|(place, pose)| (pose.name.clone(), place)).collect();
         for pose in expressions {
             // The usual pose of that name keeps its place and its key.
-            match poses.poses.iter_mut().find(|other| other.name == pose.name) {
+            match places.get(&pose.name).and_then(|place| poses.poses.get_mut(*place)) {
                 // An expression that moves nothing says no more than the usual face.
                 Some(_) if pose.values.is_empty() => {}
                 Some(other) => other.values = pose.values,
-                None => poses.poses.push(pose),
+                None => {
+                    places.insert(pose.name.clone(), poses.poses.len());
+                    poses.poses.push(pose);
+                }
             }
         }
         import.pack.set_poses(poses)?;
@@ -40,8 +54,9 @@ impl Import {
     }
 }
 
-/// The values of the controls of the eyes for a gaze as the head sees it, through the file's ranges: `eye.left.lr` and so on, in
-/// degrees. For look-at by bones; for that by expressions there is [`LookAt::expressions`].
+/// The values of the controls of the eyes for a gaze as the head sees it, through the file's ranges:
+/// `eye.left.lr` and so on, in degrees. For look-at by bones; for that by expressions there is
+/// [`LookAt::expressions`].
 pub fn gaze_values(look_at: &LookAt, gaze: Gaze) -> [(&'static str, f32); 4] {
     let turn = look_at.eyes(gaze);
     [
@@ -62,21 +77,14 @@ fn eye_ranges(look_at: &LookAt) -> EyeRanges {
     }
 }
 
-fn pose(pack: &Pack, vrm: &Vrm, expression: &str) -> Pose {
-    let mut values = Vec::new();
+/// The pose of an expression. `control_of` has the controls of shapes by the shapes' names.
+fn pose(pack: &Pack, control_of: &HashMap<&str, usize>, vrm: &Vrm, expression: &str) -> Pose {
+    let mut values: BTreeMap<usize, f32> = BTreeMap::new();
     for ((node, shape), weight) in expression_weights(vrm, &[(expression, 1.0)]).by_shape {
         let name = pack.motion().and_then(|motion| pack.shapes().get(motion.shape(node, shape)?));
-        let drives =
-            |drives: &Drive| matches!((drives, name), (Drive::Shape { shape }, Some(name)) if shape == name);
-        let Some(control) = pack.controls().controls().iter().position(|control| drives(&control.drives))
-        else {
-            continue;
-        };
-        match values.iter_mut().find(|(other, _)| *other == control) {
-            // Shapes of one name at several nodes have one control.
-            Some((_, value)) => *value = weight.max(*value),
-            None => values.push((control, weight)),
-        }
+        let Some(control) = name.and_then(|name| control_of.get(name.as_str())) else { continue };
+        // Shapes of one name at several nodes have one control.
+        values.entry(*control).and_modify(|value| *value = weight.max(*value)).or_insert(weight);
     }
-    Pose::new(expression, values)
+    Pose::new(expression, values.into_iter().collect())
 }

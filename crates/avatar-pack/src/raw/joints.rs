@@ -17,7 +17,8 @@ const BY_CONTROL: [(&str, &str); 8] = [
     (face::LID_RIGHT_LOWER, "RtLowerLidJoint"),
 ];
 
-/// Bones whose matrix at rest is this near to the identity, as a share of the avatar's size, leave vertices where they are.
+/// Bones whose matrix at rest is this near to the identity, as a share of the avatar's size, leave vertices
+/// where they are.
 const ROUNDING: f64 = 1e-6;
 
 /// How far axes of a driven joint may be from even ones.
@@ -87,7 +88,8 @@ fn used_joints(pack: &Pack) -> (Vec<bool>, Vec<bool>) {
     (by_parts, by_vertices)
 }
 
-/// Which joint of the pack each joint of the format is. `instead` gets the known joint above each joint that only holds a part.
+/// Which joint of the pack each joint of the format is. `instead` gets the known joint above each joint that
+/// only holds a part.
 fn assigned(
     pack: &Pack,
     instead: &mut [Option<usize>],
@@ -168,8 +170,8 @@ fn rig(
     Ok(rig)
 }
 
-/// Per joint of the pack whether it takes a place, turns, or has one below it that does: nodes that only hold meshes are no joints
-/// where vertices are in world space.
+/// Per joint of the pack whether it takes a place, turns, or has one below it that does: nodes that only hold
+/// meshes are no joints where vertices are in world space.
 fn kept(pack: &Pack, joints: &[Option<usize>], instead: &[Option<usize>]) -> Vec<bool> {
     let mut kept = vec![false; pack.rig().len()];
     let driven = pack.controls().controls().iter().filter_map(|control| match &control.drives {
@@ -189,8 +191,8 @@ fn kept(pack: &Pack, joints: &[Option<usize>], instead: &[Option<usize>]) -> Vec
     kept
 }
 
-/// `parent_from_joint` of frames at the places of the joints that have their turns but no scale. A turn of a joint whose scale
-/// is the same along all axes does to the world what it does in such a frame.
+/// `parent_from_joint` of frames at the places of the joints that have their turns but no scale. A turn of a
+/// joint whose scale is the same along all axes does to the world what it does in such a frame.
 fn rigid(pack: &Pack) -> Result<Vec<Mat4>, RawError> {
     let mut frames: Vec<DAffine3> = Vec::with_capacity(pack.rig().len());
     for matrix in pack.rig().world_from_bind() {

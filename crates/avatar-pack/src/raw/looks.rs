@@ -50,7 +50,8 @@ pub(super) fn pictures(
     Ok(())
 }
 
-/// Each texture that there is: of a pack in the raw format its own, of any other avatar those of the parts that give the looks.
+/// Each texture that there is: of a pack in the raw format its own, of any other avatar those of the parts
+/// that give the looks.
 fn chosen<'a>(pack: &Pack, textures: &'a Textures, parts: &Parts) -> Vec<(Texture, &'a RgbaImage)> {
     let mut chosen: Vec<(Texture, &RgbaImage)> = Vec::new();
     for (spec, look) in FACE_PARTS.iter().zip(&parts.looks) {

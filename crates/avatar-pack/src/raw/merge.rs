@@ -4,7 +4,8 @@ use crate::{Pack, Part};
 use avatar_mesh::{FACE_SHAPES, Follows, Mesh, Shape, Skinning};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-/// How far the bones of a vertex may disagree about where it rests, as a share of its distance from their origins.
+/// How far the bones of a vertex may disagree about where it rests, as a share of its distance from their
+/// origins.
 const DISAGREEMENT: f64 = 1e-5;
 
 /// Several parts as one, at rest in world space.
@@ -141,7 +142,8 @@ impl AtRest {
         self.0.map_or(point, |matrix| matrix.transform_point3(point.as_dvec3()).as_vec3())
     }
 
-    /// The normal at rest with the length that it has in the mesh, and what offsets of normals are multiplied by.
+    /// The normal at rest with the length that it has in the mesh, and what offsets of normals are multiplied
+    /// by.
     fn normal(&self, normal: Vec3) -> (Vec3, f64) {
         let Some(matrix) = self.0 else { return (normal, 1.0) };
         let moved = matrix.transform_vector3(normal.as_dvec3());

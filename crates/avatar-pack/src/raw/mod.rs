@@ -7,11 +7,12 @@ mod parts;
 mod shapes;
 
 use crate::files;
-use crate::{MemorySource, Pack, PackError, Textures};
+use crate::{Pack, PackError, Source, SourceError, Textures};
 use avatar_mesh::raw::{write_triangles, write_vertices};
 use avatar_mesh::{FACE_BONES, FACE_PARTS, FACE_SHAPES};
 use pose_anim::{Clip, ClipSet, ControlError, ControlTable, Coupling, Drive, Pose, PoseSet, Track};
 use rig_core::RigError;
+use std::borrow::Cow;
 
 /// The files of a pack in the raw format.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -24,6 +25,7 @@ pub struct RawFiles {
 
 /// What of an avatar the raw format cannot hold.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RawError {
     /// Nothing to draw.
     #[error("expected a mesh, found none")]
@@ -75,19 +77,22 @@ pub enum RawError {
 
 /// Makes the files of a pack in the raw format, which [`Pack::load`] takes. It touches no file itself.
 ///
-/// * Joints that are known by their controls (`head.turn` …), and those of the format's own names, take their places among
-///   the nine. A part at a node of its own below one of them follows that. Other joints that move vertices take free places
-///   and their names there; all that move none stay as they are.
-/// * Vertices are those at rest in world space. Bends are the avatar's own where its bind pose is its rest pose.
-/// * Parts of the format's own names, and parts that wholly follow jaw, head or eye, become the rigid parts; everything
-///   else becomes the skin. Parts that are missing have one vertex and no triangle.
+/// * Joints that are known by their controls (`head.turn` …), and those of the format's own names, take their
+///   places among the nine. A part at a node of its own below one of them follows that. Other joints that
+///   move vertices take free places and their names there; all that move none stay as they are.
+/// * Vertices are those at rest in world space. Bends are the avatar's own where its bind pose is its rest
+///   pose.
+/// * Parts of the format's own names, and parts that wholly follow jaw, head or eye, become the rigid parts;
+///   everything else becomes the skin. Parts that are missing have one vertex and no triangle.
 /// * Two shapes that are not the face's own take its free places; their controls keep their names.
 /// * Pictures are PNG, looks `materials.toml`, poses `poses.toml`, clips of controls `clips.toml`.
 ///
-/// A pack that was loaded in the raw format comes back bit for bit: joints, vertices, triangles, pixels, texts' meaning.
+/// A pack that was loaded in the raw format comes back bit for bit: joints, vertices, triangles, pixels,
+/// texts' meaning.
 ///
 /// # Errors
-/// What moves and has no place in the format. What is only looks, or clips of whole joints, is left out with a note.
+/// What moves and has no place in the format. What is only looks, or clips of whole joints, is left out with
+/// a note.
 pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError> {
     if pack.parts().iter().all(|part| part.mesh.positions.is_empty()) {
         return Err(RawError::NoMesh);
@@ -123,13 +128,23 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     if let Some(motion) = pack.motion().filter(|motion| !motion.clips().is_empty()) {
         notes.push(format!("clips are left out: {}", motion.clips().join(", ")));
     }
-    // Whatever is promised here is what the reader says.
-    let source = MemorySource { files: files.iter().cloned().collect() };
-    Pack::load(&source)?;
+    // That names with any characters can be read again only the reader can say.
+    Pack::load(&Written(&files))?;
     Ok(RawFiles { files, notes })
 }
 
-/// The controls with the names that joints and shapes have in the files, and per control of the pack its place there.
+/// The files as they will be read, without a copy of them.
+struct Written<'a>(&'a [(String, Vec<u8>)]);
+
+impl Source for Written<'_> {
+    fn read(&self, name: &str) -> Result<Option<Cow<'_, [u8]>>, SourceError> {
+        let file = self.0.iter().find(|(other, _)| other == name);
+        Ok(file.map(|(_, bytes)| Cow::Borrowed(bytes.as_slice())))
+    }
+}
+
+/// The controls with the names that joints and shapes have in the files, and per control of the pack its
+/// place there.
 fn controls(
     pack: &Pack,
     bones: &joints::Bones,

@@ -11,8 +11,8 @@ pub(super) struct Places<'a> {
 }
 
 impl<'a> Places<'a> {
-    /// Shapes of the format's own names take their places; others the free ones. Shapes that move nothing, or that nothing moves, need
-    /// none.
+    /// Shapes of the format's own names take their places; others the free ones. Shapes that move nothing, or
+    /// that nothing moves, need none.
     pub(super) fn of(pack: &'a Pack) -> Result<Self, RawError> {
         let mut moves = vec![false; pack.shapes().len()];
         for part in pack.parts() {

@@ -1,4 +1,5 @@
-//! Avatars that are written as GLB, read again and imported: the same rig, shapes, poses, vertices and pictures.
+//! Avatars that are written as GLB, read again and imported: the same rig, shapes, poses, vertices and
+//! pictures.
 #![allow(
     clippy::expect_used,
     clippy::panic,

@@ -1,4 +1,5 @@
-//! Faces of other people: which of the default poses they can take, by which shapes, and where they are on a body.
+//! Faces of other people: which of the default poses they can take, by which shapes, and where they are on a
+//! body.
 #![allow(
     clippy::expect_used,
     clippy::panic,
@@ -56,7 +57,8 @@ fn value(pack: &Pack, pose: &str, control: &str) -> f32 {
 #[test]
 fn the_default_poses_are_there_for_shapes_of_arkit() {
     let pack = face(ShapeSet::ArKit.names()).pack;
-    // The numbers of the default poses by the ranges of the controls: 0.85; 15 of 20 degrees; 26 of 30; 45 of 45.
+    // The numbers of the default poses by the ranges of the controls: 0.85; 15 of 20 degrees; 26 of 30; 45 of
+    // 45.
     for (pose, control, expected) in [
         ("smile", "mouthSmileLeft", 0.85),
         ("smile", "mouthSmileRight", 0.85),

@@ -99,7 +99,8 @@ fn brows_and_lashes_grow_where_they_are_painted_and_nowhere_else() {
         assert_eq!(region, painted, "{pixel}");
         counts[region as usize] += 1;
     }
-    // By the sums of the painted values, taken elsewhere: 0.793, 0.001646 and 0.000116 of the head's height squared.
+    // By the sums of the painted values, taken elsewhere: 0.793, 0.001646 and 0.000116 of the head's height
+    // squared.
     let scalp = 50_000.0 * (0.7933 - 0.00165 - 0.00012);
     let expected = [scalp, 50_000.0 * 0.001646 * 4.0, 50_000.0 * 0.000116 * 16.0];
     for (count, expected) in counts.into_iter().zip(expected) {

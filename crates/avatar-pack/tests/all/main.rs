@@ -5,6 +5,7 @@ mod contents;
 mod export;
 mod faces;
 mod gaze;
+mod growth;
 mod hair;
 mod materials;
 mod pack;

@@ -29,7 +29,8 @@ fn scene_with_picture(name: &str, bytes: &[u8]) -> Scene {
     Scene::from_raw(scene).expect("a scene")
 }
 
-/// Truevision's TGA 2.0: an uncompressed picture (type 2) of 2 × 1 pixels of 24 bits, blue first, its origin at the bottom left.
+/// Truevision's TGA 2.0: an uncompressed picture (type 2) of 2 × 1 pixels of 24 bits, blue first, its origin
+/// at the bottom left.
 const TGA: [u8; 24] = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 0, 10, 20, 30, 40, 50, 60];
 
 #[test]

@@ -68,7 +68,8 @@ fn moved_is_what_the_deformed_face_says() {
         };
         [at(pack.controls().controls()[index].min), at(pack.controls().controls()[index].max)]
     };
-    // The height of what is above the neck, from the other end: the threshold lies between its share of these.
+    // The height of what is above the neck, from the other end: the threshold lies between its share of
+    // these.
     let all = pack.bounds().expect("vertices");
     let most = 0.002 * (all.max.y - all.min.y);
     for name in ["smile", "jaw.jut", "lid.right.upper", "eye.left.ud"] {

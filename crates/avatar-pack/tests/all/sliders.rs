@@ -23,8 +23,8 @@ fn part(name: &str, node: usize, shapes: &[(&str, Vec3)]) -> ScenePart {
     ScenePart::rigid(name, node, mesh)
 }
 
-/// Lids that shut in two steps and rest at three quarters of their way; a shape of another node of the same name as a slider; a
-/// corrective shape.
+/// Lids that shut in two steps and rest at three quarters of their way; a shape of another node of the same
+/// name as a slider; a corrective shape.
 fn lids() -> RawScene {
     let node = |name: &str, weights: &[f32]| Node {
         name: name.to_owned(),
@@ -116,7 +116,8 @@ fn clips_set_the_shapes_themselves() {
     assert_eq!(at.weights, [(1, 1.0), (2, 0.0), (3, 0.0), (4, 0.0)]);
 }
 
-/// A clip that takes a head from turned to rest and back, and a shape from 1 to rest; each also has a control.
+/// A clip that takes a head from turned to rest and back, and a shape from 1 to rest; each also has a
+/// control.
 #[test]
 fn what_a_clip_brings_to_rest_stays_its_own() {
     let key = |node, target, values: Vec<f32>| Channel {

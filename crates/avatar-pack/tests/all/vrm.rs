@@ -75,7 +75,8 @@ fn the_controls_of_the_eyes_look_as_far_as_the_file_says() {
     let range = |name: &str| (control(name).min, control(name).max);
     assert_eq!((range("eye.left.lr"), range("eye.right.lr")), ((-9.0, 20.0), (-20.0, 9.0)));
     assert_eq!((range("eye.left.ud"), range("eye.right.ud")), ((-6.0, 5.0), (-6.0, 5.0)));
-    // 30° to the character's left: three quarters of the outer range for the left eye, a third of the inner one for the right.
+    // 30° to the character's left: three quarters of the outer range for the left eye, a third of the inner
+    // one for the right.
     let gaze = |yaw_deg, pitch_deg| Gaze { yaw_deg, pitch_deg };
     let left = gaze_values(&look_at, gaze(30.0, 0.0));
     assert_eq!(
