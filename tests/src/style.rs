@@ -53,7 +53,8 @@ fn whole_line_comments(text: &str, sign: &str) -> Vec<(usize, usize)> {
     lines.map(|(number, line)| (number + 1, line.chars().count())).collect()
 }
 
-/// A line of TOML with a comment. A `#` within quotes is none; strings of several lines do not hold any here.
+/// A line of TOML with a comment. A `#` within quotes starts no comment; strings of several lines contain no
+/// `#` in this project.
 fn comment_of_toml((number, line): (usize, &str)) -> Option<(usize, usize)> {
     let mut quote = None;
     let starts = line.chars().any(|c| {

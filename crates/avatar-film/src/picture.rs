@@ -2,10 +2,11 @@ use crate::{FilmError, Format};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError};
 
 /// A picture as the bytes of a PNG, with texts as pairs of a keyword and any Unicode (`iTXt`). The keyword is
-/// 1 to 79 Latin letters; `Title`, `Description` and `Software` are among those that other programs know.
+/// 1 to 79 printable Latin-1 characters; `Title`, `Description` and `Software` are among those that other
+/// programs know.
 ///
 /// # Errors
-/// Not `width · height · 4` bytes, no pixels, or a keyword that is none.
+/// The number of bytes is not `width · height · 4`, the picture has no pixels, or a keyword is not allowed.
 pub fn png(width: u32, height: u32, rgba: &[u8], texts: &[(&str, &str)]) -> Result<Vec<u8>, FilmError> {
     let expected = (width as usize).saturating_mul(height as usize).saturating_mul(4);
     if rgba.len() != expected {

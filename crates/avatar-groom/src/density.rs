@@ -13,14 +13,14 @@ pub struct DensityMap {
     blocks: Vec<(u8, u8)>,
 }
 
-/// Most of a head has either no hair or all of it: whole blocks say so at once.
+/// Side of a block. On most of a head the density is 0 or 1 over whole blocks, which is then known at once.
 const BLOCK: u32 = 16;
 
 /// How much longer pieces may be where the map is even.
 const EVEN_VALUES: f32 = 6.0;
 
 impl DensityMap {
-    /// A map of `width` × `height` values row by row, 0 to 255; `None` where there are not as many.
+    /// A map of `width` × `height` values row by row, 0 to 255; `None` for another number of values or 0.
     pub fn new(width: u32, height: u32, values: Vec<u8>) -> Option<Self> {
         let count = u64::from(width) * u64::from(height);
         if count == 0 || count != values.len() as u64 {
@@ -75,8 +75,8 @@ impl DensityMap {
         }
     }
 
-    /// Between which values the map is for places on a triangle, if not between nearer ones; `None` where it
-    /// is read nowhere.
+    /// A lower and an upper bound of the map's values on a triangle; `None` if the triangle reads no value of
+    /// the map.
     fn range_at(&self, uvs: [Vec2; 3]) -> Option<(u8, u8)> {
         let size = self.size();
         let (low, high) = (uvs[0].min(uvs[1]).min(uvs[2]) * size, uvs[0].max(uvs[1]).max(uvs[2]) * size);
@@ -94,7 +94,7 @@ impl DensityMap {
     }
 }
 
-/// The values that are read from `low` to `high`: one or two stretches, for behind the last comes the first.
+/// The values that are read from `low` to `high`: one or two ranges, because the map repeats.
 fn spans(low: f32, high: f32, size: u32) -> [Range<u32>; 2] {
     // A value on either side, and what rounding of large coordinates may come to.
     let slack = 2.0 + (low.abs() + high.abs()) * 1e-5;

@@ -14,7 +14,7 @@ const BAND: f32 = 2.0;
 /// How far every place around a skin is from it, at bind pose, on a grid: positive outside, negative inside;
 /// and which bones beside the head's move the skin there, so that hair lies on necks and jaws in every pose.
 ///
-/// Which side a place is on, the pseudonormal at the nearest point of the skin says, so that skins with
+/// The pseudonormal at the nearest point of the skin decides which side a place is on, so that skins with
 /// openings (neck, eyes) are allowed: J. Bærentzen, H. Aanæs, "Signed Distance Computation Using the Angle
 /// Weighted Pseudonormal", 2005.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,9 +144,9 @@ impl Field {
         self.distances.iter().zip(&self.shares).zip(&self.slopes).map(texel).collect()
     }
 
-    /// What is known of a place; the twin of `field_at` in WGSL: of the six tetrahedra that a cell is cut
-    /// into along its diagonal, it is between the four corners of one. Outside of the grid the distance grows
-    /// with that from it.
+    /// The field at a place; the twin of `field_at` in WGSL. A cell is cut into six tetrahedra along its
+    /// diagonal, and the result is interpolated between the four corners of one of them. Outside the grid the
+    /// distance from the grid is added.
     pub fn at(&self, place: Vec3) -> Near {
         let last = Vec3::from_array(self.size.map(|n| n as f32 - 1.0));
         let wanted = (place - self.origin) * (1.0 / self.cell);

@@ -111,7 +111,7 @@ pub(crate) fn grow_to(
         // Along the skin: what supports hair takes the comb's push into it.
         let combed = (comb - skin_normal * (comb.dot(skin_normal) * near)) * near.max(style.hold * (1.0 - t));
         let force = combed + own * (style.noise * t) + down * style.gravity;
-        // What pulls straight back turns nothing: the sum would have no direction.
+        // A force straight back is ignored: the sum might have no direction.
         let across = force - direction * force.dot(direction).min(0.0);
         direction = (direction + across * style.bend).normalize_or(direction);
         let mut next = before + direction * step;

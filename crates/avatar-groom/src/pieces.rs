@@ -24,7 +24,7 @@ impl Pieces {
         Self { level }
     }
 
-    /// Half as many along an edge, so often.
+    /// Coarser pieces: the number of pieces along an edge is halved this many times.
     pub(crate) fn coarser(self, times: u32) -> Self {
         Self { level: self.level.saturating_sub(times) }
     }
@@ -33,8 +33,8 @@ impl Pieces {
         1 << (2 * self.level)
     }
 
-    /// Goes through all of them on a way whose next piece is mostly a neighbour, so that even steps along it
-    /// are spread over the triangle evenly (K. Basu and A. Owen, "Low discrepancy constructions in the
+    /// Visits all pieces, mostly each after a neighbour, so that even steps along this order are spread
+    /// evenly over the triangle (K. Basu and A. Owen, "Low discrepancy constructions in the
     /// triangle", 2015).
     pub(crate) fn visit(self, seen: &mut impl FnMut(Piece)) {
         visit(Piece { corners: [Vec3::X, Vec3::Y, Vec3::Z] }, self.level, seen);

@@ -9,7 +9,7 @@ use avatar_mesh::{Bounds, Mesh};
 use glam::{Affine3A, Vec2, Vec3};
 use std::collections::BTreeMap;
 
-/// Strands of one lock curl together, but for so much of a turn.
+/// Strands of one lock curl together; their curls begin within this share of a turn of each other.
 const PHASE_SPREAD: f32 = 0.12;
 /// Where the cut is not quite even, as a fraction of the length.
 const CUT_SPREAD: f32 = 0.05;

@@ -16,7 +16,7 @@ pub(crate) struct Pseudonormals {
 }
 
 impl Pseudonormals {
-    /// Outward at the point that weights of the corners say; the length says nothing.
+    /// The outward direction at the point with these weights of the corners; its length has no meaning.
     pub(crate) fn at(&self, weights: [f32; 3]) -> Vec3 {
         let zero = weights.map(|weight| weight == 0.0);
         match zero.iter().filter(|zero| **zero).count() {

@@ -20,7 +20,7 @@ pub struct Root {
     pub region: Region,
 }
 
-/// No head has more roots than this: enough for whole heads, and an end to what broken files ask for.
+/// The most roots that a head can have: enough for whole heads, and a limit for broken files.
 pub const MAX_ROOTS: usize = 1 << 22;
 
 /// Shares of all regions that are planted.
@@ -33,10 +33,10 @@ const ATTEMPTS: u64 = 8;
 /// Pieces of all triangles together, beyond which they are made coarser: a fraction of a second.
 const MAX_PIECES: u64 = 1 << 25;
 
-/// Scatters roots: as many as area × density asks for, `strands` of them over a square of the skin's height
-/// where the density of the map is 1 and that of the style, too. Positions are those of the bind pose; `eyes`
-/// are the boxes of the eyeballs, without which there are neither brows nor lashes. Where that would be more
-/// than [`MAX_ROOTS`], all densities are scaled down alike, so that what is left is a fair sample.
+/// Scatters roots. Their number is area × density: `strands` is the number on a square whose side is the
+/// skin's height, where the densities of the map and of the style are both 1. Positions are those of the bind
+/// pose. `eyes` are the boxes of the eyeballs; without eyes there are neither brows nor lashes. If there
+/// would be more than [`MAX_ROOTS`], all densities are scaled down by one factor: a fair sample is left.
 ///
 /// Triangles are cut into pieces about as large as values of the map. For each region the shares of all
 /// pieces are laid end to end, and a strand is planted at a random place within every step of length 1

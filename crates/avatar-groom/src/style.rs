@@ -19,8 +19,8 @@ pub struct Style {
 /// there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegionStyle {
-    /// Strands by what the density texture asks for: 0 is bald, 1 what it says; brows and lashes are denser
-    /// than it can say.
+    /// A factor on the density texture: 0 is bald, 1 leaves the texture as it is. Brows and lashes need more
+    /// than 1, because they are denser than the texture can express.
     pub density: f32,
     /// Length of a strand.
     pub length: f32,

@@ -248,7 +248,8 @@ fn canonical(corners: &[u32]) -> Vec<u32> {
     [start, rest].concat()
 }
 
-/// The candidate's face for each of the base's, or how many there are none for, and the first.
+/// The candidate's face for each face of the base. The error is the number of faces of the base without a
+/// counterpart, and the first of them.
 fn matched(base: Faces<'_>, candidate: Faces<'_>) -> Result<FaceMatch, (usize, usize)> {
     // Faces that are there several times are matched in their order: the last of a list is its first.
     let mut places: HashMap<Vec<u32>, Vec<u32>> = HashMap::with_capacity(candidate.len());

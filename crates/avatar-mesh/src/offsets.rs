@@ -177,7 +177,7 @@ impl Offsets {
         }
     }
 
-    /// What is stored, of whichever vertices.
+    /// The stored offsets, whether of all vertices or only of those that move.
     pub(crate) fn stored(&self) -> &[Vec3] {
         match &self.store {
             Store::Dense(offsets) | Store::Sparse { offsets, .. } => offsets,

@@ -37,7 +37,7 @@ impl Shape {
         if base.len() != absolute.len() {
             return Err(VertexCountError { shape: name, expected: base.len(), found: absolute.len() });
         }
-        // What does not move is +0: x − x.
+        // Vertices that do not move get offsets of +0, since x − x is +0.
         let offsets: Offsets = absolute.iter().zip(base).map(|(s, b)| *s - *b).collect();
         Ok(Self::new(name, offsets))
     }

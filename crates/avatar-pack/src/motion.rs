@@ -106,7 +106,8 @@ impl SceneMotion {
         Ok(self.graph.clips()[self.find(clip)?].duration_secs())
     }
 
-    /// What a clip sets at a time in seconds; before its first key and after its last one these hold.
+    /// What a clip sets at a time in seconds. Before its first key it has that key's values, after its last
+    /// one the last one's.
     ///
     /// # Errors
     /// A clip that does not exist.

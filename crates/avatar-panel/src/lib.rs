@@ -8,9 +8,8 @@
 //! ```
 //!
 //! The panel is drawn with [`egui`] into whatever root [`egui::Ui`] it is given. It changes nothing: it shows
-//! a [`Model`] and returns
-//! [`Action`]s, which the caller carries out and shows in the next frame's model. So it knows no window, no
-//! GPU, no files and no clock, and can be tested without any of them.
+//! a [`Model`] and returns [`Action`]s, which the caller carries out and shows in the next frame's model. So
+//! it knows no window, no GPU, no files and no clock, and can be tested without any of them.
 //!
 //! # Example
 //!

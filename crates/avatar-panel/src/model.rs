@@ -38,7 +38,7 @@ pub struct Model<'a> {
 
     /// Whether the eyes follow the pointer; `None` where they cannot.
     pub gaze: Option<bool>,
-    /// What the hair is called that the face has; `None` where there is none to choose.
+    /// Name of the face's present hair; `None` if there is no hair to choose from.
     pub hair: Option<&'a str>,
 
     /// All keys of the program in the order of their groups, for the help.

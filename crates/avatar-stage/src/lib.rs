@@ -45,7 +45,7 @@ mod default_face;
 
 /// The crate that reads packs.
 pub use avatar_pack;
-/// The crate that draws, with [`wgpu`](avatar_render::wgpu) and [`glam`](avatar_render::glam) as it was built
+/// The crate that draws, with [`wgpu`] and [`glam`] as it was built
 /// with them.
 pub use avatar_render;
 pub use avatar_render::{glam, wgpu};

@@ -24,7 +24,8 @@ const AT_START: f64 = 1e-3;
 /// Controls that a gaze moves: two of each eye, two of the head.
 const GAZE_CONTROLS: usize = 6;
 
-/// Why a performer does not do what it was told. Nothing has changed then.
+/// Why a performer does not do what it was told. Nothing has changed then, except after [`Self::Face`], where
+/// time has passed or values were set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PerformerError {
@@ -225,9 +226,8 @@ impl Performer {
     }
 
     /// Looks at a point in world space: the eyes at once, the head a part of the way after them. Call it
-    /// before each
-    /// [`Self::advance`] while the face is to follow a point that moves; it changes nothing while the face
-    /// looks there already, or for a point that is not finite. Returns whether it changed anything.
+    /// before each [`Self::advance`] while the face is to follow a point that moves; it changes nothing while
+    /// the face looks there already, or for a point that is not finite. Returns whether it changed anything.
     ///
     /// # Errors
     /// Control values that do not become a face.
@@ -254,7 +254,8 @@ impl Performer {
         self.press_single(ahead, None);
     }
 
-    /// Takes those controls to what a gaze found that are not nearly there; whether there were any.
+    /// Moves controls to the values that a gaze found, except those that are nearly there. Returns whether
+    /// any control has to move.
     fn lead(&mut self, secs: f64) -> bool {
         let Self { layers, found, .. } = self;
         let target = |control: usize| layers.base_ref().target(control).unwrap_or_default();

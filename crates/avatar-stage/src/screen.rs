@@ -29,6 +29,10 @@ pub enum ScreenError {
     /// Avatars that do not fit their models.
     #[error(transparent)]
     Draw(#[from] DrawError),
+    /// The surface or its device is lost. This screen shows nothing any more: drop it, open another
+    /// [`Screen`] for the window, and upload models to its device.
+    #[error("expected a surface to draw on, found that it or its device is lost")]
+    Lost,
     /// What the device complained about, for example that memory ran out.
     #[error("expected a frame, found an error of the device: {reason}")]
     Device {
@@ -131,7 +135,8 @@ impl Screen {
     /// Draws a frame and shows it. A surface that is not ready shows none this time, which is no error.
     ///
     /// # Errors
-    /// Avatars that do not fit their models; an error of the device. A later frame may succeed.
+    /// Avatars that do not fit their models; an error of the device, after which a later frame may succeed.
+    /// [`ScreenError::Lost`] where the surface or its device is lost: no later frame will succeed.
     pub fn draw(
         &mut self,
         scene: &Scene,
@@ -141,7 +146,8 @@ impl Screen {
         let Some(targets) = &self.targets else { return Ok(()) };
         let frame = match self.surface.get_current_texture() {
             Acquired::Success(frame) | Acquired::Suboptimal(frame) => frame,
-            Acquired::Outdated | Acquired::Lost => return self.resize(self.config.width, self.config.height),
+            Acquired::Outdated => return self.resize(self.config.width, self.config.height),
+            Acquired::Lost => return Err(ScreenError::Lost),
             Acquired::Timeout | Acquired::Occluded => return Ok(()),
             Acquired::Validation => return self.check(),
         };
@@ -154,6 +160,9 @@ impl Screen {
     }
 
     fn check(&self) -> Result<(), ScreenError> {
+        if self.gpu.errors.is_lost() {
+            return Err(ScreenError::Lost);
+        }
         match self.gpu.errors.take() {
             None => Ok(()),
             Some(reason) => Err(ScreenError::Device { reason }),

@@ -14,7 +14,7 @@ use avatar_stage::avatar_render::AvatarState;
 use avatar_stage::avatar_render::headless::render_image;
 use avatar_stage::{Performer, SAMPLES, portrait, upload};
 use common::{gpu, pack, textures};
-use desk::Desk;
+use desk::{Desk, can_run};
 use std::path::Path;
 use std::process::Command;
 
@@ -47,6 +47,9 @@ fn target_folder() -> std::path::PathBuf {
 
 #[test]
 fn digit_keys_press_poses_in_the_example() {
+    if !can_run() {
+        return;
+    }
     let Some(at_rest) = picture_of("neutral") else { return };
     let example = std::env::current_exe().unwrap().ancestors().nth(2).unwrap().join("examples/window");
     assert!(example.exists(), "{} is built by `cargo test -p avatar-stage`", example.display());
@@ -65,7 +68,10 @@ fn digit_keys_press_poses_in_the_example() {
 /// The window's program in the README, in a project outside of the workspace, with only the lines that stand
 /// there.
 #[test]
-fn twenty_lines_outside_the_workspace_show_the_default_face() {
+fn twenty_two_lines_outside_the_workspace_show_the_default_face() {
+    if !can_run() {
+        return;
+    }
     let Some(smile) = picture_of("smile") else { return };
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap();
     let readme = std::fs::read_to_string(root.join("crates/avatar-stage/README.md")).unwrap();
@@ -75,7 +81,7 @@ fn twenty_lines_outside_the_workspace_show_the_default_face() {
     };
     let (manifest, program) = (block("toml"), block("rust window"));
     let body = program.lines().filter(|line| !line.is_empty() && !line.starts_with("use "));
-    assert!(body.count() <= 25, "it stays short");
+    assert!(body.count() <= 22, "it stays short");
     let scratch = tempfile::tempdir().unwrap();
     #[cfg(unix)]
     std::os::unix::fs::symlink(&root, scratch.path().join("mimik")).unwrap();

@@ -5,7 +5,7 @@ use anyhow::Result;
 use avatar_pack::{MotionAt, Pack};
 use pose_anim::{Clip, Wrap};
 
-/// A clip that there is.
+/// A clip that exists.
 #[derive(Clone, Debug)]
 pub(crate) enum FoundClip {
     /// Of joints and shapes, in a file.
@@ -54,7 +54,8 @@ impl FoundClip {
         matches!(self, Self::Controls(clip) if clip.wrap != Wrap::Once)
     }
 
-    /// Writes a clip of controls at a time into their values; says what a clip of a file sets.
+    /// Evaluates the clip at a time. A clip of controls is written into `values`; what a clip of a file sets
+    /// is returned.
     pub(crate) fn at(&self, pack: &Pack, time_secs: f64, values: &mut [f32]) -> Result<MotionAt> {
         match self {
             Self::Controls(clip) => {

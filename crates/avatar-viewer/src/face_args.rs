@@ -116,7 +116,7 @@ impl FaceChoice {
         Self { start, ..Self::of_values(pack.controls().defaults()) }
     }
 
-    /// The same, with what a clip of a file sets.
+    /// The same choice, with the joints and weights that a clip of a file sets.
     pub(crate) fn with_motion(self, set: MotionAt) -> Self {
         Self { locals: set.locals, weights: set.weights, ..self }
     }

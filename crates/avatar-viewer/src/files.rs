@@ -1,5 +1,5 @@
 use crate::config;
-use crate::reading::{self, Unread};
+use crate::reading::{self, Pipes, Unread};
 use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::vrm::VrmModel;
@@ -55,7 +55,8 @@ impl Files {
     /// Where poses and clips are kept that a user makes: those of a pack in its folder, those of a file
     /// beside it, those of the built-in avatar among the user's settings.
     pub(crate) fn store(&self) -> Store {
-        Store::new([store::POSES, store::CLIPS].map(|which| self.path_of(store::NAMES[which])))
+        let paths = [store::POSES, store::CLIPS].map(|which| self.path_of(store::NAMES[which]));
+        Store::new(paths, matches!(self, Self::Folder(_)))
     }
 
     fn path_of(&self, name: &str) -> Option<PathBuf> {
@@ -83,7 +84,7 @@ impl Files {
     /// Loads everything but the textures, and prints warnings.
     pub(crate) fn load_pack(&self) -> Result<Pack> {
         let pack = self.read_pack()?;
-        // A part that is turned around needs nobody's attention; `info` tells.
+        // Parts that were turned around are not worth a warning here; `info` lists them.
         let told = pack.warnings().iter().filter(|warning| !matches!(warning, Warning::InsideOut { .. }));
         told.for_each(|warning| eprintln!("warning: {warning}"));
         Ok(pack)
@@ -207,7 +208,8 @@ fn read(path: &Path, further: &[PathBuf]) -> Result<FileScene> {
     }
     let further: Vec<_> = files.iter().map(|(bytes, file)| TextFile { file, bytes }).collect();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut resolve = |name: &str| reading::file_within(folder, name).map_err(|error| error.to_string());
+    let mut resolve =
+        |name: &str| reading::file_within(folder, name, Pipes::Read).map_err(|error| error.to_string());
     if Format::of_name(&file) == Some(Format::Vrm) && further.is_empty() {
         let model = avatar_exchange::vrm::read(&file, &bytes, &mut resolve)?;
         return Ok(FileScene::Vrm(Box::new(model)));
@@ -288,7 +290,10 @@ impl Source for Files {
             Self::File(..) => return Ok(None),
             Self::Folder(folder) => folder,
         };
-        match reading::file_within(folder, name) {
+        // Texts are read again while the window is open, on its thread, which a pipe would stop.
+        let is_text = Path::new(name).extension().is_some_and(|ending| ending == "toml");
+        let pipes = if is_text { Pipes::Refused } else { Pipes::Read };
+        match reading::file_within(folder, name, pipes) {
             Ok(bytes) => Ok(Some(Cow::Owned(bytes))),
             Err(Unread::Missing(_)) => Ok(None),
             Err(Unread::Refused(reason)) => Err(SourceError(reason)),

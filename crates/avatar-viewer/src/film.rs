@@ -128,7 +128,7 @@ impl FilmSink {
     /// Begins a film of `frames` frames, as far as that is known; names of numbered pictures depend on it.
     pub(crate) fn create(target: FilmTarget, size: Size, rate: Rate, frames: u64) -> Result<Self> {
         let (messages, received) = sync_channel(WAITING);
-        // Made here, so that a folder that takes no files is told before anything is drawn.
+        // Made here, so that a folder that cannot be written to is reported before anything is drawn.
         let write: Box<dyn FnOnce() -> Result<()> + Send> = match target {
             FilmTarget::File(out, format) => {
                 let draft = out.draft()?;

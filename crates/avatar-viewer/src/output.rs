@@ -63,7 +63,7 @@ impl OutputFile {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // As for any new file: the umask takes away what it must.
+            // As for any new file; the umask then removes permissions.
             builder.permissions(Permissions::from_mode(0o666));
         }
         builder.prefix(DRAFT);
@@ -167,13 +167,13 @@ impl OutputFolder {
 /// Names of unfinished files begin with this.
 const DRAFT: &str = ".avatar-viewer-";
 
-/// Writes what a file holds to a device.
+/// Copies the contents of a file to a device.
 fn copy_to(file: &mut NamedTempFile, device: &Path) -> std::io::Result<u64> {
     file.rewind()?;
     std::io::copy(file, &mut std::fs::OpenOptions::new().write(true).open(device)?)
 }
 
-/// Links that lead to links; more are a circle.
+/// How many links in a row are followed; a longer chain is taken for a circle.
 const MAX_LINKS: usize = 40;
 
 fn folder_of(path: &Path) -> PathBuf {

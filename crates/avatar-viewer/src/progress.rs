@@ -25,14 +25,14 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// So many steps, each of them a `what`.
+    /// Progress of a job of `total` steps; `what` is the noun for one step, such as "frame".
     pub(crate) fn new(what: &'static str, total: u64) -> Self {
         let now = Instant::now();
         let terminal = std::io::stderr().is_terminal();
         Self { what, total, started: now, told: now, terminal, shown: false }
     }
 
-    /// So many steps are done.
+    /// Shows that `done` steps are finished.
     pub(crate) fn step(&mut self, done: u64) {
         let now = Instant::now();
         let every = if self.terminal { BAR_EVERY } else { LINE_EVERY };

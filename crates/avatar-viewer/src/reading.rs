@@ -1,5 +1,5 @@
-//! Reads files of which nobody knows what they are: no device is waited for, and no link leads out of an
-//! avatar's folder.
+//! Reads files that may be anything: devices are refused, because reading them may never end, and links that
+//! lead out of an avatar's folder are not followed.
 
 use anyhow::Context;
 use std::fmt;
@@ -12,9 +12,9 @@ const MAX_FILE_BYTES: u64 = 4 << 30;
 /// Why a file was not read.
 #[derive(Debug)]
 pub(crate) enum Unread {
-    /// There is none.
+    /// The file does not exist.
     Missing(String),
-    /// There is one, but not such a one.
+    /// The file exists, but it cannot be read, or its kind, place or size is not allowed.
     Refused(String),
 }
 
@@ -32,13 +32,22 @@ impl From<std::io::Error> for Unread {
     }
 }
 
+/// Whether pipes are read. Nobody knows how long that takes: it ends when the program at the other end does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pipes {
+    /// They are.
+    Read,
+    /// They are not: nothing may wait for another program.
+    Refused,
+}
+
 /// Reads a regular file or a pipe, or what a link leads to, of at most 4 GiB.
 pub(crate) fn file(path: &Path) -> Result<Vec<u8>, Unread> {
-    read_at_most(path, MAX_FILE_BYTES)
+    read_at_most(path, MAX_FILE_BYTES, Pipes::Read)
 }
 
 /// Reads a file of this name in a folder or below. Links within the folder are followed.
-pub(crate) fn file_within(folder: &Path, name: &str) -> Result<Vec<u8>, Unread> {
+pub(crate) fn file_within(folder: &Path, name: &str, pipes: Pipes) -> Result<Vec<u8>, Unread> {
     let refused = || Unread::Refused("expected a file in the same folder or below".to_owned());
     let steps = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     if !Path::new(name).components().all(steps) {
@@ -49,13 +58,24 @@ pub(crate) fn file_within(folder: &Path, name: &str) -> Result<Vec<u8>, Unread> 
     if !path.canonicalize()?.starts_with(folder.canonicalize()?) {
         return Err(refused());
     }
-    file(&path)
+    read_at_most(&path, MAX_FILE_BYTES, pipes)
 }
 
-/// A text that may not be there.
+/// A text that may not be there. Pipes are refused: texts are read while the window is open.
 pub(crate) fn text(path: &Path) -> anyhow::Result<Option<String>> {
+    text_of(path, read_at_most(path, MAX_FILE_BYTES, Pipes::Refused))
+}
+
+/// As [`text`]; a link out of the file's folder is refused as well.
+pub(crate) fn text_within_its_folder(path: &Path) -> anyhow::Result<Option<String>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    text_of(path, file_within(folder, &name, Pipes::Refused))
+}
+
+fn text_of(path: &Path, read: Result<Vec<u8>, Unread>) -> anyhow::Result<Option<String>> {
     let unreadable = || format!("{}: expected a readable text", path.display());
-    match file(path) {
+    match read {
         Ok(bytes) => Ok(Some(String::from_utf8(bytes).with_context(unreadable)?)),
         Err(Unread::Missing(_)) => Ok(None),
         Err(Unread::Refused(reason)) => Err(anyhow::anyhow!(reason).context(unreadable())),
@@ -72,11 +92,16 @@ fn is_pipe(_: &std::fs::Metadata) -> bool {
     false
 }
 
-fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
-    // Before it is opened: opening a device may do something. A pipe ends when its writer ends.
+fn read_at_most(path: &Path, limit: u64, pipes: Pipes) -> Result<Vec<u8>, Unread> {
+    // Before it is opened: opening a device may do something, and opening a pipe may wait.
     let metadata = std::fs::metadata(path)?;
-    if !metadata.is_file() && !is_pipe(&metadata) {
-        let found = if metadata.is_dir() { "a folder" } else { "a device or socket" };
+    let is_pipe = is_pipe(&metadata);
+    if !metadata.is_file() && (!is_pipe || pipes == Pipes::Refused) {
+        let found = match (metadata.is_dir(), is_pipe) {
+            (true, _) => "a folder",
+            (false, true) => "a pipe",
+            (false, false) => "a device or socket",
+        };
         return Err(Unread::Refused(format!("expected a file, found {found}")));
     }
     let too_large =
@@ -84,8 +109,11 @@ fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
     if metadata.len() > limit {
         return Err(too_large(metadata.len()));
     }
-    // It may have grown since; some files say that they are empty, and are not.
-    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    // The file may have grown since then, and some files report a size of 0 but have contents.
+    let mut bytes = Vec::new();
+    usize::try_from(metadata.len()).ok().and_then(|size| bytes.try_reserve_exact(size).ok()).ok_or_else(
+        || Unread::Refused(format!("expected a file that fits into memory, found {} bytes", metadata.len())),
+    )?;
     std::fs::File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit { Err(too_large(bytes.len() as u64)) } else { Ok(bytes) }
 }
@@ -99,8 +127,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("file");
         std::fs::write(&path, [7; 100]).expect("written");
-        assert_eq!(read_at_most(&path, 100).expect("read"), [7; 100]);
-        let told = read_at_most(&path, 99).expect_err("too large").to_string();
+        assert_eq!(read_at_most(&path, 100, Pipes::Read).expect("read"), [7; 100]);
+        let told = read_at_most(&path, 99, Pipes::Read).expect_err("too large").to_string();
         assert_eq!(told, "expected a file of at most 99 bytes, found 100");
         assert!(matches!(file(&folder.path().join("none")), Err(Unread::Missing(_))));
         let told = file(folder.path()).expect_err("a folder").to_string();
@@ -111,8 +139,9 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_that_hides_its_size_has_the_limit_as_well() {
-        let told =
-            read_at_most(Path::new("/proc/self/maps"), 100).expect_err("more than it says").to_string();
+        let told = read_at_most(Path::new("/proc/self/maps"), 100, Pipes::Read)
+            .expect_err("more than it says")
+            .to_string();
         assert_eq!(told, "expected a file of at most 100 bytes, found 101");
     }
 
@@ -129,7 +158,7 @@ mod tests {
         symlink("../secret", folder.join("out")).expect("a link");
         symlink("..", folder.join("up")).expect("a link");
         symlink("/dev/zero", folder.join("endless")).expect("a link");
-        let read = |name: &str| file_within(&folder, name).map_err(|error| error.to_string());
+        let read = |name: &str| file_within(&folder, name, Pipes::Read).map_err(|error| error.to_string());
         assert_eq!(read("link").expect("a link within"), b"inner");
         assert_eq!(read("./below/inner").expect("below"), b"inner");
         for name in ["out", "up/secret", "../secret", "/etc/passwd", "endless"] {
@@ -139,5 +168,25 @@ mod tests {
             file(&folder.join("endless")).expect_err("endless").to_string(),
             "expected a file, found a device or socket"
         );
+        let told = text_within_its_folder(&folder.join("out")).expect_err("a link out of the folder");
+        assert!(format!("{told:#}").ends_with("expected a file in the same folder or below"), "{told:#}");
+        assert_eq!(
+            text_within_its_folder(&folder.join("link")).expect("a link within").as_deref(),
+            Some("inner")
+        );
+        assert_eq!(text_within_its_folder(&folder.join("none")).expect("no file"), None);
+    }
+
+    /// A pipe without a writer would be waited for.
+    #[cfg(unix)]
+    #[test]
+    fn texts_are_not_read_from_pipes() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let pipe = folder.path().join("poses.toml");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo starts");
+        assert!(made.success());
+        for told in [text(&pipe).expect_err("a pipe"), text_within_its_folder(&pipe).expect_err("a pipe")] {
+            assert!(format!("{told:#}").ends_with("expected a file, found a pipe"), "{told:#}");
+        }
     }
 }

@@ -15,6 +15,8 @@ pub(crate) const NAMES: [&str; 2] = [files::POSES, files::CLIPS];
 #[derive(Debug)]
 pub(crate) struct Store {
     paths: [Option<PathBuf>; 2],
+    /// Links must not lead out of the folder: somebody else made it.
+    is_confined: bool,
     /// The texts that were taken over or written last.
     taken: [String; 2],
     /// Texts written by another program that the user was told of, and may replace.
@@ -22,9 +24,10 @@ pub(crate) struct Store {
 }
 
 impl Store {
-    /// Poses and clips in these files, if there can be files.
-    pub(crate) fn new(paths: [Option<PathBuf>; 2]) -> Self {
-        Self { paths, taken: Default::default(), known: Default::default() }
+    /// Poses and clips in these files, if there can be files; `is_confined` refuses links out of their
+    /// folder.
+    pub(crate) fn new(paths: [Option<PathBuf>; 2], is_confined: bool) -> Self {
+        Self { paths, is_confined, taken: Default::default(), known: Default::default() }
     }
 
     /// Where a file is, if there can be one.
@@ -34,7 +37,8 @@ impl Store {
 
     /// The file's text; `None` where there is none.
     pub(crate) fn read(&self, which: usize) -> Result<Option<String>> {
-        self.path(which).map_or(Ok(None), reading::text)
+        let Some(path) = self.path(which) else { return Ok(None) };
+        if self.is_confined { reading::text_within_its_folder(path) } else { reading::text(path) }
     }
 
     /// The text that was taken over or written last.

@@ -4,7 +4,7 @@
 #[cfg(any(feature = "collada", feature = "fbx"))]
 use crate::scene::{Resolve, SceneImage};
 
-/// Why a reference is none to a file in the folder or below.
+/// Why a reference does not lead to a file in the folder or below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outside {
     /// It names no file.

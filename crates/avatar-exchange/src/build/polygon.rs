@@ -76,7 +76,7 @@ struct Ring {
     flat: Vec<DVec2>,
     next: Vec<usize>,
     last: Vec<usize>,
-    /// Corners that are not convex, among which lies a corner of every ear that is none.
+    /// Corners that are not convex. A convex corner is an ear unless one of these lies in its triangle.
     reflex: BTreeSet<usize>,
     left: BTreeSet<usize>,
 }
@@ -120,8 +120,8 @@ impl Ring {
             self.reflex.remove(&ear);
             ears.remove(&ear);
             (self.next[last], self.last[next]) = (next, last);
-            // A cut changes its two neighbours only: an ear elsewhere that is none still has a reflex corner
-            // inside.
+            // A cut only changes its two neighbours: any other corner that was not an ear still has a reflex
+            // corner in its triangle.
             for corner in [last, next] {
                 if self.area(corner) > 0.0 {
                     self.reflex.remove(&corner);

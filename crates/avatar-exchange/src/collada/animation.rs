@@ -201,7 +201,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Times with what a function of time makes of them. A jump has two keys at its time.
+    /// Evaluates a function at the times of all keys. A jump gets two keys at its time.
     fn sample(
         &mut self,
         tracks: &[&Track],

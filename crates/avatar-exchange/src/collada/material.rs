@@ -88,7 +88,7 @@ impl<'a> Reader<'a> {
         }
         let address =
             image.path(&["init_from", "ref"]).or(image.child("init_from")).map_or("", |at| at.text());
-        // What is no number after a % stays.
+        // A % that is not followed by two hexadecimal digits stays as it is.
         let (read, problem) = path::image(&percent_decode_str(address).decode_utf8_lossy(), resolve);
         self.scene.images.push(read);
         if let Some(problem) = problem {

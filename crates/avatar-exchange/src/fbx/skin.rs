@@ -13,7 +13,7 @@ pub(super) struct BoundSkin {
 }
 
 impl BoundSkin {
-    /// Adds the skin of a mesh to the scene; none where the mesh has none.
+    /// Adds the skin of a mesh to the scene, if the mesh has a skin.
     pub(super) fn read(
         node: &ufbx::Node,
         mesh: &ufbx::Mesh,

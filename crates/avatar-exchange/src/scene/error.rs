@@ -22,8 +22,8 @@ fn file_prefix(file: &str) -> String {
 /// Characters of a name that messages show.
 const SHOWN: usize = 60;
 
-/// A name in a message: quoted, and cut where it is longer than a line, since a file decides how long it is
-/// and how often it is told.
+/// A name in a message: quoted, and cut where it is longer than [`SHOWN`], since a file decides how long its
+/// names are and how many messages show them.
 pub(crate) fn quoted(name: &str) -> String {
     match name.char_indices().nth(SHOWN) {
         None => format!("'{name}'"),

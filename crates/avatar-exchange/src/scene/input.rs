@@ -5,7 +5,7 @@ pub type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 /// A file with its name.
 #[derive(Clone, Copy, Debug)]
 pub struct TextFile<'a> {
-    /// Name, for messages; what a file brings is called like it where it has no name itself.
+    /// Name of the file, for messages; also the name of what is read from it where the file gives none.
     pub file: &'a str,
     /// Contents.
     pub bytes: &'a [u8],

@@ -1,7 +1,7 @@
 use crate::scene::ImportError;
 use serde_json::Value;
 
-/// A value of the JSON and where it is: every mistake is told with its place.
+/// A value of the JSON and its place, which every error names.
 #[derive(Clone, Debug)]
 pub(super) struct Place<'v> {
     value: &'v Value,

@@ -46,8 +46,8 @@ impl Hair {
     /// ```
     pub const EXAMPLE: &str = include_str!("../hair.toml");
 
-    /// Hair has at most so many times the usual number of strands: on the built-in head what a binding of
-    /// WebGPU's default limits holds.
+    /// The largest density. On the built-in head it gives as many strands as one binding can hold within
+    /// WebGPU's default limits.
     pub const MAX_DENSITY: f32 = 7.0;
 
     /// Strands over a square of the skin's height where density is 1: some 80,000 on the built-in head.

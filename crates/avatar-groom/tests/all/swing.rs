@@ -19,7 +19,7 @@ fn by_small_steps(frequency: f64, mut y: f64, mut v: f64, ticks: u32) -> (f64, f
 #[test]
 fn a_tick_is_what_many_small_steps_are() {
     for frequency in [0.7f32, 1.8, 6.0, 25.0] {
-        let spring = Oscillator::new(frequency, 1.0 / TICKS_PER_SECOND);
+        let spring = Oscillator::new(frequency, 1.0 / f64::from(TICKS_PER_SECOND));
         let (mut y, mut v) = (1.0f32, -3.0f32);
         for _ in 0..40 {
             (y, v) = (spring.place[0] * y + spring.place[1] * v, spring.speed[0] * y + spring.speed[1] * v);
@@ -48,7 +48,7 @@ fn every_frame_rate_has_the_same_ticks() {
         let mut clock = TickClock::default();
         let (mut count, mut last) = (0, -1.0f64);
         for frame in 0..rate * 4 {
-            let ticks = clock.advance(1.0 / f32::from(rate));
+            let ticks = clock.advance(1.0 / f64::from(rate));
             for k in 0..ticks.count {
                 let at = f64::from(frame) + f64::from(ticks.first) + f64::from(k) * f64::from(ticks.step);
                 let seconds = at / f64::from(rate);
@@ -64,9 +64,9 @@ fn every_frame_rate_has_the_same_ticks() {
 }
 
 #[test]
-fn time_that_is_none_leaves_hair_still() {
+fn a_time_that_is_nan_or_out_of_range_leaves_hair_still() {
     let mut clock = TickClock::default();
-    for seconds in [f32::NAN, -1.0, f32::INFINITY, 3.0] {
+    for seconds in [f64::NAN, -1.0, f64::INFINITY, 3.0] {
         assert!(clock.advance(seconds).is_still, "{seconds}");
     }
     assert!(clock.advance(1e-40).step.is_finite());

@@ -46,8 +46,8 @@ pub(crate) const IRIS_FIELDS: [Field<Material>; 7] = [
     one("limbal_darkness", 1.0, |m| &mut m.iris.limbal_darkness),
 ];
 
-/// The material with each number between the least and the largest that a file may hold; what is no number
-/// becomes the least.
+/// The material with each number between the least and the largest that a file may hold; NaN becomes the
+/// least.
 pub(crate) fn in_range(mut material: Material) -> Material {
     for field in FIELDS.iter().chain(&IRIS_FIELDS) {
         let within = |value: &mut f32| *value = value.max(field.min).min(field.max);

@@ -13,7 +13,7 @@ struct StandIn {
     control: &'static str,
     /// The control's value at which the shapes are there in full.
     full: f32,
-    /// Ways to show it, of which a face uses the first that it has all shapes of.
+    /// Ways to show it, each a list of shapes. A face uses the first way whose shapes it has all of.
     ways: Vec<Vec<&'static str>>,
 }
 
@@ -38,8 +38,8 @@ fn lines() -> impl Iterator<Item = &'static str> {
     STAND_INS.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// Those default poses of which the face can show what matters, by joints or by shapes that mean the same,
-/// and one for each shape. `neutral` puts everything to rest.
+/// The default poses whose main features the face can show, by joints or by shapes that mean the same, and
+/// one pose for each shape. `neutral` puts everything to rest.
 pub(super) fn poses(controls: &ControlTable) -> PoseSet {
     let translation = Translation::new(controls);
     let mut set = PoseSet::default_face(&translation.face);

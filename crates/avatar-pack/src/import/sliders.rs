@@ -116,7 +116,7 @@ fn key_of(shape: usize) -> String {
     format!("shape {shape}")
 }
 
-/// Values by keys, of which the first of each counts.
+/// A map of these pairs; if a key occurs several times, its first value counts.
 fn first_of<K: Eq + Hash, V>(pairs: impl IntoIterator<Item = (K, V)>) -> HashMap<K, V> {
     let mut first = HashMap::new();
     for (key, value) in pairs {

@@ -79,7 +79,7 @@ pub enum RawError {
 ///
 /// * Joints that are known by their controls (`head.turn` …), and those of the format's own names, take their
 ///   places among the nine. A part at a node of its own below one of them follows that. Other joints that
-///   move vertices take free places and their names there; all that move none stay as they are.
+///   move vertices take free places and their names there; joints that move no vertices stay as they are.
 /// * Vertices are those at rest in world space. Bends are the avatar's own where its bind pose is its rest
 ///   pose.
 /// * Parts of the format's own names, and parts that wholly follow jaw, head or eye, become the rigid parts;
@@ -91,8 +91,8 @@ pub enum RawError {
 /// texts' meaning.
 ///
 /// # Errors
-/// What moves and has no place in the format. What is only looks, or clips of whole joints, is left out with
-/// a note.
+/// The avatar has something that moves and has no place in the format. Looks and clips of whole joints that
+/// have no place are left out with a note.
 pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError> {
     if pack.parts().iter().all(|part| part.mesh.positions.is_empty()) {
         return Err(RawError::NoMesh);
@@ -128,7 +128,7 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     if let Some(motion) = pack.motion().filter(|motion| !motion.clips().is_empty()) {
         notes.push(format!("clips are left out: {}", motion.clips().join(", ")));
     }
-    // That names with any characters can be read again only the reader can say.
+    // Only the reader can tell whether all names, whatever their characters, can be read again.
     Pack::load(&Written(&files))?;
     Ok(RawFiles { files, notes })
 }

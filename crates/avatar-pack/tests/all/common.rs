@@ -31,14 +31,15 @@ pub(crate) fn folder(folder: &str) -> MemorySource {
     folder_of(folder, |_| true)
 }
 
-/// A folder beside the repository. Where it is missing this is printed, and fails under `MIMIK_REQUIRE_DATA`.
+/// A folder beside the repository. Where it is missing this is printed, and is a failure under
+/// `MIMIK_REQUIRE_DATA=1`.
 pub(crate) fn shared(name: &str) -> Option<MemorySource> {
     let name = format!("../shared/data/{name}");
     if path(&name).is_dir() {
         return Some(folder(&name));
     }
-    let required = std::env::var_os("MIMIK_REQUIRE_DATA").is_some();
-    assert!(!required, "expected the data {name} (MIMIK_REQUIRE_DATA is set), found no such folder");
+    let required = std::env::var_os("MIMIK_REQUIRE_DATA").is_some_and(|value| value == "1");
+    assert!(!required, "expected the data {name} (MIMIK_REQUIRE_DATA=1), found no such folder");
     // Past the harness, which keeps the output of tests that pass to itself.
     let _ = writeln!(std::io::stderr(), "SKIPPED: {name} is not there");
     None

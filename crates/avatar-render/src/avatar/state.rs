@@ -35,15 +35,15 @@ impl AvatarState {
         self.hair_detail = detail;
     }
 
-    /// Lets hair move: `seconds` pass from the last frame to the next one. Locks lag behind the head, swing,
-    /// and settle within about a second. Set the pose as well, before or after this call. Frames of any rate
-    /// show the same motion. If `seconds` is negative, above 0.5 or NaN, hair hangs still where the head is
-    /// then; use that after a pause, or when the avatar is put elsewhere. Until the first call, and after
-    /// [`AvatarState::still_hair`], hair hangs still, as single pictures need it. A style says how its hair
-    /// swings ([`RegionStyle::swing`](avatar_groom::RegionStyle::swing)).
-    pub fn advance_hair(&mut self, queue: &wgpu::Queue, seconds: f32) {
+    /// Lets hair move: `dt_secs` seconds pass from the last frame to the next one. Locks lag behind the head,
+    /// swing, and settle within about a second. Set the pose as well, before or after this call. Frames of
+    /// any rate show the same motion. If `dt_secs` is negative, above 0.5 or NaN, hair hangs still where the
+    /// head is then; use that after a pause, or when the avatar is put elsewhere. Until the first call, and
+    /// after [`AvatarState::still_hair`], hair hangs still, as single pictures need it. A style says how its
+    /// hair swings ([`RegionStyle::swing`](avatar_groom::RegionStyle::swing)).
+    pub fn advance_hair(&mut self, queue: &wgpu::Queue, dt_secs: f64) {
         if let Some(hair) = &mut self.hair {
-            hair.swing.advance(queue, seconds);
+            hair.swing.advance(queue, dt_secs);
         }
     }
 

@@ -1,4 +1,4 @@
-//! Asks the device what a view does not tell: its format.
+//! Lets the device check the format of a view, since the view itself does not reveal it.
 
 use crate::frame::draw::DrawError;
 use crate::frame::renderer::Renderer;

@@ -54,8 +54,11 @@ pub enum DrawError {
         /// Format of the view's texture.
         found_format: wgpu::TextureFormat,
     },
-    /// A view in another format than the renderer's, as [`Renderer::check_view`] found.
-    #[error("expected a view in {format:?}, found one in another format, of a texture in {texture_format:?}")]
+    /// A view in another format than the renderer's, or of a mip level of another size than the targets, as
+    /// [`Renderer::check_view`] found.
+    #[error(
+        "expected a view in {format:?} of the targets' size, found one that does not fit, of a texture in {texture_format:?}"
+    )]
     ViewFormat {
         /// Format of the renderer.
         format: wgpu::TextureFormat,

@@ -48,7 +48,7 @@ pub(crate) struct SwingState {
     /// The clock at the last frame that was drawn.
     drawn: TickClock,
     /// Seconds since then; NaN if hair is to hang still.
-    seconds: f32,
+    seconds: f64,
     /// Whether the motes are where the guides were at the last frame.
     has_begun: bool,
     is_moving: bool,
@@ -117,7 +117,7 @@ impl SwingState {
             guide_count,
             oscillators,
             drawn: TickClock::default(),
-            seconds: f32::NAN,
+            seconds: f64::NAN,
             has_begun: false,
             is_moving: false,
             is_due: AtomicBool::new(false),
@@ -133,17 +133,17 @@ impl SwingState {
         (self.has_begun, self.is_moving) = (false, false);
     }
 
-    /// Lets time pass until the next frame. If `seconds` is negative, above 0.5 or NaN, hair hangs still
+    /// Lets time pass until the next frame. If `dt_secs` is negative, above 0.5 or NaN, hair hangs still
     /// where the head is then.
-    pub(crate) fn advance(&mut self, queue: &wgpu::Queue, seconds: f32) {
-        let seconds = if self.has_begun { seconds } else { f32::NAN };
+    pub(crate) fn advance(&mut self, queue: &wgpu::Queue, dt_secs: f64) {
+        let dt_secs = if self.has_begun { dt_secs } else { f64::NAN };
         self.has_begun = true;
         if self.is_due.swap(true, Ordering::Relaxed) {
             // The last time was never drawn: both add up.
-            self.seconds += seconds;
+            self.seconds += dt_secs;
         } else {
             self.drawn.advance(self.seconds);
-            self.seconds = seconds;
+            self.seconds = dt_secs;
         }
         let Ticks { count, first, step, rest, is_still } = { self.drawn }.advance(self.seconds);
         self.is_moving = !is_still;
@@ -151,7 +151,7 @@ impl SwingState {
             ticks: count,
             first,
             step,
-            rest,
+            rest: rest as f32,
             tick: 1.0 / TICKS_PER_SECOND,
             is_still: is_still.into(),
             pad: [0.0; 2],

@@ -15,6 +15,7 @@ use std::sync::OnceLock;
 use wgpu::TextureFormat;
 
 /// The GPU with the limits that every device has, whatever the adapter at hand allows.
+#[allow(clippy::expect_used, reason = "a helper of tests may fail")]
 fn promised() -> Option<&'static Gpu> {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     let gpu = gpu()?;

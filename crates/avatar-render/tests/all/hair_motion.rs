@@ -58,7 +58,7 @@ impl<'a> Stage<'a> {
             let seconds = f64::from(frame) / f64::from(rate);
             let share = (seconds / TURN_SECONDS).min(1.0);
             self.turn((30.0 * share * share * (3.0 - 2.0 * share)) as f32);
-            self.state.advance_hair(&self.gpu.queue, 1.0 / f32::from(rate));
+            self.state.advance_hair(&self.gpu.queue, 1.0 / f64::from(rate));
             let strands = self.strands();
             if frame % (rate / 6) == 0 {
                 seen.push(strands);
@@ -170,7 +170,7 @@ fn hair_is_still_until_time_passes_and_after_it_is_told() {
     let turned = stage.strands();
     assert!(mean(&apart(&turned, &moving)) > 0.05);
     // Elsewhere at once, or after a pause: still.
-    for seconds in [f32::NAN, -1.0, 7.0] {
+    for seconds in [f64::NAN, -1.0, 7.0] {
         stage.state.advance_hair(&gpu.queue, 1.0 / 30.0);
         stage.strands();
         stage.turn(-20.0);

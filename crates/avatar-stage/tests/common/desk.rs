@@ -18,6 +18,26 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A window that shows the same for so long rests.
 const RESTS: Duration = Duration::from_millis(500);
 
+/// Whether there are the programs that a [`Desk`] needs; if not, a line says so, and under
+/// `MIMIK_REQUIRE_GPU=1` the test fails.
+pub fn can_run() -> bool {
+    let is_missing = |program: &str, option: &str| {
+        let mut command = Command::new(program);
+        command.arg(option).stdout(Stdio::null()).stderr(Stdio::null()).status().is_err()
+    };
+    let programs = [("Xvfb", "-help"), ("xdotool", "version")];
+    let Some((missing, _)) = programs.into_iter().find(|(program, option)| is_missing(program, option))
+    else {
+        return true;
+    };
+    let required = std::env::var_os("MIMIK_REQUIRE_GPU").is_some_and(|value| value == "1");
+    assert!(!required, "MIMIK_REQUIRE_GPU=1, but {missing} is not installed");
+    // Not eprintln: the test runner keeps that back where a test passes.
+    let skipped = format_args!("SKIPPED: {missing} is not installed\n");
+    let _ = std::io::Write::write_fmt(&mut std::io::stderr(), skipped);
+    false
+}
+
 /// A process that does not outlive its test.
 struct Process(Child);
 
@@ -55,7 +75,7 @@ impl Desk {
             let ended = desk.program.0.try_wait().expect("the program can be waited for");
             assert_eq!(ended, None, "the program ended before its window appeared");
             assert!(start.elapsed() < PATIENCE, "no window appeared");
-            let found = desk.xdotool(&["search", "--onlyvisible", "--name", "."]);
+            let (_, found) = desk.try_xdotool(&["search", "--onlyvisible", "--name", "."]);
             desk.window = found.lines().next().unwrap_or_default().to_owned();
             std::thread::sleep(Duration::from_millis(50));
         }
@@ -66,9 +86,15 @@ impl Desk {
         desk
     }
 
-    fn xdotool(&self, arguments: &[&str]) -> String {
+    /// Whether xdotool succeeds, and what it prints. A search that finds nothing is a failure.
+    fn try_xdotool(&self, arguments: &[&str]) -> (bool, String) {
         let output = Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).output();
-        String::from_utf8(output.expect("xdotool starts").stdout).expect("text")
+        let output = output.expect("xdotool starts");
+        (output.status.success(), String::from_utf8(output.stdout).expect("text"))
+    }
+
+    fn xdotool(&self, arguments: &[&str]) {
+        assert!(self.try_xdotool(arguments).0, "xdotool {arguments:?}");
     }
 
     pub fn key(&self, key: &str) {

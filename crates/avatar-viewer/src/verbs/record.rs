@@ -44,7 +44,7 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
     let at = |secs| {
         let face = match (&mut motion, &clip) {
             (Some(motion), _) => FaceChoice::of_values(motion.at(secs)?.values().to_vec()),
-            (None, Some(clip)) => FaceChoice::of_found(&clip, pack, secs)?,
+            (None, Some(clip)) => FaceChoice::of_found(clip, pack, secs)?,
             (None, None) => FaceChoice::of_values(pack.controls().defaults()),
         };
         Ok((face, view))

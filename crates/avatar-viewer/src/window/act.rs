@@ -9,7 +9,7 @@ use avatar_panel::{Action as Panel, Edit};
 use winit::event_loop::ActiveEventLoop;
 
 impl App {
-    /// Carries out what the user wants. What fails is told, and everything else goes on.
+    /// Carries out an action of the user. A failure is shown as a message, and the window goes on.
     pub(super) fn act(&mut self, event_loop: &ActiveEventLoop, action: Action) {
         self.catch_up();
         match action {

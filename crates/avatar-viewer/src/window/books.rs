@@ -53,7 +53,7 @@ impl Books {
             store: files.store(),
             order: Order::default(),
         };
-        // Texts with mistakes are told of when they are followed.
+        // Mistakes in the files are not reported here, but when the window starts to follow the files.
         let Self { poses, clips, store, .. } = &mut books;
         if let Ok(Some(text)) = store.read(store::POSES)
             && poses.replace(&text).is_ok()
@@ -314,7 +314,7 @@ impl Books {
     }
 }
 
-/// The last book of these that has something to take back or to do again, and what.
+/// The last of these books in which `what` finds an edit to undo or redo, and the name of that edit.
 fn last<'a>(books: &[Book], what: impl Fn(&Book) -> Option<&'a str>) -> Option<(usize, &'a str)> {
     books.iter().enumerate().rev().find_map(|(place, book)| Some((place, what(book)?)))
 }

@@ -1,8 +1,8 @@
 use pose_anim::Pose;
 use std::time::{Duration, Instant};
 
-/// A frame that takes longer (a suspended laptop) does not let the motion jump, nor a recording wait for
-/// hours.
+/// The most seconds that one frame may add, to a motion and to a recording: after a pause (a suspended
+/// laptop) the face must not jump, and a recording must not get hours of nothing.
 const MAX_FRAME_SECS: f64 = 0.25;
 const MAX_RECORDED_FRAME_SECS: f64 = 5.0;
 /// How long hair swings on after the head has stopped.
@@ -26,7 +26,7 @@ pub(super) struct Frames {
     /// Milliseconds from frame to frame.
     history: Vec<f32>,
     passes: Vec<(&'static str, f32)>,
-    /// Small pictures of poses, as what they show: the pose's values tell whether they still do.
+    /// Small pictures of poses. Each is kept with the pose that it shows, to see whether it is up to date.
     miniatures: Vec<Miniature>,
 }
 
@@ -40,7 +40,7 @@ struct Miniature {
 impl Frames {
     /// Seconds since the last frame or press, while something moves.
     pub(super) fn catch_up(&mut self, now: Instant, is_recorded: bool) -> f64 {
-        // What is recorded lasts as long as it lasted for the user.
+        // A recording has to last as long as it lasted for the user.
         let most = if is_recorded { MAX_RECORDED_FRAME_SECS } else { MAX_FRAME_SECS };
         let last = self.last.replace(now);
         last.map_or(0.0, |last| now.duration_since(last).as_secs_f64().min(most))
@@ -94,7 +94,7 @@ impl Frames {
 
     /// Seconds by which hair moves in this frame; NaN where it hangs still. Hair goes on a little after the
     /// head; where nothing has moved for longer it hangs still.
-    pub(super) fn swing(&mut self, is_at_rest: bool, has_swinging_hair: bool) -> f32 {
+    pub(super) fn swing(&mut self, is_at_rest: bool, has_swinging_hair: bool) -> f64 {
         let now = Instant::now();
         let until = match is_at_rest {
             false => Some(now + SWINGS_ON),
@@ -102,7 +102,7 @@ impl Frames {
         };
         let last = self.swing.filter(|_| until.is_some()).map(|(last, _)| last);
         self.swing = until.filter(|_| has_swinging_hair).map(|until| (now, until));
-        last.map_or(f32::NAN, |last| now.duration_since(last).as_secs_f32())
+        last.map_or(f64::NAN, |last| now.duration_since(last).as_secs_f64())
     }
 
     /// Whether hair still moves.

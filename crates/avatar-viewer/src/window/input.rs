@@ -25,12 +25,12 @@ pub(super) struct Input {
     interrupted: Option<Interrupted>,
 }
 
-/// A slider that is held has no say any more.
+/// Why the values of a slider are ignored: a pose was pressed while the pointer held the slider.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Interrupted {
     /// The pointer still holds it.
     Held,
-    /// It has let go; the slider's last word is on its way.
+    /// The pointer has let go of it; the slider will send one last value.
     Released,
 }
 
@@ -104,12 +104,12 @@ impl Input {
         self.interrupted = Some(Interrupted::Held);
     }
 
-    /// Whether sliders have no say.
+    /// Whether the values of sliders are ignored.
     pub(super) fn is_interrupted(&self) -> bool {
         self.interrupted.is_some()
     }
 
-    /// The slider's last word has been heard, if it was let go.
+    /// The slider's last value has arrived, if the pointer has let go of it.
     pub(super) fn heard(&mut self) {
         self.interrupted.take_if(|interrupted| *interrupted == Interrupted::Released);
     }

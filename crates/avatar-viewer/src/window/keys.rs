@@ -198,7 +198,7 @@ impl Keys {
     pub(crate) fn action(&self, key: &Key, modifiers: &Modifiers, is_repeat: bool) -> Option<Action> {
         let pressed = KeyName::of(key, modifiers)?;
         let index = self.names.iter().position(|names| names.contains(&pressed))?;
-        // A repetition that does nothing is still not a pose's.
+        // A key that is held down but must not repeat its action still belongs to the window, not to a pose.
         Some(&ROWS[index].action).filter(|action| !is_repeat || action.repeats()).cloned()
     }
 

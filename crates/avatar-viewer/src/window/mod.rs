@@ -101,7 +101,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     app.failure.map_or(Ok(()), Err)
 }
 
-/// winit's own words name its source files; what a person can change are two variables.
+/// winit's own message names its source files. This one names the two variables that a user can change.
 fn no_display() -> anyhow::Error {
     let variable = |name| match std::env::var_os(name) {
         Some(value) => format!("{name}={}", value.to_string_lossy()),
@@ -246,6 +246,28 @@ impl ApplicationHandler<Wake> for App {
     }
 }
 
+/// What the window does about frames that were not drawn although the device is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Remedy {
+    /// Memory may have run out for a moment.
+    TryAgain,
+    /// The device may be broken without saying so.
+    OpenDevice,
+    /// Until something happens: trying for ever would keep a processor busy.
+    Wait,
+}
+
+impl Remedy {
+    /// What follows when so many frames failed in a row.
+    fn after(failed_frames: u32) -> Self {
+        match failed_frames {
+            0 | 1 => Self::TryAgain,
+            2 => Self::OpenDevice,
+            _ => Self::Wait,
+        }
+    }
+}
+
 impl App {
     /// A frame was not drawn, and the device is not lost: memory may have run out for a moment. The window
     /// stays open, tries once more soon, then on a device opened anew, and after that waits for something to
@@ -253,9 +275,9 @@ impl App {
     fn frame_failed(&mut self, event_loop: &ActiveEventLoop, error: &anyhow::Error) {
         self.failed_frames += 1;
         self.messages.error(About::Device, "A frame was not drawn.", error);
-        match self.failed_frames {
-            1 => self.presenter.frames.soon(),
-            2 => match self.presenter.reopen(event_loop, &self.session) {
+        match Remedy::after(self.failed_frames) {
+            Remedy::TryAgain => self.presenter.frames.soon(),
+            Remedy::OpenDevice => match self.presenter.reopen(event_loop, &self.session) {
                 Ok(_) => {
                     let advice = format!("{error:#}");
                     self.messages.warn(
@@ -266,7 +288,7 @@ impl App {
                 }
                 Err(error) => self.fail(event_loop, error),
             },
-            _ => {}
+            Remedy::Wait => {}
         }
     }
 
@@ -322,5 +344,16 @@ impl App {
         if let Err(error) = self.config.save() {
             self.messages.error(About::Settings, "Settings were not stored.", &error);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Remedy;
+
+    #[test]
+    fn failing_frames_are_tried_again_then_drawn_on_another_device_and_then_left() {
+        let remedies = [1, 2, 3, 4].map(Remedy::after);
+        assert_eq!(remedies, [Remedy::TryAgain, Remedy::OpenDevice, Remedy::Wait, Remedy::Wait]);
     }
 }

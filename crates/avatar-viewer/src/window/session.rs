@@ -13,8 +13,9 @@ use pose_anim::{Clip, Pose, Transition};
 use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
-/// How long a changed file has to be left alone before it is read. Saving is several changes: who reads after
-/// the first one finds an empty file, or none, and who reads after each tells of one mistake several times.
+/// How long a changed file has to be left alone before it is read. A program that saves a file changes it
+/// several times. After the first change the file may be empty or missing, and reading it after every change
+/// would report one mistake several times.
 const SETTLED: Duration = Duration::from_millis(100);
 
 /// The avatar that is shown, where it comes from, and what goes on beside the window.

@@ -185,10 +185,10 @@ impl Stage {
         self.gpu.errors.is_lost()
     }
 
-    /// As [`Stage::is_lost`], once something has failed: some losses are only told of when somebody asks the
-    /// device.
+    /// As [`Stage::is_lost`], for use after something has failed: some losses are only reported when the
+    /// device is polled.
     pub(super) fn is_found_lost(&self) -> bool {
-        // What the question itself fails with is that loss.
+        // If the call fails, the reason is the loss of the device, which `is_lost` reports.
         let _ = self.gpu.device.poll(wgpu::PollType::Poll);
         self.is_lost()
     }
@@ -207,8 +207,8 @@ impl Stage {
         }
     }
 
-    /// Milliseconds of the passes of the last frame in which the face was drawn, if nobody asked before;
-    /// waits for that frame to end.
+    /// Milliseconds of the passes of the last frame in which the face was drawn; `None` if they were already
+    /// returned. Waits for that frame to end.
     pub(super) fn passes(&mut self) -> Option<Vec<(&'static str, f32)>> {
         if !std::mem::take(&mut self.is_measured) {
             return None;
@@ -284,13 +284,13 @@ impl Stage {
     }
 
     /// Lets as much time pass for the hair; seconds that are no number leave it still.
-    pub(super) fn advance_hair(&mut self, seconds: f32) {
+    pub(super) fn advance_hair(&mut self, dt_secs: f64) {
         // What was in motion hangs still in the first frame without any.
-        if seconds.is_finite() || self.hair_moved {
+        if dt_secs.is_finite() || self.hair_moved {
             self.forget_kept();
         }
-        self.hair_moved = seconds.is_finite();
-        self.avatar.advance_hair(&self.gpu.queue, seconds);
+        self.hair_moved = dt_secs.is_finite();
+        self.avatar.advance_hair(&self.gpu.queue, dt_secs);
     }
 
     /// The picture that is kept no longer shows what there is.
@@ -319,6 +319,7 @@ impl Stage {
             }
             Acquired::Validation => {
                 let error = self.gpu.errors.take().unwrap_or_default();
+                self.forget_kept();
                 bail!("expected a picture of the window to draw on, found: {error}");
             }
             Acquired::Occluded => return Ok(()),
@@ -376,6 +377,8 @@ impl Stage {
         match self.gpu.errors.take() {
             None => Ok(()),
             Some(error) => {
+                // What the kept picture shows now is not known.
+                self.forget_kept();
                 bail!("expected adapter {:?} to draw the frame, found: {error}", self.gpu.info.name)
             }
         }

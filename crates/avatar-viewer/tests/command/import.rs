@@ -1,5 +1,5 @@
-//! Files of interchange formats in the place of a pack: what another program computed, on the CPU and on the
-//! GPU; and files that are none.
+//! Files of interchange formats in the place of a pack: they give what another program computed, on the CPU
+//! and on the GPU; broken files and unknown formats are refused.
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use crate::common::{finish, has_adapter, json, numbers, read_obj, shared_data, viewer};
@@ -140,7 +140,7 @@ fn joints_and_shapes_are_posed_by_the_controls_of_a_face() {
 }
 
 #[test]
-fn files_that_are_none_are_refused_with_their_place() {
+fn broken_files_and_unknown_formats_are_refused_with_their_place() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = small(folder.path());
     let text = fs::read_to_string(&path).expect("text");

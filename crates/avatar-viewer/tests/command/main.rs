@@ -1,4 +1,10 @@
 //! The command line: what every verb prints and writes, and what it says to bad input.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "tests and their helpers may fail"
+)]
 
 #[path = "../common/mod.rs"]
 mod common;

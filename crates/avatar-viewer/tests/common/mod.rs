@@ -78,12 +78,12 @@ pub fn real_face() -> Option<PathBuf> {
 }
 
 /// A file or folder of the data beside the repository, where there is any; else the reason is printed, or
-/// under `MIMIK_REQUIRE_DATA` the test fails.
+/// under `MIMIK_REQUIRE_DATA=1` the test fails.
 pub fn shared_data(name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
     if !path.exists() {
-        let required = std::env::var_os("MIMIK_REQUIRE_DATA").is_some();
-        assert!(!required, "expected data in {} (MIMIK_REQUIRE_DATA is set), found none", path.display());
+        let required = std::env::var_os("MIMIK_REQUIRE_DATA").is_some_and(|value| value == "1");
+        assert!(!required, "expected data in {} (MIMIK_REQUIRE_DATA=1), found none", path.display());
         tell(&format!("{} is not there", path.display()));
         return None;
     }

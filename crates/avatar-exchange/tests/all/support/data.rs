@@ -4,10 +4,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// A file or folder of the data beside the workspace (`../shared/data`). Where it is missing, that is said on
-/// the terminal, past the capturing of tests' output, or it is a failure where `MIMIK_REQUIRE_DATA` is set.
+/// the terminal, past the capturing of tests' output, or it is a failure under `MIMIK_REQUIRE_DATA=1`.
 pub fn shared_data(path: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(path);
-    there(path, std::env::var_os("MIMIK_REQUIRE_DATA").is_some())
+    there(path, std::env::var_os("MIMIK_REQUIRE_DATA").is_some_and(|value| value == "1"))
 }
 
 /// A folder of the Open Asset Import Library's test models, as Debian packages them: `assimp-testmodels`. Who

@@ -150,7 +150,7 @@ impl Face {
         let range = |control: usize| f64::from(controls[control].max - controls[control].min);
         let (mut clip, _) =
             Clip::new(name, tracks)?.reduced(|control| range(control) * RECORDED_TOLERANCE)?;
-        // A cubic may swing a little beyond its keys, and a file takes no key beyond its control's range.
+        // A file takes no key beyond its control's range, not even by rounding.
         for (index, control) in controls.iter().enumerate() {
             let Some(track) = clip.track_mut(index) else { continue };
             let (min, max) = (f64::from(control.min), f64::from(control.max));
