@@ -1,5 +1,4 @@
-//! Where frames end: rings of uniforms, limits of the device, what belongs to whom, and what a frame
-//! allocates.
+//! Where frames end: rings of uniforms, limits of the device, and what belongs to whom.
 
 use crate::common::head::Head;
 use crate::common::stage::Stage;
@@ -188,39 +187,5 @@ fn passes_read_nothing_that_another_frame_left() {
         for frame in 0..3 {
             assert!(first[frame] == last[2 - frame], "{name}, frame {frame}");
         }
-    }
-}
-
-/// What is allocated is wgpu's: as much for parts that are sorted by their distance as for parts that are
-/// not.
-#[test]
-fn a_frame_allocates_no_list_of_what_it_draws() {
-    let Some(gpu) = gpu() else { return };
-    let mesh = ball(Vec3::ZERO, 1.0, 4);
-    let allocations = |kind, avatars: usize| {
-        let (model, state) = model(gpu, &[part(&mesh, kind, PartTextures::default())]);
-        let stage = Stage::new(gpu, Shading::Plain, 8, FORMAT);
-        let view = stage.texture.create_view(&Default::default());
-        let avatars = vec![(&model, &state); avatars];
-        let mut counts = [0; 3];
-        for count in &mut counts {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let draw = || {
-                let queue = &gpu.queue;
-                let drawn =
-                    stage.renderer.draw(&mut encoder, &view, &stage.targets, queue, &scene(4.0), &avatars);
-                drawn.expect("what belongs together");
-            };
-            *count = allocation_counter::measure(draw).count_total;
-            gpu.queue.submit([encoder.finish()]);
-        }
-        counts[2]
-    };
-    for avatars in [1, 64, 1024] {
-        let [clear, opaque] = [PartKind::Cornea, PartKind::Surface].map(|kind| allocations(kind, avatars));
-        // What is clear is bound part by part, in a longer list of wgpu's.
-        assert!(clear <= opaque + 2, "{avatars}: {clear} for what is clear, {opaque} for what is opaque");
-        // wgpu's lists grow by doubling: nothing is allocated for each avatar.
-        assert!(opaque < 100, "{avatars}: {opaque}");
     }
 }
