@@ -36,7 +36,7 @@ impl std::fmt::Debug for Target<'_> {
 }
 
 impl<'a> Blend<'a> {
-    /// The shapes of a mesh at a node; none where it has none.
+    /// The shapes of a mesh at a node; empty if the mesh has no shapes.
     pub(super) fn of(node: &ufbx::Node, mesh: &'a ufbx::Mesh, notes: &mut Vec<Note>) -> Option<Self> {
         let channels: Vec<_> = mesh.blend_deformers.iter().flat_map(|blend| &blend.channels).collect();
         let drivers = unique_names(channels.iter().map(|channel| channel.element.name.to_string()).collect());

@@ -46,7 +46,7 @@ impl BoundSkin {
         };
         let influences = influences(mesh, deformer, own_bone);
         if influences.unweighted > 0 {
-            // FBX: what no cluster moves follows the mesh's own node.
+            // FBX: vertices that no cluster moves follow the mesh's own node.
             skin.joints.push(own);
             skin.inverse_binds.push(affine(&node.geometry_to_node));
             let text = format!("{} points without weights follow the mesh's own node", influences.unweighted);

@@ -58,7 +58,7 @@ fn pictures_that_gltf_does_not_know_become_png() {
     assert!(portable.images[0].bytes.starts_with(b"\x89PNG"));
     let color = |import: &Import| import.textures.of_part(0, import.pack.parts()[0].kind).color.cloned();
     assert_eq!(color(&again), color(&import));
-    // What is one already, and what is none, stays.
+    // PNG and JPEG files stay as they are, and so do bytes that are no picture.
     assert!(matches!(portable_pictures(&portable), Cow::Borrowed(_)));
     let scene = scene_with_picture("duck", &TGA);
     assert_eq!(portable_pictures(&scene).images[0].bytes, TGA);

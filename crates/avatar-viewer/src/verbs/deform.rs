@@ -37,7 +37,7 @@ pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     out.write(obj::write_parts(&objects).as_bytes())
 }
 
-/// The part that was asked for; without a word the skin, or the first part of an avatar that has none.
+/// The part that was asked for. The default is the skin, or the first part if the avatar has no skin.
 fn part(pack: &Pack, args: &DeformArgs) -> Result<usize> {
     match &args.part {
         Some(name) => usage::part(pack, name),

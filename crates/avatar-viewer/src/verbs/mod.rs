@@ -17,7 +17,7 @@ use crate::window;
 use anyhow::Result;
 use clap::ArgMatches;
 
-/// Runs the verb, or opens the window where there is none.
+/// Runs the verb; without a verb it opens the window.
 pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
     let Some(verb) = cli.verb else { return window::run(&cli.window, matches) };
     let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);

@@ -161,7 +161,7 @@ impl Subject {
 }
 
 impl Filming {
-    /// Ends it, and discards what there is.
+    /// Ends the film and discards what has been written of it.
     pub(super) fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }

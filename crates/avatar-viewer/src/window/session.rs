@@ -39,7 +39,7 @@ impl Session {
         let books = Books::open(&files, &pack)?;
         let face = Face::new(pack, start)?;
         Ok(Self {
-            // Watches as long as it lives.
+            // Files are watched until this is dropped.
             watching: watch(&files, books.store(), window),
             files,
             textures,

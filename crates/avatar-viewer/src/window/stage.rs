@@ -293,7 +293,7 @@ impl Stage {
         self.avatar.advance_hair(&self.gpu.queue, dt_secs);
     }
 
-    /// The picture that is kept no longer shows what there is.
+    /// Marks the kept picture as out of date: the next frame draws the face again.
     fn forget_kept(&mut self) {
         if let Some(kept) = &mut self.kept {
             kept.is_fresh = false;
