@@ -10,6 +10,10 @@ pub struct Mesh {
     pub positions: Vec<Vec3>,
     /// Texture coordinates, origin top left; outside 0…1 the texture repeats.
     pub uvs: Vec<Vec2>,
+    /// Second texture coordinates, for the textures of a material that use them. May be empty.
+    pub uvs_1: Vec<Vec2>,
+    /// Linear colour and opacity of each vertex, factors on those of the material. May be empty.
+    pub colors: Vec<Vec4>,
     /// Normals at bind pose, in the space of the positions, of about unit length.
     pub normals: Vec<Vec3>,
     /// Tangents as in glTF 2.0: unit directions of growing u, and in w the handedness ±1 of `bitangent = w ·
@@ -23,13 +27,18 @@ pub struct Mesh {
     pub shapes: Vec<Shape>,
 }
 
-/// Which bones move a vertex, and how much. The arrays are as long as the mesh has vertices.
+/// Which bones move a vertex, and how much. The arrays are as long as the mesh has vertices, but for those
+/// that may be empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Skinning {
     /// Four positions in the palette of bone matrices.
     pub bones: Vec<[u16; 4]>,
-    /// Their weights, with sum 1.
+    /// Their weights; with [`Skinning::more_weights`], the sum is 1.
     pub weights: Vec<[f32; 4]>,
+    /// The fifth to eighth bone of each vertex; empty where no vertex has more than four.
+    pub more_bones: Vec<[u16; 4]>,
+    /// Their weights; as long as [`Skinning::more_bones`].
+    pub more_weights: Vec<[f32; 4]>,
     /// A column of the raw format without a known meaning, kept for writing it back; may be empty.
     pub blend_index: Vec<Vec3>,
 }

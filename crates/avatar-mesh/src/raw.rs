@@ -23,6 +23,7 @@ pub fn read_skin(vertices: &[u8], indices: &[u8]) -> Result<Mesh, MeshError> {
         bones: Vec::with_capacity(vertices.len()),
         weights: Vec::with_capacity(vertices.len()),
         blend_index: Vec::with_capacity(vertices.len()),
+        ..Skinning::default()
     };
     let room = || Vec::with_capacity(vertices.len());
     let mut offsets = FACE_SHAPES.map(|name| (name, room(), room()));

@@ -137,6 +137,12 @@ impl Mesh {
         };
         check("uvs", self.uvs.len())?;
         check("normals", self.normals.len())?;
+        if !self.uvs_1.is_empty() {
+            check("second uvs", self.uvs_1.len())?;
+        }
+        if !self.colors.is_empty() {
+            check("vertex colours", self.colors.len())?;
+        }
         if !self.tangents.is_empty() {
             check("tangents", self.tangents.len())?;
         }
@@ -148,6 +154,11 @@ impl Mesh {
         if let Some(skinning) = &self.skinning {
             check("bone indices", skinning.bones.len())?;
             check("bone weights", skinning.weights.len())?;
+            let further = [skinning.more_bones.len(), skinning.more_weights.len()];
+            if further != [0, 0] {
+                check("further bone indices", further[0])?;
+                check("further bone weights", further[1])?;
+            }
             if !skinning.blend_index.is_empty() {
                 check("blend indices", skinning.blend_index.len())?;
             }
@@ -158,6 +169,8 @@ impl Mesh {
     fn check_finite(&self) -> Result<(), MeshError> {
         finite("position", self.positions.iter().map(|p| p.to_array()))?;
         finite("uv", self.uvs.iter().map(|uv| uv.to_array()))?;
+        finite("second uv", self.uvs_1.iter().map(|uv| uv.to_array()))?;
+        finite("vertex colour", self.colors.iter().map(|color| color.to_array()))?;
         finite("normal", self.normals.iter().map(|n| n.to_array()))?;
         finite("tangent", self.tangents.iter().map(|t| t.to_array()))?;
         for shape in &self.shapes {
@@ -168,6 +181,7 @@ impl Mesh {
         match &self.skinning {
             Some(skinning) => {
                 finite("bone weight", skinning.weights.iter().copied())?;
+                finite("further bone weight", skinning.more_weights.iter().copied())?;
                 finite("blend index", skinning.blend_index.iter().map(|b| b.to_array()))
             }
             None => Ok(()),

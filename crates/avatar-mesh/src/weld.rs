@@ -29,12 +29,16 @@ pub fn weld(mesh: &Mesh) -> Welded {
     let mesh = Mesh {
         positions: pick(&mesh.positions, &originals),
         uvs: pick(&mesh.uvs, &originals),
+        uvs_1: pick(&mesh.uvs_1, &originals),
+        colors: pick(&mesh.colors, &originals),
         normals: pick(&mesh.normals, &originals),
         tangents: pick(&mesh.tangents, &originals),
         triangles: mesh.triangles.iter().map(|t| t.map(|i| renamed(&welded_from_original, i))).collect(),
         skinning: mesh.skinning.as_ref().map(|skinning| Skinning {
             bones: pick(&skinning.bones, &originals),
             weights: pick(&skinning.weights, &originals),
+            more_bones: pick(&skinning.more_bones, &originals),
+            more_weights: pick(&skinning.more_weights, &originals),
             blend_index: pick(&skinning.blend_index, &originals),
         }),
         shapes: (mesh.shapes.iter())
@@ -68,6 +72,12 @@ fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
     push(&at(&mesh.positions));
     push(&at(&mesh.normals));
     push(&mesh.uvs.get(vertex).copied().unwrap_or_default().to_array());
+    if let Some(uv) = mesh.uvs_1.get(vertex) {
+        push(&uv.to_array());
+    }
+    if let Some(color) = mesh.colors.get(vertex) {
+        push(&color.to_array());
+    }
     if let Some(tangent) = mesh.tangents.get(vertex) {
         push(&tangent.to_array());
     }
@@ -77,6 +87,8 @@ fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
     if let Some(skinning) = &mesh.skinning {
         push(&skinning.bones.get(vertex).copied().unwrap_or_default().map(f32::from));
         push(&skinning.weights.get(vertex).copied().unwrap_or_default());
+        push(&skinning.more_bones.get(vertex).copied().unwrap_or_default().map(f32::from));
+        push(&skinning.more_weights.get(vertex).copied().unwrap_or_default());
     }
     bits
 }

@@ -4,7 +4,7 @@ use crate::textures::decode;
 use crate::{Pack, Part, Textures};
 use avatar_exchange::{
     AlphaMode, Channel, ChannelTarget, Clip, Finding, Interpolation, Material, Node, Note, RawScene, Scene,
-    SceneImage, ScenePart, Skin, Transform, Trs,
+    SceneImage, ScenePart, Skin, TextureRef, Transform, Trs,
 };
 use avatar_mesh::{Mesh, PartKind, Skinning, Winding};
 use glam::{Affine3A, DAffine3, DQuat, Vec3};
@@ -119,7 +119,7 @@ fn mesh(pack: &Pack, part: &Part) -> Mesh {
         mesh.skinning = Some(Skinning {
             bones: vec![[bone, 0, 0, 0]; vertices],
             weights: vec![[1.0, 0.0, 0.0, 0.0]; vertices],
-            blend_index: Vec::new(),
+            ..Skinning::default()
         });
     }
     mesh
@@ -225,13 +225,13 @@ fn material<'a>(
     Material {
         name: part.name.clone(),
         base_color: [r, g, b, if is_clear { from.opacity } else { 1.0 }],
-        base_color_texture: color,
+        base_color_texture: color.map(TextureRef::from),
         metallic: 0.0,
         roughness: if rough.is_some() { 1.0 } else { (from.roughness_matte + from.roughness_glossy) / 2.0 },
-        metallic_roughness_texture: rough,
-        normal_texture: take(pictures.normal, "normals", None),
+        metallic_roughness_texture: rough.map(TextureRef::from),
+        normal_texture: take(pictures.normal, "normals", None).map(TextureRef::from),
         normal_scale: if pictures.normal.is_some() { from.normal_strength } else { 1.0 },
-        occlusion_texture: take(pictures.occlusion, "occlusion", None),
+        occlusion_texture: take(pictures.occlusion, "occlusion", None).map(TextureRef::from),
         alpha_mode: if is_clear { AlphaMode::Blend } else { AlphaMode::Opaque },
         ..Material::default()
     }

@@ -59,7 +59,7 @@ fn skin() -> Mesh {
     mesh.skinning = Some(Skinning {
         bones: (0..VERTICES).map(|v| std::array::from_fn(|i| ((v + i) % BONES) as u16)).collect(),
         weights: vec![[0.55, 0.25, 0.15, 0.05]; VERTICES],
-        blend_index: Vec::new(),
+        ..Skinning::default()
     });
     mesh.shapes = (0..SHAPES)
         .map(|k| {

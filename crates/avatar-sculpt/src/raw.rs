@@ -44,7 +44,7 @@ pub fn skin(skin: &Skin) -> Mesh {
         skinning: Some(Skinning {
             bones: vertices.iter().map(|v| v.influence.map(|(bone, _)| bone as u16)).collect(),
             weights: vertices.iter().map(|v| weights(v.influence.map(|(_, w)| w))).collect(),
-            blend_index: Vec::new(),
+            ..Skinning::default()
         }),
         shapes: FACE_SHAPES.iter().enumerate().map(shape).collect(),
     }

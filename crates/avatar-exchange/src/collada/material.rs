@@ -1,7 +1,7 @@
 use super::Reader;
 use super::xml::At;
 use crate::build::path;
-use crate::scene::{AlphaMode, Finding, Material, Resolve};
+use crate::scene::{AlphaMode, Finding, Material, Resolve, TextureRef};
 use percent_encoding::percent_decode_str;
 use std::collections::HashMap;
 
@@ -51,7 +51,8 @@ impl<'a> Reader<'a> {
             match (color(diffuse), diffuse.child("texture")) {
                 (Some(color), _) => material.base_color = color,
                 (None, Some(texture)) => {
-                    material.base_color_texture = self.texture(profile, texture, images, resolve);
+                    let image = self.texture(profile, texture, images, resolve);
+                    material.base_color_texture = image.map(TextureRef::from);
                 }
                 (None, None) => self.note(diffuse, Finding::missing("neither a colour nor a texture")),
             }

@@ -1,6 +1,6 @@
 use super::note;
 use crate::build::path::{beside, image, mime_of};
-use crate::scene::{AlphaMode, Finding, Material, RawScene, Resolve, SceneImage};
+use crate::scene::{AlphaMode, Finding, Material, RawScene, Resolve, SceneImage, TextureRef};
 use std::collections::HashMap;
 
 /// Reads all materials in the file's order, with the images that they use.
@@ -17,7 +17,7 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
                 .map(|x| finite(x as f32) * factor),
             false => [default; 3],
         };
-        let base_color_texture = images.of(&pbr.base_color, scene);
+        let base_color_texture = images.of(&pbr.base_color, scene).map(TextureRef::from);
         // A texture replaces the colour of FBX, it is not multiplied.
         let [r, g, b] = match base_color_texture {
             Some(_) => [1.0; 3],
@@ -30,9 +30,9 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
             base_color_texture,
             metallic: number(&pbr.metalness, 0.0),
             roughness: number(&pbr.roughness, 1.0),
-            normal_texture: images.of(&pbr.normal_map, scene),
+            normal_texture: images.of(&pbr.normal_map, scene).map(TextureRef::from),
             emissive: color(&pbr.emission_color, number(&pbr.emission_factor, 1.0), 0.0),
-            emissive_texture: images.of(&pbr.emission_color, scene),
+            emissive_texture: images.of(&pbr.emission_color, scene).map(TextureRef::from),
             alpha_mode: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
             double_sided: material.features.double_sided.enabled,
             ..Material::default()

@@ -1,5 +1,5 @@
 use super::document::{Document, in_range};
-use crate::scene::{AlphaMode, Finding, ImportError, Material, RawScene, SceneImage};
+use crate::scene::{AlphaMode, Finding, ImportError, Material, RawScene, SceneImage, TextureRef};
 use gltf::json::material::AlphaMode as Mode;
 use gltf::json::texture::{Info, Texture, WrappingMode};
 use gltf::json::validation::Checked;
@@ -106,6 +106,8 @@ impl Document<'_> {
                 },
                 alpha_cutoff: material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0),
                 double_sided: material.double_sided,
+                is_unlit: false,
+                toon: None,
                 name: material.name.unwrap_or_default(),
             });
         }
@@ -113,7 +115,7 @@ impl Document<'_> {
     }
 
     /// The image of a texture. Wrapping modes, further texture coordinates and extensions get a note.
-    fn texture(&mut self, place: &str, used: Option<Use<'_>>) -> Result<Option<usize>, ImportError> {
+    fn texture(&mut self, place: &str, used: Option<Use<'_>>) -> Result<Option<TextureRef>, ImportError> {
         let Some(used) = used else { return Ok(None) };
         let place = format!("{place}, {}", used.what);
         let texture = in_range("textures", &self.root.textures, used.texture.value())?;
@@ -139,6 +141,6 @@ impl Document<'_> {
         if image.is_none() {
             self.note(&place, Finding::missing("has no image"));
         }
-        Ok(image)
+        Ok(image.map(TextureRef::from))
     }
 }

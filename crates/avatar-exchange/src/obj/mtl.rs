@@ -3,7 +3,7 @@
 use super::ObjFile;
 use crate::build::path::beside;
 use crate::build::text::{at_line, decode, float, shown};
-use crate::scene::{AlphaMode, Finding, ImportError, Material, Note, Resolve, SceneImage};
+use crate::scene::{AlphaMode, Finding, ImportError, Material, Note, Resolve, SceneImage, TextureRef};
 use std::collections::HashMap;
 
 /// Options of texture statements and how many words follow them; `-o`, `-s` and `-t` take up to three
@@ -66,7 +66,10 @@ pub(super) fn attach(
                     let text = "its bump map is taken for a normal map";
                     obj.notes.push(Note::new(format!("material {name:?}"), Finding::converted(text)));
                 }
-                Material { normal_texture: material.normal_texture.or(*bump), ..material.clone() }
+                Material {
+                    normal_texture: material.normal_texture.or(bump.map(TextureRef::from)),
+                    ..material.clone()
+                }
             }
             None => {
                 let text = "is in no library: it gets default values";
@@ -147,9 +150,9 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
             "Ns" => material.roughness = (2.0 / (one("an exponent")?.max(0.0) + 2.0)).sqrt().sqrt(),
             "Pr" => material.roughness = one("a roughness")?.clamp(0.0, 1.0),
             "Pm" => material.metallic = one("a metalness")?.clamp(0.0, 1.0),
-            "map_Kd" => material.base_color_texture = image(&mut images),
-            "map_Ke" => material.emissive_texture = image(&mut images),
-            "norm" | "map_norm" => material.normal_texture = image(&mut images),
+            "map_Kd" => material.base_color_texture = image(&mut images).map(TextureRef::from),
+            "map_Ke" => material.emissive_texture = image(&mut images).map(TextureRef::from),
+            "norm" | "map_norm" => material.normal_texture = image(&mut images).map(TextureRef::from),
             "bump" | "map_bump" | "map_Bump" => draft.bump = image(&mut images),
             _ => {}
         }
@@ -221,7 +224,7 @@ fn keep_used_images(obj: &mut ObjFile) {
     for material in &mut obj.materials {
         let slots =
             [&mut material.base_color_texture, &mut material.emissive_texture, &mut material.normal_texture];
-        for image in slots.into_iter().flatten() {
+        for TextureRef { image, .. } in slots.into_iter().flatten() {
             *image = *places[*image].get_or_insert_with(|| {
                 kept.push(std::mem::take(&mut obj.images[*image]));
                 kept.len() - 1

@@ -286,7 +286,7 @@ fn check_materials(raw: &RawScene) -> Result<(), ImportError> {
     for (number, material) in raw.materials.iter().enumerate() {
         let place = || format!("material {number} {}", quoted(&material.name));
         for texture in material.textures() {
-            in_range(place, "an image", raw.images.len(), texture)?;
+            in_range(place, "an image", raw.images.len(), texture.image)?;
         }
         if let Some(factor) = material.factors().find(|factor| !factor.is_finite()) {
             return Err(ImportError::new(place(), "finite factors", factor.to_string()));

@@ -1,5 +1,5 @@
 use super::buffer::Buffer;
-use crate::scene::{AlphaMode, Material, Scene, SceneImage};
+use crate::scene::{AlphaMode, Material, Scene, SceneImage, TextureRef};
 use serde_json::{Map, Value, json};
 
 /// The images that the file has: those with bytes.
@@ -40,8 +40,8 @@ impl Images {
             .collect()
     }
 
-    fn texture(&self, image: Option<usize>) -> Option<Map<String, Value>> {
-        let place = self.places.get(image?).copied().flatten()?;
+    fn texture(&self, texture: Option<TextureRef>) -> Option<Map<String, Value>> {
+        let place = self.places.get(texture?.image).copied().flatten()?;
         Some(Map::from_iter([("index".to_owned(), json!(place))]))
     }
 }

@@ -115,7 +115,7 @@ fn whatever_is_wrong_has_its_place() {
         ("part 1 'b'", |raw| raw.parts[1].mesh.skinning = bones([2, 0, 0, 0])),
         ("part 0 'a'", |raw| raw.nodes[2].weights.push(0.0)),
         ("animation 'c', channel 0", |raw| raw.clips[0].channels[0].node = 3),
-        ("material 0 ''", |raw| raw.materials[0].normal_texture = Some(0)),
+        ("material 0 ''", |raw| raw.materials[0].normal_texture = Some(0.into())),
     ];
     for (number, (place, change)) in cases.into_iter().enumerate() {
         let error = wrong(change);

@@ -201,6 +201,7 @@ fn necks_and_jaws_carry_hair_along() {
         bones: vec![[0, 1, 0, 0]; mesh.positions.len()],
         blend_index: vec![Vec3::ZERO; mesh.positions.len()],
         weights,
+        ..Skinning::default()
     });
     let field = Field::new(&mesh, 0);
     assert_eq!(field.bones[0], 1);

@@ -150,15 +150,15 @@ fn cancelled(skinning: Option<Skinning>) -> Mesh {
         normals: vec![Vec3::Y],
         triangles: vec![],
         skinning,
-        tangents: vec![],
         shapes: vec![Shape::new("s", vec![Vec3::ZERO]).with_normals(vec![Vec3::NEG_Y])],
+        ..Mesh::default()
     }
 }
 
 #[test]
 fn a_blended_normal_without_length_gives_way_to_the_undeformed_one() {
     let quarter = Affine3A::from_quat(Quat::from_rotation_z(std::f32::consts::FRAC_PI_2));
-    let skinning = Skinning { bones: vec![[0; 4]], weights: vec![[1., 0., 0., 0.]], blend_index: vec![] };
+    let skinning = Skinning { bones: vec![[0; 4]], weights: vec![[1., 0., 0., 0.]], ..Skinning::default() };
     for mesh in [cancelled(None), cancelled(Some(skinning))] {
         // The undeformed normal turns with its bone: +y to −x.
         for weight in [0.0, 0.5, 0.999, 1.0] {
@@ -170,7 +170,7 @@ fn a_blended_normal_without_length_gives_way_to_the_undeformed_one() {
     }
     // Two bones that turn a normal against itself leave no direction either.
     let skinning =
-        Skinning { bones: vec![[0, 1, 0, 0]], weights: vec![[0.5, 0.5, 0., 0.]], blend_index: vec![] };
+        Skinning { bones: vec![[0, 1, 0, 0]], weights: vec![[0.5, 0.5, 0., 0.]], ..Skinning::default() };
     let half = Affine3A::from_mat3(glam::Mat3::from_diagonal(Vec3::new(-1., -1., 1.)));
     assert_eq!(deformed(&cancelled(Some(skinning)), &[Affine3A::IDENTITY, half], &[0.0]).normals[0], Vec3::Y);
     // A mesh whose own normal has no length yields no NaN.

@@ -203,7 +203,7 @@ fn boxes_leave_room_for_rounding() {
 
 /// One vertex that follows bone 0 four times.
 fn cloud(position: Vec3, weights: [f32; 4]) -> Mesh {
-    let skinning = Skinning { bones: vec![[0; 4]], weights: vec![weights], blend_index: vec![] };
+    let skinning = Skinning { bones: vec![[0; 4]], weights: vec![weights], ..Skinning::default() };
     Mesh { positions: vec![position], normals: vec![Vec3::X], skinning: Some(skinning), ..Mesh::default() }
 }
 

@@ -23,12 +23,12 @@ fn far_from_welded(random: &mut Random, distinct: usize, vertices: usize) -> (Me
         positions: vec3s(&source.positions),
         uvs: copies.iter().map(|&i| source.uvs[i]).collect(),
         normals: vec3s(&source.normals),
-        tangents: Vec::new(),
         triangles: (0..vertices).map(|_| std::array::from_fn(|_| random.below(vertices) as u32)).collect(),
         skinning: Some(Skinning {
             bones: copies.iter().map(|&i| skinning.bones[i]).collect(),
             weights: copies.iter().map(|&i| skinning.weights[i]).collect(),
             blend_index: vec3s(&skinning.blend_index),
+            ..Skinning::default()
         }),
         shapes: (source.shapes.iter())
             .map(|shape| {
@@ -36,6 +36,7 @@ fn far_from_welded(random: &mut Random, distinct: usize, vertices: usize) -> (Me
                 Shape::new(shape.name.clone(), offsets(&shape.positions)).with_normals(normals)
             })
             .collect(),
+        ..Mesh::default()
     };
     (mesh, copies)
 }

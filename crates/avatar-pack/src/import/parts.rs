@@ -2,7 +2,7 @@ use super::{ImportFailure, ImportReport};
 use crate::textures::{OwnImages, decode};
 use crate::unique::unique_names;
 use crate::{Part, Textures, Warning};
-use avatar_exchange::{AlphaMode, Scene, ScenePart};
+use avatar_exchange::{AlphaMode, Scene, ScenePart, TextureRef};
 use avatar_look::Material;
 use avatar_mesh::{Mesh, PartKind, Shape};
 use image::RgbaImage;
@@ -132,7 +132,8 @@ impl Images {
         };
         let from = part.material.and_then(|material| scene.materials.get(material)).unwrap_or(&fallback);
         let [r, g, b, alpha] = from.base_color;
-        let mut place = |image: Option<usize>, factor| image.map(|image| self.place(image, factor));
+        let mut place =
+            |texture: Option<TextureRef>, factor| texture.map(|texture| self.place(texture.image, factor));
         let color = place(from.base_color_texture, [r, g, b, 1.0]);
         let normal = place(from.normal_texture, [1.0; 4]);
         let occlusion = place(from.occlusion_texture, [1.0; 4]);

@@ -179,7 +179,7 @@ fn head() -> RawScene {
             [0.5, 0.5, 0.0, 0.0],
             [1.0, 0.0, 0.0, 0.0],
         ],
-        blend_index: Vec::new(),
+        ..Skinning::default()
     });
     face.shapes = vec![
         Shape::new("Key 1", vec![Vec3::X * 0.1; 4]).with_normals(vec![Vec3::X * 0.2; 4]),
@@ -241,7 +241,7 @@ fn parts_that_follow_known_joints_become_the_rigid_ones() {
         mesh.skinning = Some(Skinning {
             bones: vec![[bone, 0, 0, 0]; 4],
             weights: vec![[1.0, 0.0, 0.0, 0.0]; 4],
-            blend_index: Vec::new(),
+            ..Skinning::default()
         });
         raw.parts[part].skin = Some(0);
         assert_eq!(raw.skins[0].joints[usize::from(bone)], node);

@@ -189,7 +189,7 @@ fn materials_have_colours_and_textures() {
         (scene.images[0].bytes.as_slice(), scene.images[0].mime.as_str()),
         (&[1, 2, 3][..], "image/png")
     );
-    assert_eq!(scene.materials[0].base_color_texture, Some(0));
+    assert_eq!(scene.materials[0].base_color_texture, Some(0.into()));
     assert_eq!(scene.parts[0].material, Some(1));
     close(&scene.materials[1].base_color, &[0.5, 0.25, 0.125, 0.75]);
     // Without the picture there is a note instead.

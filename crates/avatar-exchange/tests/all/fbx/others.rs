@@ -77,7 +77,7 @@ fn embedded_pictures_come_with_their_bytes() {
         ("embedded_ascii/box_embedded_texture_fragmented.fbx", "paper.png", b"PN"),
     ] {
         let scene = read(name, &std::fs::read(folder.join(name)).unwrap()).unwrap();
-        let image = &scene.images[scene.materials[0].base_color_texture.unwrap()];
+        let image = &scene.images[scene.materials[0].base_color_texture.unwrap().image];
         assert_eq!((image.name.as_str(), image.bytes.get(1..3)), (picture, Some(begin)), "{name}");
     }
     // The other way: a file that is brought.

@@ -121,7 +121,7 @@ fn looks_and_names_arrive() {
     let Some(data) = shared_data("khronos-gltf") else { return };
     let scene = read_file(&data.join("MorphPrimitivesTest/glTF/MorphPrimitivesTest.gltf")).expect("a scene");
     assert!(scene.images[0].bytes.starts_with(&[0xff, 0xd8]), "a JPEG, not decoded");
-    let textured = scene.materials.iter().filter(|material| material.base_color_texture == Some(0));
+    let textured = scene.materials.iter().filter(|material| material.base_color_texture == Some(0.into()));
     assert_eq!(textured.count(), 2, "{:?}", scene.materials);
 
     let Some(data) = shared_data("robot-expressive") else { return };

@@ -286,19 +286,20 @@ fn materials_arrive_and_what_they_cannot_say_is_noted() {
     let expected = Material {
         name: "skin".to_owned(),
         base_color: [0.1, 0.2, 0.3, 0.4],
-        base_color_texture: Some(0),
+        base_color_texture: Some(0.into()),
         metallic: 0.5,
         roughness: 0.6,
         metallic_roughness_texture: None,
-        normal_texture: Some(0),
+        normal_texture: Some(0.into()),
         normal_scale: 0.7,
-        occlusion_texture: Some(0),
+        occlusion_texture: Some(0.into()),
         occlusion_strength: 0.8,
         emissive: [1.0, 0.0, 0.0],
-        emissive_texture: Some(0),
+        emissive_texture: Some(0.into()),
         alpha_mode: AlphaMode::Mask,
         alpha_cutoff: 0.25,
         double_sided: true,
+        ..Material::default()
     };
     assert_eq!(scene.materials[1], expected);
     let notes: Vec<_> = scene.notes.iter().map(ToString::to_string).collect();

@@ -152,7 +152,7 @@ fn dot(at: Vec3) -> Mesh {
 }
 
 fn skinned(bones: [u16; 4], weights: [f32; 4]) -> Mesh {
-    let skinning = Skinning { bones: vec![bones], weights: vec![weights], blend_index: Vec::new() };
+    let skinning = Skinning { bones: vec![bones], weights: vec![weights], ..Skinning::default() };
     Mesh { skinning: Some(skinning), ..dot(Vec3::X) }
 }
 
@@ -205,7 +205,11 @@ fn awkward_scenes_deform_as_before() {
         channel(0, Weights, Linear, &[0.0, 2.0], &[0.0, 1.0]),
     ];
     scene.clips.push(Clip { name: "clip".to_owned(), channels });
-    scene.materials.push(Material { base_color_texture: Some(0), metallic: 7.0, ..Material::default() });
+    scene.materials.push(Material {
+        base_color_texture: Some(0.into()),
+        metallic: 7.0,
+        ..Material::default()
+    });
     scene.images.push(SceneImage::default());
 
     let bytes = glb::write_raw(&scene).expect("a valid scene");

@@ -130,7 +130,7 @@ fn materials_come_from_libraries() {
     assert_eq!(material.emissive, [0.25; 3]);
     // The fourth root of 2 / (6 + 2).
     assert!((material.roughness - 0.5f32.sqrt()).abs() < 1e-6);
-    assert_eq!((material.base_color_texture, material.normal_texture), (Some(0), Some(1)));
+    assert_eq!((material.base_color_texture, material.normal_texture), (Some(0.into()), Some(1.into())));
     assert_eq!((scene.images[0].mime.as_str(), scene.images[1].bytes.len()), ("image/png", 0));
     assert!(scene.notes.iter().any(|note| note.place == "dents.png"));
     let error = read("a.obj", text.as_bytes(), &mut |_| Ok(b"newmtl a\nKd red".to_vec())).map(|_| ());

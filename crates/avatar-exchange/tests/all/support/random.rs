@@ -2,7 +2,7 @@
 
 use avatar_exchange::{
     AlphaMode, Channel, ChannelTarget, Clip, Interpolation, Material, Node, RawScene, SceneImage, ScenePart,
-    Skin, Transform, Trs,
+    Skin, TextureRef, Transform, Trs,
 };
 use avatar_mesh::{Mesh, Shape, Skinning};
 use glam::{Affine3A, Mat3A, Quat, Vec2, Vec3, Vec3A, Vec4};
@@ -191,24 +191,26 @@ fn skinning(r: &mut Random, vertices: usize, joints: usize) -> Skinning {
 }
 
 fn material(r: &mut Random, images: usize) -> Material {
-    let (normal_texture, occlusion_texture) = (r.some(images), r.some(images));
+    let texture = |r: &mut Random| r.some(images).map(TextureRef::from);
+    let (normal_texture, occlusion_texture) = (texture(r), texture(r));
     Material {
         name: r.text(),
         base_color: [(); 4].map(|()| r.share()),
-        base_color_texture: r.some(images),
+        base_color_texture: texture(r),
         metallic: r.share(),
         roughness: r.share(),
-        metallic_roughness_texture: r.some(images),
+        metallic_roughness_texture: texture(r),
         normal_texture,
         // Both belong to their textures.
         normal_scale: if normal_texture.is_some() { r.float() } else { 1.0 },
         occlusion_texture,
         occlusion_strength: if occlusion_texture.is_some() { r.share() } else { 1.0 },
         emissive: [(); 3].map(|()| r.share()),
-        emissive_texture: r.some(images),
+        emissive_texture: texture(r),
         alpha_mode: [AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend][r.below(3)],
         alpha_cutoff: if r.chance(2) { 0.5 } else { r.share() },
         double_sided: r.chance(2),
+        ..Material::default()
     }
 }
 
