@@ -39,7 +39,6 @@ pub fn skin(skin: &Skin) -> Mesh {
         positions: vertices.iter().map(|v| vec3(v.p)).collect(),
         uvs: vertices.iter().map(|v| vec2(v.uv)).collect(),
         normals: vertices.iter().map(|v| vec3(v.normal)).collect(),
-        tangents: Vec::new(),
         triangles: skin.triangles.clone(),
         skinning: Some(Skinning {
             bones: vertices.iter().map(|v| v.influence.map(|(bone, _)| bone as u16)).collect(),
@@ -47,6 +46,7 @@ pub fn skin(skin: &Skin) -> Mesh {
             ..Skinning::default()
         }),
         shapes: FACE_SHAPES.iter().enumerate().map(shape).collect(),
+        ..Mesh::default()
     }
 }
 

@@ -196,7 +196,7 @@ fn looks_and_rest_are_those_of_the_pack() {
     assert!(scene.nodes.iter().all(|node| matches!(node.local, Transform::Trs(_))));
     // Gloss 0 is as rough as the material says.
     let rough = skin.metallic_roughness_texture.expect("a texture");
-    let decoded = image::load_from_memory(&scene.images[rough].bytes).expect("a PNG").into_rgba8();
+    let decoded = image::load_from_memory(&scene.images[rough.image].bytes).expect("a PNG").into_rgba8();
     let gloss = textures.of_part(0, avatar_mesh::PartKind::Skin).gloss.expect("a gloss texture");
     let look = pack.material(0);
     for (x, y) in [(0, 0), (decoded.width() / 2, decoded.height() / 3)] {

@@ -22,7 +22,7 @@ fn scene_with_picture(name: &str, bytes: &[u8]) -> Scene {
     let scene = RawScene {
         nodes: vec![Node::default()],
         parts: vec![ScenePart { material: Some(0), ..ScenePart::rigid("duck", 0, mesh) }],
-        materials: vec![Material { base_color_texture: Some(0), ..Material::default() }],
+        materials: vec![Material { base_color_texture: Some(0.into()), ..Material::default() }],
         images: vec![SceneImage { name: name.to_owned(), mime: String::new(), bytes: bytes.to_vec() }],
         ..RawScene::default()
     };
