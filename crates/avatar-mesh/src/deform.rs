@@ -1,5 +1,6 @@
+use crate::turning::{all_turn_evenly, blended, mirrors, moved_normal, wide};
 use crate::{Deformed, Mesh, SmoothNormals};
-use glam::{Affine3A, Vec3, Vec3A};
+use glam::{Affine3A, DMat3, Vec3, Vec3A};
 
 /// A blended or skinned normal shorter than this has no direction: the undeformed normal takes its place.
 pub const MIN_NORMAL_LENGTH: f32 = 1e-6;
@@ -58,6 +59,9 @@ pub enum DeformError {
 /// follows `bones[0]`. `weights` has one blend weight per shape; a shape with weight 0 costs nothing, and one
 /// that stores moved vertices only costs time for these.
 ///
+/// Normals are turned by the bones' matrices where all bones that move the mesh are rotations with one scale
+/// ([`crate::turns_evenly`]), and where any is not, by the inverse transpose of each vertex's blended matrix.
+///
 /// # Errors
 /// Lengths that do not fit the mesh, or a bone beyond the palette; `out` may then be partly written.
 pub fn deform(
@@ -84,6 +88,10 @@ pub fn deform_with(
         let check = count_check(mesh.positions.len());
         check("the bone indices", skinning.bones.len())?;
         check("the bone weights", skinning.weights.len())?;
+        if !(skinning.more_bones.is_empty() && skinning.more_weights.is_empty()) {
+            check("the further bone indices", skinning.more_bones.len())?;
+            check("the further bone weights", skinning.more_weights.len())?;
+        }
     }
     blend(mesh, weights, normals, out)?;
     skin(mesh, bones, out)
@@ -125,49 +133,89 @@ pub fn blend(
 
 /// The part of [`deform()`] after the shapes. Lengths fit.
 fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), DeformError> {
+    let is_even = all_turn_evenly(mesh, bones);
     match &mesh.skinning {
         Some(skinning) => {
-            for (vertex, (bone, weight)) in skinning.bones.iter().zip(&skinning.weights).enumerate() {
-                let position = Vec3A::from(out.positions[vertex]);
+            for (vertex, (four, weights)) in skinning.bones.iter().zip(&skinning.weights).enumerate() {
                 let normal = blended_normal(out.normals[vertex], mesh.normals[vertex]);
-                let mut posed_position = Vec3A::ZERO;
-                let mut posed_normal = Vec3A::ZERO;
-                for (&bone, &weight) in bone.iter().zip(weight) {
-                    let x = bones.get(usize::from(bone)).ok_or(DeformError::MissingBone {
-                        vertex,
-                        found: bone.into(),
-                        bones: bones.len(),
-                    })?;
-                    posed_position += weight * x.transform_point3a(position);
-                    posed_normal += weight * x.transform_vector3a(normal);
+                let mut sums =
+                    Sums { position: out.positions[vertex].into(), normal, posed: [Vec3A::ZERO; 2] };
+                sums.add(vertex, bones, four, weights)?;
+                if let (Some(four), Some(weights)) =
+                    (skinning.more_bones.get(vertex), skinning.more_weights.get(vertex))
+                {
+                    sums.add(vertex, bones, four, weights)?;
                 }
-                out.positions[vertex] = posed_position.into();
-                out.normals[vertex] = unit(posed_normal, mesh.normals[vertex]);
+                out.positions[vertex] = sums.posed[0].into();
+                let by_matrix = unit(sums.posed[1], mesh.normals[vertex]);
+                out.normals[vertex] = match is_even {
+                    true => by_matrix,
+                    false => standing(&blended(skinning, bones, vertex), normal, by_matrix),
+                };
             }
             for (vertex, (tangent, undeformed)) in out.tangents.iter_mut().zip(&mesh.tangents).enumerate() {
-                let blended = blended_normal(tangent.truncate(), undeformed.truncate());
-                let both = skinning.bones[vertex].iter().zip(&skinning.weights[vertex]);
-                let posed = both
-                    .filter_map(|(bone, weight)| Some((bones.get(usize::from(*bone))?, *weight)))
-                    .fold(Vec3A::ZERO, |sum, (x, weight)| sum + weight * x.transform_vector3a(blended));
-                *tangent = unit(posed, undeformed.truncate()).extend(undeformed.w);
+                let along = blended_normal(tangent.truncate(), undeformed.truncate());
+                let posed = skinning
+                    .influences(vertex)
+                    .filter_map(|(bone, weight)| Some((bones.get(usize::from(bone))?, weight)))
+                    .fold(Vec3A::ZERO, |sum, (x, weight)| sum + weight * x.transform_vector3a(along));
+                let is_mirrored = !is_even && mirrors(&blended(skinning, bones, vertex));
+                let handedness = if is_mirrored { -undeformed.w } else { undeformed.w };
+                *tangent = unit(posed, undeformed.truncate()).extend(handedness);
             }
         }
         None => {
             let missing = DeformError::MissingBone { vertex: 0, found: 0, bones: 0 };
             let x = bones.first().ok_or(missing)?;
+            let matrix = wide(x);
             for (vertex, undeformed) in mesh.normals.iter().enumerate() {
                 let normal = blended_normal(out.normals[vertex], *undeformed);
                 out.positions[vertex] = x.transform_point3a(out.positions[vertex].into()).into();
-                out.normals[vertex] = unit(x.transform_vector3a(normal), *undeformed);
+                let by_matrix = unit(x.transform_vector3a(normal), *undeformed);
+                out.normals[vertex] = if is_even { by_matrix } else { standing(&matrix, normal, by_matrix) };
             }
+            let is_mirrored = !is_even && mirrors(&matrix);
             for (tangent, undeformed) in out.tangents.iter_mut().zip(&mesh.tangents) {
-                let blended = blended_normal(tangent.truncate(), undeformed.truncate());
-                *tangent = unit(x.transform_vector3a(blended), undeformed.truncate()).extend(undeformed.w);
+                let along = blended_normal(tangent.truncate(), undeformed.truncate());
+                let handedness = if is_mirrored { -undeformed.w } else { undeformed.w };
+                *tangent = unit(x.transform_vector3a(along), undeformed.truncate()).extend(handedness);
             }
         }
     }
     Ok(())
+}
+
+/// What bones make of one vertex: position and normal, and the sums of what each makes of them.
+struct Sums {
+    position: Vec3A,
+    normal: Vec3A,
+    posed: [Vec3A; 2],
+}
+
+impl Sums {
+    fn add(
+        &mut self,
+        vertex: usize,
+        bones: &[Affine3A],
+        four: &[u16; 4],
+        weights: &[f32; 4],
+    ) -> Result<(), DeformError> {
+        for (&bone, &weight) in four.iter().zip(weights) {
+            let x = bones.get(usize::from(bone)).ok_or(DeformError::MissingBone {
+                vertex,
+                found: bone.into(),
+                bones: bones.len(),
+            })?;
+            self.posed[0] += weight * x.transform_point3a(self.position);
+            self.posed[1] += weight * x.transform_vector3a(self.normal);
+        }
+        Ok(())
+    }
+}
+
+/// The unit normal that stands on what a matrix makes of the surface, or `otherwise` where it makes nothing.
+fn standing(matrix: &DMat3, normal: Vec3A, otherwise: Vec3) -> Vec3 {
+    moved_normal(matrix, normal).map_or(otherwise, |normal| normal.as_vec3())
 }
 
 fn blended_normal(blended: Vec3, undeformed: Vec3) -> Vec3A {

@@ -1,4 +1,4 @@
-use crate::{Bounds, Mesh};
+use crate::{Bounds, Mesh, Skinning};
 use glam::{Affine3A, DVec3, Vec3};
 
 /// A box around whatever [`crate::deform()`] makes of a mesh, without looking at its vertices: never too
@@ -67,23 +67,34 @@ impl DeformBounds {
     /// Of a mesh that follows its own bones; one without skinning follows bone 0.
     pub fn new(mesh: &Mesh) -> Self {
         let Some(skinning) = &mesh.skinning else { return Self::rigid(mesh, 0) };
+        // Half the memory for the usual four.
+        if skinning.more_bones.is_empty() {
+            Self::skinned::<4>(mesh, skinning)
+        } else {
+            Self::skinned::<8>(mesh, skinning)
+        }
+    }
+
+    /// Of a mesh that has up to so many bones a vertex.
+    fn skinned<const BONES: usize>(mesh: &Mesh, skinning: &Skinning) -> Self {
         let mut bounds = Self::default();
-        let mut bones_of = vec![[None; 4]; mesh.positions.len()];
-        for (slots, (bones, weights)) in bones_of.iter_mut().zip(skinning.bones.iter().zip(&skinning.weights))
-        {
-            for (slot, (bone, weight)) in bones.iter().zip(weights).enumerate() {
-                let bone = Some(usize::from(*bone));
-                if *weight != 0.0 && !slots[..slot].contains(&bone) {
+        let mut bones_of = vec![[None; BONES]; mesh.positions.len()];
+        for (vertex, slots) in bones_of.iter_mut().enumerate() {
+            let (mut sum, mut below_zero) = (0.0, 0.0);
+            for (slot, (bone, weight)) in skinning.influences(vertex).take(BONES).enumerate() {
+                let bone = Some(usize::from(bone));
+                if weight != 0.0 && !slots[..slot].contains(&bone) {
                     slots[slot] = bone;
                 }
+                sum += f64::from(weight);
+                below_zero += (-f64::from(weight)).max(0.0);
             }
             // Without any weight a vertex is carried to the origin: the sum of 0 widens the box as far.
-            if *slots == [None; 4] {
-                slots[0] = Some(bones[0].into());
+            if *slots == [None; BONES] {
+                slots[0] = skinning.bones.get(vertex).map(|bones| usize::from(bones[0]));
             }
-            let weights = weights.map(f64::from);
-            bounds.overshoot = bounds.overshoot.max(weights.iter().map(|w| (-w).max(0.0)).sum());
-            bounds.sum_off = bounds.sum_off.max((weights.iter().sum::<f64>() - 1.0).abs());
+            bounds.overshoot = bounds.overshoot.max(below_zero);
+            bounds.sum_off = bounds.sum_off.max((sum - 1.0).abs());
         }
         bounds.bones = bone_bounds(mesh, bones_of);
         bounds
@@ -91,7 +102,7 @@ impl DeformBounds {
 
     /// Of a mesh all of whose vertices follow one bone, whatever its skinning says.
     pub fn rigid(mesh: &Mesh, bone: usize) -> Self {
-        let bones_of = vec![[Some(bone), None, None, None]; mesh.positions.len()];
+        let bones_of = vec![[Some(bone)]; mesh.positions.len()];
         Self { bones: bone_bounds(mesh, bones_of), ..Self::default() }
     }
 
@@ -130,7 +141,7 @@ impl DeformBounds {
             (min, max) = (min.min(middle - half), max.max(middle + half));
             furthest = furthest.max(reach * (center.abs() + (shaped.1 - shaped.0) * 0.5) + shift.abs());
         }
-        // Matrix times vector times weight, four times, in f32.
+        // Matrix times vector times weight, up to eight times, in f32: 13 roundings of half an epsilon.
         let rounding = 16.0 * f64::from(f32::EPSILON) * (1.0 + 2.0 * self.overshoot) * furthest;
         let wider = rounding + self.overshoot * (max - min) + self.sum_off * furthest;
         (min.x <= max.x).then(|| outward(min - wider, max + wider))
@@ -190,7 +201,7 @@ fn outward(min: DVec3, max: DVec3) -> Bounds {
 
 /// Gives each vertex, instead of its bones, the cells of these bones that it lies in, and says whose each
 /// cell is.
-fn cells(mesh: &Mesh, bones_of: &mut [[Option<usize>; 4]]) -> Vec<usize> {
+fn cells<const BONES: usize>(mesh: &Mesh, bones_of: &mut [[Option<usize>; BONES]]) -> Vec<usize> {
     let mut slots: Vec<(usize, usize, usize)> = Vec::new();
     for (vertex, bones) in bones_of.iter().enumerate() {
         let used = bones.iter().enumerate().filter_map(|(slot, bone)| Some((slot, (*bone)?)));
@@ -218,9 +229,12 @@ fn cells(mesh: &Mesh, bones_of: &mut [[Option<usize>; 4]]) -> Vec<usize> {
     cells
 }
 
-fn bone_bounds(mesh: &Mesh, mut bones_of: Vec<[Option<usize>; 4]>) -> Vec<BoneBounds> {
+fn bone_bounds<const BONES: usize>(
+    mesh: &Mesh,
+    mut bones_of: Vec<[Option<usize>; BONES]>,
+) -> Vec<BoneBounds> {
     let cells = cells(mesh, &mut bones_of);
-    let of = |vertex: usize| bones_of.get(vertex).copied().unwrap_or_default().into_iter().flatten();
+    let of = |vertex: usize| bones_of.get(vertex).copied().unwrap_or([None; BONES]).into_iter().flatten();
     let mut moved = vec![false; mesh.positions.len()];
     for (vertex, _) in mesh.shapes.iter().flat_map(|shape| shape.positions.iter()) {
         moved.get_mut(vertex).into_iter().for_each(|moved| *moved = true);

@@ -9,16 +9,18 @@
 //! along +Z, the character's left is +X. Texture coordinates have their origin at the top left corner of the
 //! image and v grows downward. Triangles run counter-clockwise seen from outside.
 //!
-//! With `b` the blend weights, `d`, `dn` a shape's offsets, `X` the bone matrices and `w` the four bone
-//! weights:
+//! With `b` the blend weights, `d`, `dn` a shape's offsets, `X` the bone matrices and `w` a vertex's bone
+//! weights, up to eight of them:
 //!
 //! ```text
-//!  v_blend = v + Σ_k b_k · d_k         v_out = Σ_{i=0..3} w_i · X_{bone_i} · v_blend
-//!  n_blend = n + Σ_k b_k · dn_k        n_out = normalize( Σ_{i=0..3} w_i · mat3(X_{bone_i}) · n_blend )
+//!  v_blend = v + Σ_k b_k · d_k         v_out = Σ_i w_i · X_{bone_i} · v_blend
+//!  n_blend = n + Σ_k b_k · dn_k        n_out = normalize( Σ_i w_i · mat3(X_{bone_i}) · n_blend )
 //! ```
 //!
-//! Tangents, where a mesh has them, follow as normals do. [`deform()`] is the reference that the GPU's
-//! results are held against.
+//! Where one of a mesh's bones scales unevenly, shears or mirrors, normals are turned by the inverse
+//! transpose of `Σ_i w_i · mat3(X_{bone_i})` instead, so that they stay normals. Tangents, where a mesh has
+//! them, follow the matrix itself. [`deform()`] is the reference that the GPU's results are held against;
+//! [`deformed_triangles`] reverses what bones mirror.
 //!
 //! ```
 //! use avatar_mesh::{deform, raw};
@@ -74,6 +76,7 @@
 mod bounds;
 mod offsets;
 mod shape;
+mod skinning;
 mod mesh;
 mod parts;
 mod validate;
@@ -83,6 +86,7 @@ mod winding;
 
 pub mod weights;
 mod smooth;
+mod turning;
 mod deform;
 mod deform_bounds;
 
@@ -95,11 +99,13 @@ pub mod obj;
 pub use bounds::Bounds;
 pub use deform::{DeformError, MIN_NORMAL_LENGTH, ShapeNormals, blend, deform, deform_with};
 pub use deform_bounds::{BoneBounds, DeformBounds};
-pub use mesh::{Deformed, Mesh, Skinning};
+pub use mesh::{Deformed, Mesh};
 pub use offsets::{Offsets, OffsetsError};
 pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec};
 pub use shape::Shape;
+pub use skinning::Skinning;
 pub use smooth::SmoothNormals;
+pub use turning::{deformed_triangles, turns_evenly};
 pub use validate::{MeshError, MeshWarning, WEIGHT_SUM_LIMIT, WEIGHT_SUM_TOLERANCE};
 pub use weld::{Welded, weld, weld_positions};
 pub use winding::Winding;

@@ -1,4 +1,4 @@
-use crate::{Bounds, Shape};
+use crate::{Bounds, Shape, Skinning};
 use glam::{Vec2, Vec3, Vec4};
 
 /// A triangle mesh that shapes and bones can deform. All vertex arrays have one length, but for those that
@@ -27,22 +27,6 @@ pub struct Mesh {
     pub shapes: Vec<Shape>,
 }
 
-/// Which bones move a vertex, and how much. The arrays are as long as the mesh has vertices, but for those
-/// that may be empty.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Skinning {
-    /// Four positions in the palette of bone matrices.
-    pub bones: Vec<[u16; 4]>,
-    /// Their weights; with [`Skinning::more_weights`], the sum is 1.
-    pub weights: Vec<[f32; 4]>,
-    /// The fifth to eighth bone of each vertex; empty where no vertex has more than four.
-    pub more_bones: Vec<[u16; 4]>,
-    /// Their weights; as long as [`Skinning::more_bones`].
-    pub more_weights: Vec<[f32; 4]>,
-    /// A column of the raw format without a known meaning, kept for writing it back; may be empty.
-    pub blend_index: Vec<Vec3>,
-}
-
 /// Deformed positions, normals and, where the mesh has them, tangents, one each per vertex of the mesh, in
 /// its order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,7 +35,8 @@ pub struct Deformed {
     pub positions: Vec<Vec3>,
     /// Unit normals in world space.
     pub normals: Vec<Vec3>,
-    /// Unit tangents in world space, with the handedness of the mesh; empty where the mesh has none.
+    /// Unit tangents in world space, with the handedness of the mesh, or the other one where bones mirror;
+    /// empty where the mesh has none.
     pub tangents: Vec<Vec4>,
 }
 

@@ -61,7 +61,8 @@ pub fn read_rigid(vertices: &[u8], indices: &[u8]) -> Result<Mesh, MeshError> {
 }
 
 /// Writes a vertex buffer: of a skin if the mesh has skinning, else of a rigid part. Columns that the mesh
-/// lacks (a third shape is beyond the format) are zero.
+/// lacks (a third shape is beyond the format) are zero; of more than four bones, a vertex keeps those of the
+/// largest weights ([`Skinning::largest_four`]).
 pub fn write_vertices(mesh: &Mesh) -> Vec<u8> {
     let mut out = Vec::new();
     let mut push = |values: &[f32]| out.extend(values.iter().flat_map(|value| value.to_le_bytes()));
@@ -71,8 +72,9 @@ pub fn write_vertices(mesh: &Mesh) -> Vec<u8> {
         push(&mesh.uvs.get(vertex).copied().unwrap_or_default().to_array());
         push(&at(&mesh.normals, vertex));
         let Some(skinning) = &mesh.skinning else { continue };
-        push(&skinning.bones.get(vertex).copied().unwrap_or_default().map(f32::from));
-        push(&skinning.weights.get(vertex).copied().unwrap_or_default());
+        let (bones, weights) = skinning.largest_four(vertex);
+        push(&bones.map(f32::from));
+        push(&weights);
         push(&at(&skinning.blend_index, vertex));
         for k in 0..FACE_SHAPES.len() {
             let shape = mesh.shapes.get(k);

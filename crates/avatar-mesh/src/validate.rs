@@ -60,7 +60,7 @@ pub enum MeshError {
     BoneIndex {
         /// The vertex.
         vertex: usize,
-        /// 0 to 3.
+        /// 0 to 7.
         slot: usize,
         /// The number.
         found: f32,
@@ -206,12 +206,17 @@ impl Mesh {
     fn check_skinning(&mut self, bones: usize) -> Result<Option<MeshWarning>, MeshError> {
         let Some(skinning) = &mut self.skinning else { return Ok(None) };
         let (mut renormalised, mut worst, mut worst_sum) = (0, 0, 1.0f64);
+        let beyond = |found: &u16| usize::from(*found) >= bones;
         for (vertex, (indices, weights)) in skinning.bones.iter().zip(&mut skinning.weights).enumerate() {
-            if let Some(slot) = indices.iter().position(|&bone| usize::from(bone) >= bones) {
-                let (found, last) = (f32::from(indices[slot]), bones.saturating_sub(1));
+            let more = skinning.more_bones.get(vertex);
+            if let Some(slot) = indices.iter().chain(more.into_iter().flatten()).position(beyond) {
+                let found = if slot < 4 { indices[slot] } else { more.map_or(0, |more| more[slot - 4]) };
+                let (found, last) = (f32::from(found), bones.saturating_sub(1));
                 return Err(MeshError::BoneIndex { vertex, slot, found, last });
             }
-            let sum: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
+            let more = skinning.more_weights.get_mut(vertex);
+            let all = || weights.iter().chain(more.iter().flat_map(|more| more.iter()));
+            let sum: f64 = all().map(|&weight| f64::from(weight)).sum();
             let off = (sum - 1.0).abs();
             if off > WEIGHT_SUM_LIMIT {
                 return Err(MeshError::WeightSum { vertex, found: sum });
@@ -221,7 +226,8 @@ impl Mesh {
                 if off > (worst_sum - 1.0).abs() {
                     (worst, worst_sum) = (vertex, sum);
                 }
-                weights.iter_mut().for_each(|weight| *weight = (f64::from(*weight) / sum) as f32);
+                let all = weights.iter_mut().chain(more.into_iter().flatten());
+                all.for_each(|weight| *weight = (f64::from(*weight) / sum) as f32);
             }
         }
         let warning = MeshWarning::Renormalised { vertices: renormalised, worst, sum: worst_sum };

@@ -34,6 +34,10 @@ fn frames_allocate_nothing() {
     nothing("recomputed normals", || {
         deform_with(&mesh, &bones, &w, ShapeNormals::Recomputed(&mut smooth), &mut out).unwrap();
     });
+    let mut eight = mesh.clone();
+    random.add_further_bones(&mut eight, 3);
+    let uneven: Vec<Affine3A> = (0..3).map(|_| random.uneven()).collect();
+    nothing("deform by eight uneven bones", || deform(&eight, &uneven, &w, &mut out).unwrap());
     nothing("bounds", || assert!(bounds.around(&bones, &w).is_some()));
     nothing("weights", || {
         weights::normalise(&mut w);

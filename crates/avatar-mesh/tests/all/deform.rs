@@ -32,12 +32,15 @@ fn naive(mesh: &Mesh, bones: &[Affine3A], weights: &[f32], vertex: usize) -> (V,
     };
     let v = blend(mesh.positions[vertex], &|shape| shape.positions.get(vertex).unwrap());
     let n = blend(mesh.normals[vertex], &|shape| shape.normals.as_ref().unwrap().get(vertex).unwrap());
-    let (bone, bone_weights) = match &mesh.skinning {
-        Some(skinning) => (skinning.bones[vertex], skinning.weights[vertex]),
-        None => ([0; 4], [1.0, 0.0, 0.0, 0.0]),
-    };
+    let mut influences = vec![(0, 1.0)];
+    if let Some(skinning) = &mesh.skinning {
+        influences = skinning.bones[vertex].into_iter().zip(skinning.weights[vertex]).collect();
+        for (bones, weights) in skinning.more_bones.iter().zip(&skinning.more_weights).skip(vertex).take(1) {
+            influences.extend(bones.iter().copied().zip(weights.iter().copied()));
+        }
+    }
     let (mut position, mut normal) = ([0.0; 3], [0.0; 3]);
-    for (&bone, &w) in bone.iter().zip(&bone_weights) {
+    for (bone, w) in influences {
         let x = &bones[usize::from(bone)];
         let (p, m) = (apply(x, v, 1.0), apply(x, n, 0.0));
         (0..3).for_each(|k| position[k] += f64::from(w) * p[k]);
@@ -71,12 +74,14 @@ proptest! {
         let mut mesh = random.mesh(vertices, weights.len(), bones);
         if !skinned {
             mesh.skinning = None;
+        } else if seed % 2 == 0 {
+            random.add_further_bones(&mut mesh, bones);
         }
         let palette: Vec<Affine3A> = (0..bones).map(|_| random.rigid()).collect();
         let out = deformed(&mesh, &palette, &weights);
         for vertex in 0..vertices {
             let (position, normal) = naive(&mesh, &palette, &weights, vertex);
-            // Coordinates reach some 50 here, where f32 has steps of 4e-6; some twenty of them add up.
+            // Coordinates reach some 50 here, where f32 has steps of 4e-6; some of them add up.
             prop_assert!(distance(out.positions[vertex], position) < 5e-5);
             let l = length(normal);
             prop_assert!((out.normals[vertex].length() - 1.0).abs() < 1e-6);
@@ -203,7 +208,12 @@ fn lengths_that_do_not_fit_are_errors() {
     let rigid = Mesh { skinning: None, shapes: vec![], ..mesh.clone() };
     assert_eq!(run(&rigid, &[], &[]), Err(DeformError::MissingBone { vertex: 0, found: 0, bones: 0 }));
 
-    let mut shorter: [(&str, Mesh); 5] = std::array::from_fn(|_| ("", mesh.clone()));
+    missing = mesh.clone();
+    random.add_further_bones(&mut missing, 3);
+    missing.skinning.as_mut().unwrap().more_bones[5] = [0, 1, 2, 9];
+    let error = run(&missing, &palette, &[0.0; 2]).unwrap_err();
+    assert_eq!(error, DeformError::MissingBone { vertex: 5, found: 9, bones: 3 });
+    let mut shorter: [(&str, Mesh); 7] = std::array::from_fn(|_| ("", mesh.clone()));
     let skinning = |mesh: &mut Mesh, edit: &dyn Fn(&mut Skinning)| edit(mesh.skinning.as_mut().unwrap());
     shorter[0].0 = "the mesh's normals";
     shorter[0].1.normals.pop();
@@ -215,6 +225,14 @@ fn lengths_that_do_not_fit_are_errors() {
     skinning(&mut shorter[3].1, &|s| s.bones.truncate(5));
     shorter[4].0 = "the bone weights";
     skinning(&mut shorter[4].1, &|s| s.weights.truncate(5));
+    let short = [vec![[0; 4]; 5], vec![[0; 4]; 6]];
+    shorter[5].0 = "the further bone indices";
+    skinning(&mut shorter[5].1, &|s| s.more_bones.clone_from(&short[0]));
+    shorter[6].0 = "the further bone weights";
+    skinning(&mut shorter[6].1, &|s| {
+        s.more_bones.clone_from(&short[1]);
+        s.more_weights = vec![[0.0; 4]; 5];
+    });
     for (what, mesh) in &shorter {
         let expected = DeformError::VertexCount { what, expected: 6, found: 5 };
         assert_eq!(run(mesh, &palette, &[0.0; 2]), Err(expected));

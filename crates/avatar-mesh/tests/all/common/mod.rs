@@ -97,4 +97,30 @@ impl Random {
         mesh.skinning = Some(skinning);
         mesh
     }
+
+    /// Gives the vertices of a mesh further bones, which take half of the weight; a third has none.
+    pub(crate) fn add_further_bones(&mut self, mesh: &mut Mesh, bones: usize) {
+        let Some(skinning) = &mut mesh.skinning else { return };
+        for weights in &mut skinning.weights {
+            skinning.more_bones.push(std::array::from_fn(|_| self.below(bones) as u16));
+            if self.below(3) == 0 {
+                skinning.more_weights.push([0.0; 4]);
+                continue;
+            }
+            *weights = weights.map(|weight| weight / 2.0);
+            skinning.more_weights.push([0.125, 0.25, 0.0625, 0.0625]);
+        }
+    }
+
+    /// A bone that scales each direction by its own factor, which may be negative, and shears.
+    pub(crate) fn uneven(&mut self) -> Affine3A {
+        let scale = Vec3::from_array([(); 3].map(|()| {
+            let size = 0.4 + 1.6 * self.signed().abs();
+            if self.below(3) == 0 { -size } else { size }
+        }));
+        let turn = |random: &mut Self| Quat::from_axis_angle(random.unit(), random.signed() * 3.0);
+        let (first, second) = (turn(self), turn(self));
+        let shift = self.vec3(10.0);
+        Affine3A::from_scale_rotation_translation(scale, second, shift) * Affine3A::from_quat(first)
+    }
 }

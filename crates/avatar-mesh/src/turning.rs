@@ -1,0 +1,91 @@
+//! What bone matrices do to directions: to normals, and to the way that triangles run around.
+
+use crate::{Mesh, Skinning};
+use glam::{Affine3A, DMat3, DVec3, Vec3A};
+use std::borrow::Cow;
+
+/// How far axes may be from equal lengths and right angles before normals need a matrix of their own:
+/// relative, and well below what is seen.
+const MAX_UNEVENNESS: f64 = 1e-4;
+
+/// Whether a bone turns normals as it turns everything: a rotation with one scale for all directions, which
+/// may be 0. Others scale unevenly, shear or mirror.
+pub fn turns_evenly(bone: &Affine3A) -> bool {
+    let matrix = wide(bone);
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
+    let size = x.length_squared();
+    let off = [x.dot(y), y.dot(z), z.dot(x), y.length_squared() - size, z.length_squared() - size];
+    off.iter().all(|off| off.abs() <= MAX_UNEVENNESS * size) && !mirrors(&matrix)
+}
+
+/// The directions of a bone matrix.
+pub(crate) fn wide(bone: &Affine3A) -> DMat3 {
+    bone.matrix3.as_dmat3()
+}
+
+/// Whether a matrix makes a left hand of a right one. A flat one does not.
+pub(crate) fn mirrors(matrix: &DMat3) -> bool {
+    matrix.x_axis.dot(matrix.y_axis.cross(matrix.z_axis)) < 0.0
+}
+
+/// The direction of a normal that stands on a surface which a matrix moves: the inverse transpose, up to a
+/// positive factor. It is computed as the cofactors times the sign of the determinant, which exist for flat
+/// matrices, too. `None` where that has no direction.
+pub(crate) fn moved_normal(matrix: &DMat3, normal: Vec3A) -> Option<DVec3> {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
+    let sign = if mirrors(matrix) { -1.0 } else { 1.0 };
+    (DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * normal.as_dvec3() * sign).try_normalize()
+}
+
+/// The directions of the mean of a vertex's bones; bones beyond the palette count as nothing.
+pub(crate) fn blended(skinning: &Skinning, bones: &[Affine3A], vertex: usize) -> DMat3 {
+    let moving = skinning.influences(vertex).filter_map(|(bone, w)| Some((bones.get(usize::from(bone))?, w)));
+    moving.fold(DMat3::ZERO, |sum, (bone, weight)| sum + wide(bone) * f64::from(weight))
+}
+
+/// Whether all bones that move a mesh turn evenly ([`turns_evenly`]). Cheap where all of the palette do, and
+/// else one look at all weights.
+pub(crate) fn all_turn_evenly(mesh: &Mesh, bones: &[Affine3A]) -> bool {
+    let Some(skinning) = &mesh.skinning else { return bones.first().is_none_or(turns_evenly) };
+    if bones.iter().all(turns_evenly) {
+        return true;
+    }
+    let sets = [(&skinning.bones, &skinning.weights), (&skinning.more_bones, &skinning.more_weights)];
+    let moving = sets
+        .into_iter()
+        .flat_map(|(bones, weights)| bones.as_flattened().iter().zip(weights.as_flattened()))
+        .filter(|(_, weight)| **weight != 0.0);
+    let mut last = None;
+    moving.into_iter().all(|(bone, _)| {
+        // Neighbours mostly have the same bones.
+        let is_known = last.replace(*bone) == Some(*bone);
+        is_known || bones.get(usize::from(*bone)).is_none_or(turns_evenly)
+    })
+}
+
+/// The triangles of a mesh as they run around what [`crate::deform()`] makes of it. Bones that mirror turn
+/// fronts into backs: triangles most of whose corners they carry are reversed, so that all stay
+/// counter-clockwise seen from outside (glTF 2.0, section 3.7.4, says the same of nodes with a negative
+/// determinant). Borrowed where nothing is mirrored.
+pub fn deformed_triangles<'a>(mesh: &'a Mesh, bones: &[Affine3A]) -> Cow<'a, [[u32; 3]]> {
+    if all_turn_evenly(mesh, bones) {
+        return Cow::Borrowed(&mesh.triangles);
+    }
+    let reversed = |[a, b, c]: [u32; 3]| [a, c, b];
+    match &mesh.skinning {
+        None => match bones.first().is_some_and(|bone| mirrors(&wide(bone))) {
+            true => mesh.triangles.iter().map(|corners| reversed(*corners)).collect(),
+            false => Cow::Borrowed(&mesh.triangles),
+        },
+        Some(skinning) => {
+            let is_mirrored: Vec<bool> =
+                (0..mesh.positions.len()).map(|vertex| mirrors(&blended(skinning, bones, vertex))).collect();
+            let is_corner = |corner: &&u32| is_mirrored.get(**corner as usize) == Some(&true);
+            let run = |corners: &[u32; 3]| match corners.iter().filter(is_corner).count() {
+                0 | 1 => *corners,
+                _ => reversed(*corners),
+            };
+            mesh.triangles.iter().map(run).collect()
+        }
+    }
+}
