@@ -50,6 +50,7 @@
 //! - [`weights`]: relative and absolute forms, normalised weights. All functions on weights work with any
 //!   renderer.
 //! - [`drivers`]: in-between shapes, and combinations that count as the product of others.
+//! - [`expressions`]: expressions that add shapes up and hold each other back, as those of VRM.
 //! - [`sequence`]: geometries as keys in time, with any transition function.
 //! - [`space`]: weights as points along named axes, and their mixtures.
 //! - [`coherence`]: whether geometries of several files have the same vertices in the same order.
@@ -91,6 +92,7 @@ mod deform;
 mod deform_bounds;
 
 pub mod drivers;
+pub mod expressions;
 pub mod space;
 pub mod sequence;
 pub mod coherence;

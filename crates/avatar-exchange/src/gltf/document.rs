@@ -12,7 +12,7 @@ const KNOWN_EXTENSIONS: &[&str] = &["KHR_mesh_quantization", "KHR_texture_transf
 const REPRESENTED_EXTENSIONS: usize = 1;
 
 /// The place of notes on extensions of the file as a whole.
-pub(crate) const EXTENSIONS_USED: &str = "extensionsUsed";
+pub(super) const EXTENSIONS_USED: &str = "extensionsUsed";
 
 /// A file while it is read: its structures, the bytes behind them, and the notes so far.
 pub(super) struct Document<'a> {

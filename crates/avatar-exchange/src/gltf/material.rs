@@ -119,8 +119,7 @@ impl Document<'_> {
         let Some(used) = used else { return Ok(None) };
         let place = format!("{place}, {}", used.what);
         let texture = in_range("textures", &self.root.textures, used.texture.value())?;
-        // The structures' word for no image.
-        let image = Some(texture.source.value()).filter(|source| *source != u32::MAX as usize);
+        let image = image_of(texture);
         let sampler = match texture.sampler {
             Some(sampler) => Some(in_range("samplers", &self.root.samplers, sampler.value())?),
             None => None,
@@ -143,4 +142,10 @@ impl Document<'_> {
         }
         Ok(image.map(TextureRef::from))
     }
+}
+
+/// The image of a texture.
+pub(super) fn image_of(texture: &Texture) -> Option<usize> {
+    // The structures' word for no image.
+    Some(texture.source.value()).filter(|source| *source != u32::MAX as usize)
 }

@@ -23,8 +23,6 @@ mod uri;
 
 use crate::scene::{ImportError, RawScene, Resolve, Scene};
 use document::Document;
-#[cfg(feature = "vrm")]
-pub(crate) use document::EXTENSIONS_USED;
 
 pub use container::{Container, split};
 
@@ -64,6 +62,12 @@ pub(crate) struct Extras {
     pub(crate) extensions: serde_json::Map<String, serde_json::Value>,
     /// For each mesh of the file the nodes that show it.
     pub(crate) nodes_of_meshes: Vec<Vec<usize>>,
+    /// For each node its extensions by name.
+    pub(crate) nodes: Vec<serde_json::Map<String, serde_json::Value>>,
+    /// For each material its extensions by name.
+    pub(crate) materials: Vec<serde_json::Map<String, serde_json::Value>>,
+    /// For each texture its image.
+    pub(crate) textures: Vec<Option<usize>>,
 }
 
 /// As [`read_raw()`], with what the scene lacks; the JSON is parsed once.
@@ -80,7 +84,12 @@ pub(crate) fn read_with_extras(
         let mesh = node.mesh.and_then(|mesh| nodes_of_meshes.get_mut(mesh.value()));
         mesh.into_iter().for_each(|nodes| nodes.push(number));
     }
-    Ok((read_scene(document)?, Extras { extensions, nodes_of_meshes }))
+    let nodes = document.root.nodes.iter().map(|node| node.extensions.as_ref());
+    let nodes = nodes.map(|all| all.map(|all| all.others.clone()).unwrap_or_default()).collect();
+    let materials = document.root.materials.iter().map(|material| material.extensions.as_ref());
+    let materials = materials.map(|all| all.map(|all| all.others.clone()).unwrap_or_default()).collect();
+    let textures = document.root.textures.iter().map(material::image_of).collect();
+    Ok((read_scene(document)?, Extras { extensions, nodes_of_meshes, nodes, materials, textures }))
 }
 
 fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportError> {

@@ -1,5 +1,6 @@
-use super::{Expression, Override, Vrm};
+use super::{Expression, Vrm};
 use crate::scene::ScenePose;
+use avatar_mesh::expressions::{self, Group};
 use std::collections::BTreeMap;
 
 const BLINK: [&str; 3] = ["blink", "blinkLeft", "blinkRight"];
@@ -28,37 +29,28 @@ impl ShapeWeights {
 impl Expression {
     /// The value that is used: clamped to 0…1, and either 0 or 1 for binary expressions. NaN counts as 0.
     pub fn output(&self, value: f32) -> f32 {
-        let value = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
-        match self.is_binary {
-            true => f32::from(u8::from(value > 0.5)),
-            false => value,
+        expressions::output(value, self.is_binary)
+    }
+
+    /// The expression as [`avatar_mesh::expressions::add`] takes it. `place` says where the weight of a shape
+    /// at a node is; shapes without a place are left out.
+    pub fn in_places(&self, mut place: impl FnMut(usize, usize) -> Option<usize>) -> expressions::Expression {
+        let groups = [(Group::Blink, &BLINK[..]), (Group::LookAt, &LOOK_AT), (Group::Mouth, &MOUTH)];
+        let group = groups.iter().find(|(_, names)| names.contains(&self.name.as_str()));
+        let binds = self.binds.iter();
+        expressions::Expression {
+            is_binary: self.is_binary,
+            group: group.map(|(group, _)| *group),
+            overrides: [self.override_blink, self.override_look_at, self.override_mouth],
+            binds: binds.filter_map(|bind| Some((place(bind.node, bind.shape)?, bind.weight))).collect(),
         }
     }
 }
 
-impl Override {
-    /// How much an expression with this output takes from others.
-    fn rate(self, output: f32) -> f32 {
-        match self {
-            Self::None => 0.0,
-            Self::Block => f32::from(u8::from(output > 0.0)),
-            Self::Blend => output,
-        }
-    }
-}
-
-/// Weights of shapes from values of expressions by name, as VRM 1.0 says (`expressions.md`, "Procedural
-/// override"):
+/// Weights of shapes from values of expressions by name, by the formula of [`avatar_mesh::expressions`].
 ///
-/// ```text
-/// output = clamp(value), or 1 where a binary one is above 0.5, else 0
-/// rate   = Σ over expressions, 1 for a block with output > 0, the output for a blend
-/// factor = 1 − clamp(rate)             for blinks, looks and mouths; 0 of a binary one with a rate above 0
-/// weight = Σ output · factor · weight of the bind
-/// ```
-///
-/// An expression does not override others of its own kind. Names that the avatar lacks are ignored,
-/// expressions without value have 0, and of two values for a name the later one counts.
+/// Names that the avatar lacks are ignored, expressions without value have 0, and of two values for a name the
+/// later one counts.
 ///
 /// ```
 /// use avatar_exchange::vrm::{Expression, MorphBind, Override, Vrm, expression_weights};
@@ -73,24 +65,17 @@ impl Override {
 /// ```
 pub fn expression_weights(vrm: &Vrm, values: &[(&str, f32)]) -> ShapeWeights {
     let value = |name: &str| values.iter().rev().find(|(other, _)| *other == name).map_or(0.0, |(_, v)| *v);
-    let outputs: Vec<f32> = vrm.expressions.iter().map(|e| e.output(value(&e.name))).collect();
-    let rate = |kind: &[&str], of: fn(&Expression) -> Override| {
-        let others = vrm.expressions.iter().zip(&outputs).filter(|(e, _)| !kind.contains(&e.name.as_str()));
-        others.map(|(expression, output)| of(expression).rate(*output)).sum::<f32>().clamp(0.0, 1.0)
-    };
-    let rates = [
-        (&BLINK[..], rate(&BLINK, |expression| expression.override_blink)),
-        (&LOOK_AT[..], rate(&LOOK_AT, |expression| expression.override_look_at)),
-        (&MOUTH[..], rate(&MOUTH, |expression| expression.override_mouth)),
-    ];
-    let mut weights = ShapeWeights::default();
-    for (expression, output) in vrm.expressions.iter().zip(&outputs) {
-        let rate = rates.iter().find(|(kind, _)| kind.contains(&expression.name.as_str()));
-        let rate = rate.map_or(0.0, |(_, rate)| *rate);
-        let factor = if expression.is_binary && rate > 0.0 { 0.0 } else { 1.0 - rate };
-        for bind in &expression.binds {
-            *weights.by_shape.entry((bind.node, bind.shape)).or_insert(0.0) += output * factor * bind.weight;
-        }
-    }
-    weights
+    let values: Vec<f32> = vrm.expressions.iter().map(|expression| value(&expression.name)).collect();
+    let mut places: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    let expressions: Vec<_> = (vrm.expressions.iter())
+        .map(|expression| {
+            expression.in_places(|node, shape| {
+                let next = places.len();
+                Some(*places.entry((node, shape)).or_insert(next))
+            })
+        })
+        .collect();
+    let mut weights = vec![0.0; places.len()];
+    expressions::add(&expressions, &values, &mut weights);
+    ShapeWeights { by_shape: places.into_iter().map(|(shape, place)| (shape, weights[place])).collect() }
 }

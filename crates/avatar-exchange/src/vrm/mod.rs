@@ -2,8 +2,8 @@
 //! eyes look.
 //!
 //! ```text
-//!  bytes ──gltf──▶ scene
-//!        └─JSON──▶ v1 / v0 ──▶ Vrm { humanoid, expressions, look_at, meta }
+//!  bytes ──gltf──▶ scene ◀── mtoon / mtoon_v0: materials as cartoons
+//!        └─JSON──▶ v1 / v0 ──▶ Vrm { meta, humanoid, expressions, look_at, first_person, springs, constraints }
 //!
 //!  values of expressions ──expression_weights──▶ weights of shapes at nodes
 //!  head, target ──LookAt::gaze──▶ angles ──eyes──▶ turns of eye bones
@@ -12,20 +12,33 @@
 //!
 //! Names are those of VRM 1.0: older ones are translated. Angles are in degrees, as in the files.
 
+mod place;
+mod meta;
 mod expression;
 mod look_at;
-mod place;
+mod first_person;
+mod descent;
+mod spring;
+mod spring_v0;
+mod constraint;
+mod mtoon;
+mod mtoon_v0;
 mod v0;
 mod v1;
 
 use crate::gltf;
 use crate::scene::{Finding, ImportError, Node, Note, RawScene, Resolve, Scene, Transform, Trs};
-use glam::{Quat, Vec3};
+use glam::Quat;
 use place::Place;
 use serde_json::Value;
 
+pub use avatar_mesh::expressions::Override;
+pub use constraint::{ConstraintKind, NodeConstraint};
 pub use expression::{ShapeWeights, expression_weights};
+pub use first_person::{FirstPerson, FirstPersonView};
 pub use look_at::{EyeTurn, Gaze, LookAt, LookAtKind, RangeMap};
+pub use meta::Meta;
+pub use spring::{ColliderGroup, ColliderShape, SpringChain, SpringCollider, SpringJoint, Springs};
 
 /// A scene, and what it means as an avatar.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +62,12 @@ pub struct Vrm {
     pub expressions: Vec<Expression>,
     /// How the eyes look at things.
     pub look_at: Option<LookAt>,
+    /// What is seen through the avatar's own eyes.
+    pub first_person: FirstPerson,
+    /// What swings.
+    pub springs: Springs,
+    /// Nodes that turn with others, in the order of the nodes that turn.
+    pub constraints: Vec<NodeConstraint>,
 }
 
 /// A generation of VRM.
@@ -59,19 +78,6 @@ pub enum Version {
     /// 1.0.
     #[default]
     V1,
-}
-
-/// Who made an avatar, and what may be done with it. All may be empty.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Meta {
-    /// Its name.
-    pub title: String,
-    /// Its version.
-    pub version: String,
-    /// Its authors.
-    pub authors: Vec<String>,
-    /// Name or address of its licence.
-    pub licence: String,
 }
 
 /// An expression of the face: shapes with their weights, and how it changes other expressions.
@@ -91,18 +97,6 @@ pub struct Expression {
     pub override_mouth: Override,
     /// Shapes that make it.
     pub binds: Vec<MorphBind>,
-}
-
-/// What an expression does to others.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Override {
-    /// Nothing.
-    #[default]
-    None,
-    /// Any value above 0 puts them to 0.
-    Block,
-    /// Its value takes that much of theirs.
-    Blend,
 }
 
 /// A shape that takes part in an expression.
@@ -168,15 +162,24 @@ fn read_vrm(raw: &mut RawScene, extras: gltf::Extras) -> Result<Vrm, ImportError
     let extensions = Place::new(&extensions, "extensions");
     let extension = |name: &str| extensions.get(name);
     // A file may carry both, for older programs.
-    let (vrm, name) = match (extension("VRMC_vrm")?, extension("VRM")?) {
-        (Some(vrm), _) => (v1::read(&vrm, raw)?, "VRMC_vrm"),
-        (None, Some(vrm)) => (v0::read(&vrm, &extras.nodes_of_meshes, raw)?, "VRM"),
+    let (vrm, represented) = match (extension("VRMC_vrm")?, extension("VRM")?) {
+        (Some(vrm), _) => {
+            let mut vrm = v1::read(&vrm, raw)?;
+            let springs = extension("VRMC_springBone")?.map(|place| spring::read(&place, raw)).transpose()?;
+            vrm.springs = springs.unwrap_or_default();
+            vrm.constraints = constraint::read(&extras.nodes, raw)?;
+            mtoon::read(&extras.materials, &extras.textures, raw)?;
+            (vrm, &["VRMC_vrm", "VRMC_springBone", constraint::EXTENSION, mtoon::EXTENSION][..])
+        }
+        (None, Some(vrm)) => (v0::read(&vrm, &extras.nodes_of_meshes, &extras.textures, raw)?, &["VRM"][..]),
         (None, None) => {
             return Err(ImportError::new("extensions", "VRMC_vrm (VRM 1.0) or VRM (0.x)", "neither"));
         }
     };
-    let represented = Note::new(gltf::EXTENSIONS_USED, Finding::Extension(name.to_owned()));
-    raw.notes.retain(|note| *note != represented);
+    raw.notes.retain(|note| match &note.finding {
+        Finding::Extension(name) => !represented.contains(&name.as_str()),
+        _ => true,
+    });
     for bone in REQUIRED_BONES.iter().filter(|bone| vrm.bone(bone).is_none()) {
         note(raw, "humanoid", Finding::Missing(format!("lacks the bone {bone}")));
     }
@@ -198,8 +201,4 @@ fn turn(raw: &mut RawScene) {
     let local = Transform::Trs(Trs { rotation: Quat::from_xyzw(0.0, 1.0, 0.0, 0.0), ..Trs::default() });
     raw.nodes.push(Node { name: "VRM 0.x".to_owned(), parent: None, local, weights: Vec::new() });
     note(raw, "VRM", Finding::converted("looks along -Z: it is turned around by a root node"));
-}
-
-fn vec3(values: [f32; 3]) -> Vec3 {
-    Vec3::from_array(values)
 }

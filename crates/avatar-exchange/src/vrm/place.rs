@@ -1,5 +1,7 @@
-use crate::scene::ImportError;
+use crate::scene::{Finding, ImportError, Note, RawScene};
+use glam::Vec3;
 use serde_json::Value;
+use std::ops::RangeInclusive;
 
 /// A value of the JSON and its place, which every error names.
 #[derive(Clone, Debug)]
@@ -39,10 +41,27 @@ impl<'v> Place<'v> {
 
     /// Members of an object in the file's order, without nulls; none where there is no such object.
     pub(super) fn members(&self, key: &str) -> Result<Vec<(&'v str, Self)>, ImportError> {
-        let Some(object) = self.get(key)? else { return Ok(Vec::new()) };
-        let members = object.value.as_object().ok_or_else(|| object.wrong("an object"))?;
+        self.get(key)?.map_or_else(|| Ok(Vec::new()), |object| object.all_members())
+    }
+
+    /// The same of this object.
+    pub(super) fn all_members(&self) -> Result<Vec<(&'v str, Self)>, ImportError> {
+        let members = self.value.as_object().ok_or_else(|| self.wrong("an object"))?;
         let members = members.iter().filter(|(_, value)| !value.is_null());
-        Ok(members.map(|(name, value)| (name.as_str(), object.below(name, value))).collect())
+        Ok(members.map(|(name, value)| (name.as_str(), self.below(name, value))).collect())
+    }
+
+    /// A text, number or truth value, or a list of these, as text; empty for anything else.
+    pub(super) fn texts(&self) -> String {
+        match self.value {
+            Value::String(text) => text.clone(),
+            Value::Bool(_) | Value::Number(_) => self.value.to_string(),
+            Value::Array(items) => {
+                let texts: Vec<&str> = items.iter().filter_map(Value::as_str).collect();
+                texts.join(", ")
+            }
+            _ => String::new(),
+        }
     }
 
     /// Elements of a list; none where there is no such list.
@@ -90,5 +109,65 @@ impl<'v> Place<'v> {
     /// As [`Place::index`]; `None` for −1, by which older files say that there is none.
     pub(super) fn index_or_none(&self, what: &str, length: usize) -> Result<Option<usize>, ImportError> {
         if self.value.as_i64() == Some(-1) { Ok(None) } else { self.index(what, length).map(Some) }
+    }
+
+    /// Positions in a list of this length; none where there is no such member.
+    pub(super) fn indices(&self, key: &str, what: &str, length: usize) -> Result<Vec<usize>, ImportError> {
+        self.list(key)?.iter().map(|index| index.index(what, length)).collect()
+    }
+
+    /// As [`Place::float_or`]; what is out of range is brought into it, with a note.
+    pub(super) fn clamped(
+        &self,
+        key: &str,
+        default: f32,
+        range: RangeInclusive<f32>,
+        raw: &mut RawScene,
+    ) -> Result<f32, ImportError> {
+        let found = self.float_or(key, default)?;
+        let value = found.clamp(*range.start(), *range.end());
+        if value != found {
+            let text = format!("{found} is out of range: {value} is taken");
+            raw.notes.push(Note::new(format!("{}.{key}", self.path), Finding::Mended(text)));
+        }
+        Ok(value)
+    }
+
+    /// A list of three or four numbers, as many as the default has.
+    pub(super) fn floats_or<const N: usize>(
+        &self,
+        key: &str,
+        default: [f32; N],
+    ) -> Result<[f32; N], ImportError> {
+        let Some(place) = self.get(key)? else { return Ok(default) };
+        let numbers: Vec<f32> = self.list(key)?.iter().map(Place::float).collect::<Result<_, _>>()?;
+        numbers
+            .try_into()
+            .map_err(|_| place.wrong(format!("{} numbers", if N == 3 { "three" } else { "four" })))
+    }
+
+    /// Three numbers.
+    pub(super) fn vec3_or(&self, key: &str, default: Vec3) -> Result<Vec3, ImportError> {
+        Ok(Vec3::from_array(self.floats_or(key, default.to_array())?))
+    }
+
+    /// A version that has to be 1.0 or one of its betas.
+    pub(super) fn version_1(&self, key: &str) -> Result<(), ImportError> {
+        let version = self.need(key)?;
+        if version.str()?.starts_with("1.0") { Ok(()) } else { Err(version.wrong("version 1.0")) }
+    }
+
+    /// Whether the value is the same as that of a JSON text, which has its numbers as floats.
+    pub(super) fn is(&self, text: &str) -> bool {
+        same(self.value, &serde_json::from_str(text).unwrap_or_default())
+    }
+}
+
+/// Equality in which 0 and 0.0 are the same.
+fn same(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
+        (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
+        (a, b) => a == b,
     }
 }

@@ -1,8 +1,11 @@
 //! VRM 0.x: the extension `VRM`, <https://github.com/vrm-c/vrm-specification/tree/master/specification/0.0>.
 
+use super::meta::terms;
 use super::place::Place;
-use super::{Expression, LookAt, LookAtKind, Meta, MorphBind, RangeMap, Version, Vrm, note, vec3};
+use super::{Expression, LookAt, LookAtKind, Meta, MorphBind, RangeMap, Version, Vrm, note};
+use super::{first_person, mtoon_v0, spring_v0};
 use crate::scene::{Finding, ImportError, RawScene};
+use glam::Vec3;
 use std::collections::HashSet;
 
 /// Presets of 0.x by what VRM 1.0 calls them.
@@ -42,9 +45,11 @@ fn translated<'n>(names: &[(&str, &'n str)], name: &str) -> Option<&'n str> {
 }
 
 /// `nodes_of_meshes` are per mesh of the file the nodes that show it: expressions of 0.x speak of meshes.
+/// `textures` are the image of each texture.
 pub(super) fn read(
     vrm: &Place<'_>,
     nodes_of_meshes: &[Vec<usize>],
+    textures: &[Option<usize>],
     raw: &mut RawScene,
 ) -> Result<Vrm, ImportError> {
     let mut humanoid = Vec::new();
@@ -69,7 +74,20 @@ pub(super) fn read(
         }
     }
     let look_at = vrm.get("firstPerson")?.map(|place| look_at(&place, raw)).transpose()?;
-    Ok(Vrm { version: Version::V0, meta: meta(vrm)?, humanoid, expressions, look_at })
+    let first_person = vrm.get("firstPerson")?;
+    let first_person = first_person.map(|place| first_person::read_v0(&place, nodes_of_meshes, raw));
+    let springs = vrm.get("secondaryAnimation")?.map(|place| spring_v0::read(&place, raw)).transpose()?;
+    mtoon_v0::read(vrm, textures, raw)?;
+    Ok(Vrm {
+        version: Version::V0,
+        meta: meta(vrm)?,
+        humanoid,
+        expressions,
+        look_at,
+        first_person: first_person.transpose()?.unwrap_or_default(),
+        springs: springs.unwrap_or_default(),
+        constraints: Vec::new(),
+    })
 }
 
 fn meta(vrm: &Place<'_>) -> Result<Meta, ImportError> {
@@ -82,6 +100,7 @@ fn meta(vrm: &Place<'_>) -> Result<Meta, ImportError> {
         version: meta.text("version")?,
         authors: if author.is_empty() { Vec::new() } else { vec![author] },
         licence,
+        terms: terms(&meta, &["title", "version", "author", "licenseName", "texture"])?,
     })
 }
 
@@ -131,7 +150,7 @@ fn look_at(place: &Place<'_>, raw: &mut RawScene) -> Result<LookAt, ImportError>
         // Of a left-handed space: forward is +z there and −z in the file.
         Some(offset) => {
             let [x, y, z] = ["x", "y", "z"].map(|axis| offset.float_or(axis, 0.0));
-            vec3([x?, y?, -z?])
+            Vec3::new(x?, y?, -z?)
         }
     };
     let mut range = |key: &str| {

@@ -1,15 +1,15 @@
 //! VRM 1.0: the extension `VRMC_vrm`, <https://github.com/vrm-c/vrm-specification>.
 
+use super::first_person;
+use super::meta::terms;
 use super::place::Place;
-use super::{Expression, LookAt, LookAtKind, Meta, MorphBind, Override, RangeMap, Version, Vrm, note, vec3};
+use super::{Expression, LookAt, LookAtKind, Meta, MorphBind, Override, RangeMap, Version, Vrm, note};
 use crate::scene::{Finding, ImportError, RawScene};
+use glam::Vec3;
 use std::collections::HashSet;
 
 pub(super) fn read(vrm: &Place<'_>, raw: &mut RawScene) -> Result<Vrm, ImportError> {
-    let version = vrm.need("specVersion")?;
-    if !version.str()?.starts_with("1.0") {
-        return Err(version.wrong("version 1.0"));
-    }
+    vrm.version_1("specVersion")?;
     let mut humanoid = Vec::new();
     for (bone, place) in vrm.need("humanoid")?.members("humanBones")? {
         let node = place.need("node")?.index("a node", raw.nodes.len())?;
@@ -31,7 +31,16 @@ pub(super) fn read(vrm: &Place<'_>, raw: &mut RawScene) -> Result<Vrm, ImportErr
         }
     }
     let look_at = vrm.get("lookAt")?.map(|place| look_at(&place)).transpose()?;
-    Ok(Vrm { version: Version::V1, meta: meta(vrm)?, humanoid, expressions, look_at })
+    let first_person = vrm.get("firstPerson")?.map(|place| first_person::read(&place, raw)).transpose()?;
+    Ok(Vrm {
+        version: Version::V1,
+        meta: meta(vrm)?,
+        humanoid,
+        expressions,
+        look_at,
+        first_person: first_person.unwrap_or_default(),
+        ..Vrm::default()
+    })
 }
 
 fn meta(vrm: &Place<'_>) -> Result<Meta, ImportError> {
@@ -43,6 +52,7 @@ fn meta(vrm: &Place<'_>) -> Result<Meta, ImportError> {
         version: meta.text("version")?,
         authors: authors.collect::<Result<_, _>>()?,
         licence: meta.text("licenseUrl")?,
+        terms: terms(&meta, &["name", "version", "authors", "licenseUrl", "thumbnailImage"])?,
     })
 }
 
@@ -94,11 +104,9 @@ fn look_at(place: &Place<'_>) -> Result<LookAt, ImportError> {
             _ => return Err(kind.wrong("bone or expression")),
         },
     };
-    let offset = place.list("offsetFromHeadBone")?;
-    let offset_from_head = match &offset[..] {
-        [] => LookAt::default().offset_from_head,
-        [x, y, z] => vec3([x.float()?, y.float()?, z.float()?]),
-        _ => return Err(place.need("offsetFromHeadBone")?.wrong("three numbers")),
+    let offset_from_head = match place.list("offsetFromHeadBone")?.is_empty() {
+        true => LookAt::default().offset_from_head,
+        false => place.vec3_or("offsetFromHeadBone", Vec3::ZERO)?,
     };
     let range = |key: &str| match place.get(key)? {
         None => Ok(RangeMap::default()),

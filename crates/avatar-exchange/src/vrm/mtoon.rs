@@ -1,0 +1,129 @@
+//! Cartoon looks: the extension `VRMC_materials_mtoon` 1.0,
+//! <https://github.com/vrm-c/vrm-specification/tree/master/specification/VRMC_materials_mtoon-1.0>.
+
+use super::note;
+use super::place::Place;
+use crate::scene::{Finding, ImportError, RawScene, TextureRef, ToonMaterial, UvSet};
+use serde_json::{Map, Value};
+
+/// The name of the extension.
+pub(super) const EXTENSION: &str = "VRMC_materials_mtoon";
+
+/// What the extension can say and [`ToonMaterial`] does not hold, each with the value at which it changes
+/// nothing.
+const OTHERS: [(&str, &str); 13] = [
+    ("shadingShiftTexture", "null"),
+    ("matcapTexture", "null"),
+    ("parametricRimColorFactor", "[0.0,0.0,0.0]"),
+    ("rimMultiplyTexture", "null"),
+    ("outlineWidthMultiplyTexture", "null"),
+    ("outlineLightingMixFactor", "0.0"),
+    ("uvAnimationMaskTexture", "null"),
+    ("uvAnimationScrollXSpeedFactor", "0.0"),
+    ("uvAnimationScrollYSpeedFactor", "0.0"),
+    ("uvAnimationRotationSpeedFactor", "0.0"),
+    ("transparentWithZWrite", "false"),
+    ("renderQueueOffsetNumber", "0.0"),
+    ("giEqualizationFactor", "0.9"),
+];
+
+/// Fills in [`crate::scene::Material::toon`]. `extensions` are those of each material, `textures` the image
+/// of each texture.
+pub(super) fn read(
+    extensions: &[Map<String, Value>],
+    textures: &[Option<usize>],
+    raw: &mut RawScene,
+) -> Result<(), ImportError> {
+    for (material, extension) in extensions.iter().enumerate().take(raw.materials.len()) {
+        let Some(value) = extension.get(EXTENSION) else { continue };
+        let place = Place::new(value, &format!("material {material}, {EXTENSION}"));
+        let toon = toon(&place, textures, raw)?;
+        raw.materials[material].toon = Some(toon);
+        // It stands there for programs that do not know the extension.
+        raw.materials[material].is_unlit = false;
+    }
+    Ok(())
+}
+
+fn toon(
+    place: &Place<'_>,
+    textures: &[Option<usize>],
+    raw: &mut RawScene,
+) -> Result<ToonMaterial, ImportError> {
+    place.version_1("specVersion")?;
+    let rest = ToonMaterial::default();
+    let width = place.clamped("outlineWidthFactor", rest.outline_width, 0.0..=f32::MAX, raw)?;
+    let mode = place.text("outlineWidthMode")?;
+    let outline_width = match mode.as_str() {
+        "" | "none" => 0.0,
+        "worldCoordinates" => width,
+        "screenCoordinates" => {
+            if width > 0.0 {
+                let text = "an outline of constant width on the screen is not represented";
+                note(raw, place.path(), Finding::left_out(text));
+            }
+            0.0
+        }
+        _ => {
+            let expected = "none, worldCoordinates or screenCoordinates";
+            return Err(place.need("outlineWidthMode")?.wrong(expected));
+        }
+    };
+    let shade_texture = place.get("shadeMultiplyTexture")?;
+    let shade_texture = shade_texture.map(|used| texture(&used, textures, raw)).transpose()?.flatten();
+    note_the_rest(place, outline_width, raw)?;
+    Ok(ToonMaterial {
+        shade_color: place.floats_or("shadeColorFactor", rest.shade_color)?,
+        shade_texture,
+        shading_shift: place.clamped("shadingShiftFactor", rest.shading_shift, -1.0..=1.0, raw)?,
+        shading_toony: place.clamped("shadingToonyFactor", rest.shading_toony, 0.0..=1.0, raw)?,
+        outline_width,
+        outline_color: place.floats_or("outlineColorFactor", rest.outline_color)?,
+    })
+}
+
+/// A texture, as glTF's materials name them.
+fn texture(
+    place: &Place<'_>,
+    textures: &[Option<usize>],
+    raw: &mut RawScene,
+) -> Result<Option<TextureRef>, ImportError> {
+    let image = textures[place.need("index")?.index("a texture", textures.len())?];
+    let uvs = match place.float_or("texCoord", 0.0)? {
+        0.0 => UvSet::First,
+        1.0 => UvSet::Second,
+        other => {
+            let text = format!("TEXCOORD_{other} is not represented: TEXCOORD_0 is used");
+            note(raw, place.path(), Finding::LeftOut(text));
+            UvSet::First
+        }
+    };
+    let extensions = place.get("extensions")?;
+    let transform = extensions.map(|extensions| extensions.get("KHR_texture_transform")).transpose()?;
+    if transform.flatten().is_some() {
+        let text = "its transform is taken as that of the base colour's texture";
+        note(raw, place.path(), Finding::converted(text));
+    }
+    if image.is_none() {
+        note(raw, place.path(), Finding::missing("has no image"));
+    }
+    Ok(image.map(|image| TextureRef { image, uvs }))
+}
+
+/// One note for all that is left out.
+fn note_the_rest(place: &Place<'_>, outline_width: f32, raw: &mut RawScene) -> Result<(), ImportError> {
+    let mut left_out = Vec::new();
+    for (key, neutral) in OTHERS {
+        let Some(found) = place.get(key)? else { continue };
+        // Without an outline, nothing about one counts.
+        let counts = outline_width > 0.0 || !key.starts_with("outline");
+        if counts && !found.is(neutral) {
+            left_out.push(key);
+        }
+    }
+    if !left_out.is_empty() {
+        let text = format!("{} are not represented", left_out.join(", "));
+        note(raw, place.path(), Finding::LeftOut(text));
+    }
+    Ok(())
+}
