@@ -1,12 +1,16 @@
 //! The poses that an imported face begins with.
 
 use super::shape_sets::ShapeSet;
-use pose_anim::{Control, ControlTable, Drive, Pose, PoseSet, face};
+use pose_anim::{ControlTable, Drive, Pose, PoseSet, face};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::OnceLock;
 
-/// How much of its range a control moves at least in a pose that is nothing without it.
-const LEADS: f32 = 1.0 / 3.0;
+/// How much of its range a control moves at least where a pose may be nothing without it.
+const COUNTS: f32 = 1.0 / 3.0;
+/// The share of the furthest move from which on a control leads: the pose is nothing without it.
+const LEADS: f32 = 0.5;
+/// The share of all moves that count which a face may lack, where none of them leads.
+const SMALL: f32 = 1.0 / 3.0;
 
 /// Shapes that show what a control of the nine-joint face does: a line of `assets/stand_ins.txt`.
 struct StandIn {
@@ -24,6 +28,11 @@ impl StandIn {
     fn all() -> &'static [Self] {
         static ALL: OnceLock<Vec<StandIn>> = OnceLock::new();
         ALL.get_or_init(|| lines().filter_map(Self::of_line).collect())
+    }
+
+    /// Those of a control: one for each direction.
+    fn of(control: &str) -> impl Iterator<Item = &'static Self> {
+        Self::all().iter().filter(move |stand_in| stand_in.control == control)
     }
 
     fn of_line(line: &'static str) -> Option<Self> {
@@ -82,67 +91,119 @@ impl<'a> Translation<'a> {
         Self { face: ControlTable::default_face(), controls, by_shape }
     }
 
-    /// Says a pose in the controls of the other face; `false` where that cannot show it.
+    /// Says a pose in the controls of the other face; `false` where that cannot show it: where it lacks a
+    /// control that leads, or more than a small share of what the pose does. What moves little, or not at
+    /// all, takes no pose away.
     fn apply(&self, pose: &mut Pose) -> bool {
-        let value_of = |name: &str| self.face.index(name).and_then(|index| pose.value(index)).unwrap_or(0.0);
-        // Shapes that close an eye close it by both lids.
-        let open = |lid: &str| (1.0 - value_of(lid) / 45.0).clamp(0.0, 1.0);
-        let moved = |(control, value): &(&Control, f32)| *value != control.default;
-        let of_face = pose.values.iter().map(|(index, value)| (&self.face.controls()[*index], *value));
-        let has_leader = of_face.clone().filter(moved).any(|(control, value)| leads(control, value));
-        let mut values: BTreeMap<usize, f32> = BTreeMap::new();
-        for (control, value) in of_face {
-            let name = control.name.as_str();
-            if let Some(here) = self.controls.index(name) {
-                let range = &self.controls.controls()[here];
-                values.insert(here, value.max(range.min).min(range.max));
+        let moves = self.moves(pose);
+        let most = moves.iter().map(|one| one.amount).fold(0.0, f32::max);
+        let counts = |one: &Move<'_>| one.amount >= COUNTS;
+        let all: f32 = moves.iter().filter(|one| counts(one)).map(|one| one.amount).sum();
+        let (mut missing, mut values) = (0.0, BTreeMap::new());
+        for one in &moves {
+            let is_shown = self.show(one, &mut values);
+            if is_shown || !counts(one) {
                 continue;
             }
-            let share = match name {
-                face::LID_LEFT_LOWER => open(face::LID_LEFT_UPPER),
-                face::LID_RIGHT_LOWER => open(face::LID_RIGHT_UPPER),
-                _ => 1.0,
-            };
-            let mut is_shown = !moved(&(control, value)) || has_leader && !leads(control, value);
-            for (full, shapes) in self.shapes_for(name) {
-                // The shapes of the other direction go to rest.
-                let weight = (value / full).clamp(0.0, 1.0);
-                is_shown |= weight > 0.0;
-                for shape in shapes {
-                    let sum = values.entry(shape).or_insert(0.0);
-                    *sum = sum.max(share * weight);
-                }
-            }
-            if !is_shown {
+            if one.amount >= LEADS * most {
                 return false;
             }
+            missing += one.amount;
+        }
+        if missing > SMALL * all {
+            return false;
         }
         let timings = pose.timings.iter().flat_map(|(index, timing)| {
             let name = self.face.controls()[*index].name.as_str();
             let own = self.controls.index(name).into_iter();
-            own.chain(self.shapes_for(name).flat_map(|(_, shapes)| shapes)).map(|here| (here, *timing))
+            let shapes = StandIn::of(name).filter_map(|stand_in| self.shapes_of(stand_in)).flatten();
+            own.chain(shapes).map(|here| (here, *timing))
         });
         pose.timings = timings.collect();
         pose.values = values.into_iter().collect();
         true
     }
 
-    /// The shapes that stand for a control in each of its directions, by their controls, and its value where
-    /// they are there in full.
-    fn shapes_for(&self, control: &str) -> impl Iterator<Item = (f32, Vec<usize>)> {
-        let stand_ins = StandIn::all().iter().filter(move |stand_in| stand_in.control == control);
-        stand_ins.filter_map(|StandIn { full, ways, .. }| {
-            let all = |way: &Vec<&str>| way.iter().map(|shape| self.by_shape.get(shape).copied()).collect();
-            Some((*full, ways.iter().find_map(all)?))
-        })
+    /// What the pose asks of each control of the nine-joint face.
+    fn moves(&self, pose: &Pose) -> Vec<Move<'_>> {
+        let value_of = |name: &str| self.face.index(name).and_then(|index| pose.value(index)).unwrap_or(0.0);
+        // Shapes that close an eye close it by both lids.
+        let open = |lid: &str| (1.0 - value_of(lid) / 45.0).clamp(0.0, 1.0);
+        let of_control = |(index, value): &(usize, f32)| {
+            let control = &self.face.controls()[*index];
+            let share = match control.name.as_str() {
+                face::LID_LEFT_LOWER => open(face::LID_LEFT_UPPER),
+                face::LID_RIGHT_LOWER => open(face::LID_RIGHT_UPPER),
+                _ => 1.0,
+            };
+            let limit = if *value < 0.0 { control.min } else { control.max };
+            let is_by_the_way = match control.name.as_str() {
+                // Heads turn in most poses, and none is about that alone.
+                face::HEAD_TURN | face::HEAD_BOW | face::HEAD_BEND => true,
+                face::LID_LEFT_UPPER => follows_gaze(*value, value_of(face::EYE_LEFT_UD)),
+                face::LID_RIGHT_UPPER => follows_gaze(*value, value_of(face::EYE_RIGHT_UD)),
+                _ => false,
+            };
+            let is_moved = *value != control.default && limit != 0.0;
+            let amount = if is_moved && !is_by_the_way { share * (value / limit).abs() } else { 0.0 };
+            Move { name: &control.name, value: *value, share, amount }
+        };
+        pose.values.iter().map(of_control).collect()
+    }
+
+    /// Shows a move by the control of its name, or by shapes that mean the same; `false` where the face has
+    /// neither.
+    fn show(&self, one: &Move<'_>, values: &mut BTreeMap<usize, f32>) -> bool {
+        if let Some(here) = self.controls.index(one.name) {
+            let range = &self.controls.controls()[here];
+            values.insert(here, one.value.max(range.min).min(range.max));
+            return true;
+        }
+        let mut is_shown = false;
+        for stand_in in StandIn::of(one.name) {
+            // The shapes of the other direction go to rest.
+            let weight = (one.value / stand_in.full).clamp(0.0, 1.0);
+            match self.shapes_of(stand_in) {
+                Some(shapes) => {
+                    is_shown |= weight > 0.0;
+                    for shape in shapes {
+                        let sum = values.entry(shape).or_insert(0.0);
+                        *sum = sum.max(one.share * weight);
+                    }
+                }
+                // Half of a frown shows nothing, but must not stay from the pose before.
+                None => stand_in.ways.iter().flatten().filter_map(|shape| self.by_shape.get(shape)).for_each(
+                    |shape| {
+                        values.entry(*shape).or_insert(0.0);
+                    },
+                ),
+            }
+        }
+        is_shown
+    }
+
+    /// The shapes that show what a stand-in is for, by their controls: the first way that the face has all
+    /// shapes of.
+    fn shapes_of(&self, stand_in: &StandIn) -> Option<Vec<usize>> {
+        let all = |way: &Vec<&str>| way.iter().map(|shape| self.by_shape.get(shape).copied()).collect();
+        stand_in.ways.iter().find_map(all)
     }
 }
 
-/// Whether a pose is nothing without this. Heads turn in most of them, and none is about that alone.
-fn leads(control: &Control, value: f32) -> bool {
-    let limit = if value < 0.0 { control.min } else { control.max };
-    ![face::HEAD_TURN, face::HEAD_BOW, face::HEAD_BEND].contains(&control.name.as_str())
-        && (value / limit).abs() >= LEADS
+/// What a pose asks of one control of the nine-joint face.
+struct Move<'a> {
+    name: &'a str,
+    value: f32,
+    /// How much of the value is left to shapes; what closes the eye from above leaves less to the lower lid.
+    share: f32,
+    /// How much of its range the control moves, `share` included; 0 for what every face can do without.
+    amount: f32,
+}
+
+/// Whether an upper lid only goes along with its eye: the same way, and no further. Both in degrees; a lid
+/// shuts with positive values, an eye looks up with them.
+fn follows_gaze(lid: f32, eye_up: f32) -> bool {
+    lid * eye_up < 0.0 && lid.abs() <= eye_up.abs()
 }
 
 #[cfg(test)]

@@ -33,13 +33,13 @@ fn import(scene: RawScene) -> Import {
 }
 
 /// One part with shapes of these names.
-fn face(shapes: &[&str]) -> Import {
+pub(crate) fn face(shapes: &[&str]) -> Import {
     let nodes = vec![Node { weights: vec![0.0; shapes.len()], ..Node::default() }];
     let parts = vec![ScenePart::rigid("face", 0, mesh(&[Vec3::ZERO], shapes))];
     import(RawScene { nodes, parts, ..RawScene::default() })
 }
 
-fn values(pack: &Pack, pose: &str) -> Vec<(String, f32)> {
+pub(crate) fn values(pack: &Pack, pose: &str) -> Vec<(String, f32)> {
     let pose = pack.poses().get(pose).unwrap_or_else(|| panic!("a pose {pose}"));
     let name = |index: usize| pack.controls().controls()[index].name.clone();
     pose.values.iter().map(|(index, value)| (name(*index), *value)).collect()
