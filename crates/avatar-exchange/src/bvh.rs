@@ -1,7 +1,8 @@
 //! Biovision hierarchies: a skeleton, and its motion as one clip.
 //!
-//! The format states neither axes nor units: they stay as they are. A joint's translation is its offset plus
-//! its position channels; its rotation is the product of its rotation channels in their order, so that the
+//! The format states neither axes nor units: they stay as they are. At rest a joint stands at its offset; in a
+//! frame its position channels take the offset's place, as in Blender and in the files of programs that write
+//! positions for every joint. Its rotation is the product of its rotation channels in their order, so that the
 //! last one acts first.
 //!
 //! ```
@@ -16,7 +17,7 @@
 use crate::build::text::{at_line, decode, float, number, shown, stem};
 use crate::scene::{
     Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Node, Note, RawScene, Scene,
-    Transform, Trs,
+    Transform, Trs, quoted,
 };
 use glam::{DQuat, DVec3, Quat, Vec3};
 
@@ -83,6 +84,15 @@ struct Joint {
     node: Node,
     offset: DVec3,
     channels: Vec<Moves>,
+}
+
+impl Joint {
+    /// Whether a place differs from an offset that is not 0, by more than its file's digits: roots often have
+    /// an offset of 0 and positions in the room, which is what everybody expects.
+    fn is_moved_off(&self, translation: Vec3) -> bool {
+        let distance = translation.as_dvec3().distance(self.offset);
+        self.offset != DVec3::ZERO && distance > 1e-3 * self.offset.length()
+    }
 }
 
 /// All joints, up to and including the line MOTION.
@@ -190,6 +200,8 @@ fn motion(lines: &mut Lines<'_>, name: &str, joints: Vec<Joint>) -> Result<RawSc
             channel(ChannelTarget::Rotation);
         }
     }
+    // Where the first frame puts joints elsewhere than the rest pose does.
+    let mut moved = Vec::new();
     // Without channels a frame is an empty line, and empty lines are skipped.
     for frame in 0..if numbers == 0 { 0 } else { frames } {
         let text = lines.expect(&format!("frame {frame} of {frames}"))?;
@@ -199,6 +211,9 @@ fn motion(lines: &mut Lines<'_>, name: &str, joints: Vec<Joint>) -> Result<RawSc
         let mut channels = clip.channels.iter_mut().peekable();
         for (node, joint) in joints.iter().enumerate() {
             let (translation, rotation) = local(line, joint, &mut words)?;
+            if frame == 0 && joint.is_moved_off(translation) {
+                moved.push(joint.node.name.as_str());
+            }
             while let Some(channel) = channels.next_if(|channel| channel.node == node) {
                 channel.times.push(time);
                 match channel.target {
@@ -210,6 +225,14 @@ fn motion(lines: &mut Lines<'_>, name: &str, joints: Vec<Joint>) -> Result<RawSc
         if let Some(word) = words.next() {
             return Err(at_line(line, format!("{numbers} numbers"), format!("{} after them", shown(word))));
         }
+    }
+    if let [first, ..] = moved[..] {
+        let text = format!(
+            "positions take the place of offsets: the first frame has {} joints elsewhere than at rest, the first is {}",
+            moved.len(),
+            quoted(first)
+        );
+        raw.notes.push(Note::new("the frames", Finding::Converted(text)));
     }
     // Recorders are known to write a frame more than they tell.
     if lines.next().is_some() && numbers > 0 {
@@ -250,7 +273,7 @@ fn local<'a>(
     for moves in &joint.channels {
         let value = f64::from(float(line, "a number for each channel", words.next())?);
         match *moves {
-            Moves::Position(axis) => translation[axis] += value,
+            Moves::Position(axis) => translation[axis] = value,
             Moves::Rotation(axis) => {
                 rotation *= DQuat::from_axis_angle(DVec3::AXES[axis], value.to_radians())
             }

@@ -6,7 +6,8 @@ use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 
 /// The text of a file: what its byte-order mark says (UTF-8 or UTF-16), else UTF-8, else Windows-1252, of
-/// which Latin-1 is a part. Never fails: sequences that the encoding lacks are replaced.
+/// which Latin-1 is a part. Never fails: sequences that the encoding lacks are replaced. Without the zero at
+/// its end that programs in C leave there.
 #[cfg(any(feature = "obj", feature = "bvh", feature = "md5"))]
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     decode_as(bytes, None)
@@ -15,6 +16,25 @@ pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
 /// As [`decode`], for a format that can say its encoding. Valid UTF-8 is taken as such whatever the file
 /// says, since editors change the bytes and leave the statement.
 pub(crate) fn decode_as<'a>(bytes: &'a [u8], stated: Option<&'static Encoding>) -> Cow<'a, str> {
+    without_end_mark(decode_all(bytes, stated))
+}
+
+/// Leaves out zeros at the end, and Control-Z, the end of a text for CP/M and DOS, with blanks between them.
+pub(crate) fn without_end_mark(mut text: Cow<'_, str>) -> Cow<'_, str> {
+    const MARKS: [char; 2] = ['\0', '\u{1a}'];
+    let is_end = |c: char| MARKS.contains(&c) || c.is_ascii_whitespace();
+    let end = text.trim_end_matches(is_end).len();
+    // Blanks alone stay: lines are counted.
+    if let Some(mark) = text[end..].find(MARKS).map(|at| end + at) {
+        match &mut text {
+            Cow::Borrowed(text) => *text = &text[..mark],
+            Cow::Owned(text) => text.truncate(mark),
+        }
+    }
+    text
+}
+
+fn decode_all<'a>(bytes: &'a [u8], stated: Option<&'static Encoding>) -> Cow<'a, str> {
     if let Some((encoding, mark)) = Encoding::for_bom(bytes) {
         return encoding.decode_without_bom_handling(&bytes[mark..]).0;
     }

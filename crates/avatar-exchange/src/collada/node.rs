@@ -36,9 +36,20 @@ impl<'a> Reader<'a> {
             Some(instance) => Some(instance.target("url")?),
             None => root.path(&["library_visual_scenes", "visual_scene"]),
         };
-        let Some(shown) = shown else {
-            self.note(root, Finding::missing("there is no visual scene"));
-            return Ok(nodes);
+        let tops = match shown {
+            Some(shown) => children(shown)?,
+            // Skeletons come this way, too: as nodes that no scene shows.
+            None => {
+                let libraries: Vec<At<'a>> = root.all("library_nodes").collect();
+                self.note(
+                    root,
+                    Finding::missing(match libraries.is_empty() {
+                        true => "there is no visual scene",
+                        false => "there is no visual scene, so all nodes of the library are shown",
+                    }),
+                );
+                libraries.into_iter().map(children).collect::<Result<Vec<_>, _>>()?.concat()
+            }
         };
         let mut top = None;
         if conversion != DMat4::IDENTITY {
@@ -46,8 +57,7 @@ impl<'a> Reader<'a> {
             self.scene.nodes.push(Node { name: "conversion".to_owned(), local, ..Node::default() });
             top = Some(0);
         }
-        let mut stack: Vec<(At<'a>, Option<usize>)> =
-            children(shown)?.into_iter().map(|at| (at, top)).rev().collect();
+        let mut stack: Vec<(At<'a>, Option<usize>)> = tops.into_iter().map(|at| (at, top)).rev().collect();
         while let Some((at, parent)) = stack.pop() {
             let number = self.scene.nodes.len();
             if number >= MAX_NODES {

@@ -4,7 +4,7 @@ use super::Reader;
 use super::controller::{Morph, chain};
 use super::node::Nodes;
 use super::xml::At;
-use crate::scene::{ImportError, Node, ScenePart};
+use crate::scene::{Finding, ImportError, Node, ScenePart};
 use std::collections::{HashMap, HashSet};
 
 /// Nodes whose weights a `<source>` holds.
@@ -52,6 +52,11 @@ impl<'a> Reader<'a> {
         Ok(self.scene.nodes.len() - 1)
     }
 
+    fn has_geometries(&self) -> bool {
+        let mut libraries = self.tree.root().all("library_geometries");
+        libraries.any(|library| library.all("geometry").next().is_some())
+    }
+
     fn instance(
         &mut self,
         node: usize,
@@ -60,7 +65,17 @@ impl<'a> Reader<'a> {
         materials: &HashMap<usize, usize>,
         weights: &mut WeightNodes,
     ) -> Result<(), ImportError> {
-        let chain = chain(at)?;
+        let chain = match chain(at) {
+            Ok(chain) => chain,
+            // Exporters of motion leave all meshes out, and let the instances of them stand.
+            Err(error) if !self.has_geometries() => {
+                let text =
+                    format!("its mesh is left out: expected {}, found {}", error.expected, error.found);
+                self.note(at, Finding::Missing(text));
+                return Ok(());
+            }
+            Err(error) => return Err(error),
+        };
         let geometry = self.geometry(chain.geometry)?;
         let morph = match chain.morph {
             Some(morph) => self.morph(morph, &geometry)?,

@@ -1,6 +1,6 @@
 //! The file as a tree, without namespaces.
 
-use crate::build::text::decode_as;
+use crate::build::text::{decode_as, without_end_mark};
 use crate::scene::ImportError;
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE};
 use quick_xml::events::{BytesStart, Event};
@@ -235,8 +235,8 @@ impl<'a> At<'a> {
 fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, ImportError> {
     let stated = match bytes {
         [] => return Err(ImportError::new("byte 0", "COLLADA as text", "no bytes")),
-        [b'<', 0, ..] => return Ok(UTF_16LE.decode_without_bom_handling(bytes).0),
-        [0, b'<', ..] => return Ok(UTF_16BE.decode_without_bom_handling(bytes).0),
+        [b'<', 0, ..] => return Ok(without_end_mark(UTF_16LE.decode_without_bom_handling(bytes).0)),
+        [0, b'<', ..] => return Ok(without_end_mark(UTF_16BE.decode_without_bom_handling(bytes).0)),
         _ => stated_encoding(bytes),
     };
     Ok(decode_as(bytes, stated))

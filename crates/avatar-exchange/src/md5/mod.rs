@@ -1,7 +1,8 @@
 //! Meshes and animations of id Tech 4: `.md5mesh` and `.md5anim`, version 10.
 //!
-//! The format counts z upward and its triangles run clockwise. Numbers stay those of the file, below a root
-//! node that turns z to y; triangles are turned around. Texture coordinates begin at the top left already.
+//! In the format z points up and models look along x; triangles run clockwise. Numbers stay those of the file,
+//! below a root node that turns x to z, y to x and z to y, so that faces look along +Z; triangles are turned
+//! around. Texture coordinates begin at the top left already.
 //! Normals are computed, since there are none in the file, and a shader is a name only.
 //!
 //! ```
@@ -32,6 +33,9 @@ use crate::scene::{
 use glam::{DAffine3, Quat};
 use words::Words;
 
+/// A third of a turn about the diagonal, which is exact in f32: x becomes z, y becomes x, z becomes y.
+const WORLD_FROM_MODEL: Quat = Quat::from_xyzw(-0.5, -0.5, -0.5, 0.5);
+
 /// Reads a mesh and any number of its animations, each of which becomes a clip.
 ///
 /// # Errors
@@ -48,7 +52,8 @@ pub fn read_raw(mesh: TextFile<'_>, animations: &[TextFile<'_>]) -> Result<RawSc
     let text = decode(mesh.bytes);
     let model = mesh::read(&mut Words::new(&text)).map_err(|error| error.in_file(mesh.file))?;
     let mut raw = scene(stem(mesh.file), model);
-    let turned = Finding::converted("z is up there: the node above all joints turns it to y");
+    let turned = "z is up and x is forward there: the node above all joints turns them to y and z";
+    let turned = Finding::converted(turned);
     raw.notes.push(Note::new(mesh.file, turned));
     for animation in animations {
         let text = decode(animation.bytes);
@@ -62,7 +67,7 @@ pub fn read_raw(mesh: TextFile<'_>, animations: &[TextFile<'_>]) -> Result<RawSc
 /// One node that turns the axes, then the joints in their order.
 fn scene(name: &str, model: mesh::Model) -> RawScene {
     let mut raw = RawScene { notes: model.notes, materials: model.materials, ..RawScene::default() };
-    let upright = Trs { rotation: Quat::from_rotation_x(-std::f32::consts::FRAC_PI_2), ..Trs::default() };
+    let upright = Trs { rotation: WORLD_FROM_MODEL, ..Trs::default() };
     raw.nodes.push(Node { name: name.to_owned(), local: Transform::Trs(upright), ..Node::default() });
     let models: Vec<DAffine3> = model.joints.iter().map(|joint| joint.model_from_joint()).collect();
     for (joint, model_from_joint) in model.joints.iter().zip(&models) {

@@ -24,9 +24,9 @@ ROOT hip bone
 MOTION
 Frames: 3
 Frame Time: 0.25
-0 0 0 0 0 0 0
-1 0 0 90 0 0 0
-0 0 -1 90 90 0 90
+1 2 3 0 0 0 0
+2 2 3 90 0 0 0
+1 2 2 90 90 0 90
 ";
 
 fn good(text: &str) -> Scene {
@@ -64,6 +64,54 @@ fn joints_move_as_their_channels_say() {
             assert!(found.abs_diff_eq(DVec3::from(point), 1e-5), "{time}: {found} {point:?}");
         }
     }
+}
+
+/// As motion libraries write them: every joint has positions, which repeat its offset.
+const SIX: &str = "HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+  JOINT Spine
+  {
+    OFFSET 0 10 0
+    CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation
+    JOINT Head
+    {
+      OFFSET 0 5 1
+      CHANNELS 1 Yposition
+      End Site
+      {
+        OFFSET 0 5 0
+      }
+    }
+  }
+}
+MOTION
+Frames: 2
+Frame Time: 0.1
+0 90 0 0 0 0 0 10 0 0 0 0 5
+0 90 0 0 0 0 0 12 0 90 0 0 7
+";
+
+#[test]
+fn positions_take_the_place_of_offsets() {
+    let scene = good(SIX);
+    let expect = |time, points: [[f64; 3]; 4]| {
+        for (found, point) in ends(&scene, time).iter().zip(points) {
+            assert!(found.abs_diff_eq(DVec3::from(point), 1e-5), "{time}: {found} {point:?}");
+        }
+    };
+    expect(0.0, [[0.0, 90.0, 0.0], [0.0, 100.0, 0.0], [0.0, 105.0, 1.0], [0.0, 110.0, 1.0]]);
+    // The spine moves and turns y to -x; what no channel moves of the head's offset stays.
+    expect(0.1, [[0.0, 90.0, 0.0], [0.0, 102.0, 0.0], [-7.0, 102.0, 1.0], [-12.0, 102.0, 1.0]]);
+    let rest: Vec<f64> = scene.worlds(&scene.rest()).iter().map(|world| world.translation.y).collect();
+    assert_eq!(rest, [0.0, 10.0, 15.0, 20.0]);
+    assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+    // Positions that do not repeat the offset put the joint elsewhere from the first frame on.
+    let moved = good(&SIX.replace("0 90 0 0 0 0 0 10 0 0", "0 90 0 0 0 0 0 0 0 0"));
+    let note = moved.notes[0].to_string();
+    assert!(note.contains("1 joints elsewhere than at rest, the first is 'Spine'"), "{note}");
 }
 
 #[test]
@@ -107,9 +155,9 @@ fn errors_name_their_line() {
         ("0.25", "-0.25", 18),
         ("0.25", "inf", 18),
         ("Frame Time", "Time", 18),
-        ("1 0 0 90 0 0 0", "1 0 0 90 0 0", 20),
-        ("1 0 0 90 0 0 0", "1 0 0 90 0 0 0 0", 20),
-        ("1 0 0 90 0 0 0", "1 0 0 90 0 0 x", 20),
+        ("2 2 3 90 0 0 0", "2 2 3 90 0 0", 20),
+        ("2 2 3 90 0 0 0", "2 2 3 90 0 0 0 0", 20),
+        ("2 2 3 90 0 0 0", "2 2 3 90 0 0 x", 20),
         ("  }\n}\n", "  }\n", 15),
         ("\nMOTION", "\n}\nMOTION", 16),
     ] {
@@ -174,7 +222,9 @@ fn the_face_units_load() {
     }
     let worlds = scene.worlds(&scene.rest());
     assert!(worlds[worlds.len() - 1].translation.abs_diff_eq(last, 1e-5));
-    // Something moves in every frame but the first, which is the rest.
+    // The root stands at 0 in all frames, which is not its offset.
+    assert!(scene.notes[0].to_string().contains("the first is 'root'"), "{:?}", scene.notes);
+    // Something turns in every frame but the first, which is the rest.
     let moved = |frame: usize| {
         let pose = scene.at(0, frame as f64 * 0.041_667).expect("a clip");
         let angle =

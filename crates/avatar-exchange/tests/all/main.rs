@@ -35,5 +35,7 @@ mod md5;
 mod obj;
 #[cfg(feature = "target")]
 mod target;
+#[cfg(all(feature = "obj", feature = "fbx", feature = "collada", feature = "md5", feature = "bvh"))]
+mod text_end;
 #[cfg(feature = "vrm")]
 mod vrm;

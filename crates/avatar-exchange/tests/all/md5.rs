@@ -116,14 +116,15 @@ fn vertices_come_from_weights() {
     assert!(skinning.weights[3].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6));
     let notes: Vec<_> = scene.notes.iter().map(|note| note.finding.to_string()).collect();
     assert!(
-        notes[0].starts_with("1 vertices have more than four weights") && notes[1].starts_with("z is up"),
+        notes[0].starts_with("1 vertices have more than four weights")
+            && notes[1].starts_with("z is up and x is forward"),
         "{notes:?}"
     );
     assert_eq!(scene.materials[scene.parts[0].material.expect("a material")].name, "models/arm");
-    // y is up in the world.
+    // In the world y is up, and the model looks along z: (x, y, z) is (y, z, x).
     let worlds = scene.worlds(&scene.rest());
     assert_eq!(scene.nodes[2].name, "hand");
-    assert!(worlds[2].translation.abs_diff_eq(DVec3::new(4.0, 10.0, 0.0), 1e-6));
+    assert!(worlds[2].translation.abs_diff_eq(DVec3::new(0.0, 10.0, 4.0), 1e-6));
 }
 
 #[test]
@@ -131,16 +132,13 @@ fn animations_become_clips() {
     let scene = read_texts(MESH, &[("walk.md5anim", ANIM), ("wave.md5anim", ANIM)]).expect("good files");
     let names: Vec<_> = scene.clips.iter().map(|clip| clip.name.as_str()).collect();
     assert_eq!((names, scene.clips[0].duration_secs()), (vec!["walk", "wave"], 0.25));
-    // As at bind pose, but 2 higher: (x, y, z) is (x, z, −y) in the world.
-    close(
-        &posed(&scene, 1, 0.0),
-        &[[0.0, 12.0, 0.0], [6.0, 12.0, 0.0], [2.0, 12.0, -2.0], [6.0, 12.0, -3.0]],
-    );
+    // As at bind pose, but 2 higher: (x, y, z) is (y, z, x) in the world.
+    close(&posed(&scene, 1, 0.0), &[[0.0, 12.0, 0.0], [0.0, 12.0, 6.0], [2.0, 12.0, 2.0], [3.0, 12.0, 6.0]]);
     // The hand at (4, 1), not turned: its (0, −2) is at (4, −1), its (2, 2) at (6, 3); vertex 3 was at its
     // (3, −2), now (7, −1).
     let share = 0.4 / 0.95;
-    let last = [6.0 + share, 12.0, -(3.0 - 4.0 * share)];
-    close(&posed(&scene, 0, 0.25), &[[0.0, 12.0, 0.0], [4.0, 12.0, 1.0], [4.0, 12.0, -2.5], last]);
+    let last = [3.0 - 4.0 * share, 12.0, 6.0 + share];
+    close(&posed(&scene, 0, 0.25), &[[0.0, 12.0, 0.0], [-1.0, 12.0, 4.0], [2.5, 12.0, 4.0], last]);
 }
 
 #[test]

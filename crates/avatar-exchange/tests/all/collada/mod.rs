@@ -208,8 +208,8 @@ fn errors_have_places() {
         (&nodes("<node>\n<translate>1 2</translate></node>"), "line 2, <translate>", "3 numbers"),
         (&nodes("<node>\n\n<rotate>1 2 x 4</rotate></node>"), "line 3, <rotate>", "numbers"),
         (
-            &nodes("<node><instance_geometry url='#none'/></node>"),
-            "line 1, <instance_geometry>",
+            &dented("<triangles/>").replace("</node>", "<instance_geometry url='#none'/></node>"),
+            "line 9, <instance_geometry>",
             "the '#id' of an element in 'url'",
         ),
         (
@@ -225,6 +225,34 @@ fn errors_have_places() {
     ] {
         let error = read_any(read, "bad.dae", text.as_bytes()).unwrap_err();
         assert_eq!((error.place.as_str(), error.expected.as_str()), (place, expected), "{error}");
+    }
+}
+
+#[test]
+fn skeletons_come_without_meshes() {
+    const BONES: &str = "<node id='hip' type='JOINT'><translate>0 1 0</translate>\
+        <node id='knee' type='JOINT'><translate>0 2 0</translate></node></node>";
+    let skeleton = |scene: &Scene| {
+        let worlds = scene.worlds(&scene.rest());
+        assert_eq!((scene.nodes[1].name.as_str(), scene.parts.len()), ("knee", 0));
+        assert_eq!(worlds[1].translation, DVec3::new(0.0, 3.0, 0.0));
+    };
+    skeleton(&load(&nodes(BONES)));
+    // Nodes of the library, shown by no scene.
+    let library = format!("<COLLADA version='1.4.1'><library_nodes>{BONES}</library_nodes></COLLADA>");
+    let scene = load(&library);
+    skeleton(&scene);
+    note(&scene, "no visual scene, so all nodes of the library");
+    // Meshes that were left out, and their instances not.
+    const SKIN: &str = "<library_controllers><controller id='c'><skin source='#gone'/></controller>\
+        </library_controllers><library_visual";
+    for instance in
+        ["instance_geometry url='#gone'", "instance_controller url='#gone'", "instance_controller url='#c'"]
+    {
+        let text = nodes(&format!("{BONES}<node><{instance}/></node>"));
+        let scene = load(&text.replacen("<library_visual", SKIN, 1));
+        skeleton(&scene);
+        note(&scene, "its mesh is left out: expected the '#id'");
     }
 }
 
