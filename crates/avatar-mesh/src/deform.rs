@@ -1,4 +1,4 @@
-use crate::turning::{all_turn_evenly, blended, mirrors, moved_normal, wide};
+use crate::turning::{all_turn_evenly, blended, is_mirroring, moved_normal, wide};
 use crate::{Deformed, Mesh, SmoothNormals};
 use glam::{Affine3A, DMat3, Vec3, Vec3A};
 
@@ -159,7 +159,7 @@ fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), Defor
                     .influences(vertex)
                     .filter_map(|(bone, weight)| Some((bones.get(usize::from(bone))?, weight)))
                     .fold(Vec3A::ZERO, |sum, (x, weight)| sum + weight * x.transform_vector3a(along));
-                let is_mirrored = !is_even && mirrors(&blended(skinning, bones, vertex));
+                let is_mirrored = !is_even && is_mirroring(&blended(skinning, bones, vertex));
                 let handedness = if is_mirrored { -undeformed.w } else { undeformed.w };
                 *tangent = unit(posed, undeformed.truncate()).extend(handedness);
             }
@@ -174,7 +174,7 @@ fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), Defor
                 let by_matrix = unit(x.transform_vector3a(normal), *undeformed);
                 out.normals[vertex] = if is_even { by_matrix } else { standing(&matrix, normal, by_matrix) };
             }
-            let is_mirrored = !is_even && mirrors(&matrix);
+            let is_mirrored = !is_even && is_mirroring(&matrix);
             for (tangent, undeformed) in out.tangents.iter_mut().zip(&mesh.tangents) {
                 let along = blended_normal(tangent.truncate(), undeformed.truncate());
                 let handedness = if is_mirrored { -undeformed.w } else { undeformed.w };

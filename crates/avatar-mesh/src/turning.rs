@@ -15,7 +15,12 @@ pub fn turns_evenly(bone: &Affine3A) -> bool {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = matrix;
     let size = x.length_squared();
     let off = [x.dot(y), y.dot(z), z.dot(x), y.length_squared() - size, z.length_squared() - size];
-    off.iter().all(|off| off.abs() <= MAX_UNEVENNESS * size) && !mirrors(&matrix)
+    off.iter().all(|off| off.abs() <= MAX_UNEVENNESS * size) && !is_mirroring(&matrix)
+}
+
+/// Whether a bone makes a left hand of a right one: its determinant is negative. A flat bone does not.
+pub fn mirrors(bone: &Affine3A) -> bool {
+    is_mirroring(&wide(bone))
 }
 
 /// The directions of a bone matrix.
@@ -24,7 +29,7 @@ pub(crate) fn wide(bone: &Affine3A) -> DMat3 {
 }
 
 /// Whether a matrix makes a left hand of a right one. A flat one does not.
-pub(crate) fn mirrors(matrix: &DMat3) -> bool {
+pub(crate) fn is_mirroring(matrix: &DMat3) -> bool {
     matrix.x_axis.dot(matrix.y_axis.cross(matrix.z_axis)) < 0.0
 }
 
@@ -33,7 +38,7 @@ pub(crate) fn mirrors(matrix: &DMat3) -> bool {
 /// matrices, too. `None` where that has no direction.
 pub(crate) fn moved_normal(matrix: &DMat3, normal: Vec3A) -> Option<DVec3> {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
-    let sign = if mirrors(matrix) { -1.0 } else { 1.0 };
+    let sign = if is_mirroring(matrix) { -1.0 } else { 1.0 };
     (DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * normal.as_dvec3() * sign).try_normalize()
 }
 
@@ -43,23 +48,28 @@ pub(crate) fn blended(skinning: &Skinning, bones: &[Affine3A], vertex: usize) ->
     moving.fold(DMat3::ZERO, |sum, (bone, weight)| sum + wide(bone) * f64::from(weight))
 }
 
-/// Whether all bones that move a mesh turn evenly ([`turns_evenly`]). Cheap where all of the palette do, and
-/// else one look at all weights.
+/// Whether all bones that move a mesh turn evenly ([`turns_evenly`]).
 pub(crate) fn all_turn_evenly(mesh: &Mesh, bones: &[Affine3A]) -> bool {
-    let Some(skinning) = &mesh.skinning else { return bones.first().is_none_or(turns_evenly) };
-    if bones.iter().all(turns_evenly) {
-        return true;
+    !any_moving(mesh, bones, |bone| !turns_evenly(bone))
+}
+
+/// Whether a bone that moves a mesh is such. Cheap where none of the palette is, and else one look at all
+/// weights.
+fn any_moving(mesh: &Mesh, bones: &[Affine3A], is_such: impl Fn(&Affine3A) -> bool) -> bool {
+    let Some(skinning) = &mesh.skinning else { return bones.first().is_some_and(is_such) };
+    if !bones.iter().any(&is_such) {
+        return false;
     }
     let sets = [(&skinning.bones, &skinning.weights), (&skinning.more_bones, &skinning.more_weights)];
-    let moving = sets
+    let mut moving = sets
         .into_iter()
         .flat_map(|(bones, weights)| bones.as_flattened().iter().zip(weights.as_flattened()))
         .filter(|(_, weight)| **weight != 0.0);
     let mut last = None;
-    moving.into_iter().all(|(bone, _)| {
+    moving.any(|(bone, _)| {
         // Neighbours mostly have the same bones.
         let is_known = last.replace(*bone) == Some(*bone);
-        is_known || bones.get(usize::from(*bone)).is_none_or(turns_evenly)
+        !is_known && bones.get(usize::from(*bone)).is_some_and(&is_such)
     })
 }
 
@@ -68,18 +78,16 @@ pub(crate) fn all_turn_evenly(mesh: &Mesh, bones: &[Affine3A]) -> bool {
 /// counter-clockwise seen from outside (glTF 2.0, section 3.7.4, says the same of nodes with a negative
 /// determinant). Borrowed where nothing is mirrored.
 pub fn deformed_triangles<'a>(mesh: &'a Mesh, bones: &[Affine3A]) -> Cow<'a, [[u32; 3]]> {
-    if all_turn_evenly(mesh, bones) {
+    if !any_moving(mesh, bones, mirrors) {
         return Cow::Borrowed(&mesh.triangles);
     }
     let reversed = |[a, b, c]: [u32; 3]| [a, c, b];
     match &mesh.skinning {
-        None => match bones.first().is_some_and(|bone| mirrors(&wide(bone))) {
-            true => mesh.triangles.iter().map(|corners| reversed(*corners)).collect(),
-            false => Cow::Borrowed(&mesh.triangles),
-        },
+        None => mesh.triangles.iter().map(|corners| reversed(*corners)).collect(),
         Some(skinning) => {
-            let is_mirrored: Vec<bool> =
-                (0..mesh.positions.len()).map(|vertex| mirrors(&blended(skinning, bones, vertex))).collect();
+            let is_mirrored: Vec<bool> = (0..mesh.positions.len())
+                .map(|vertex| is_mirroring(&blended(skinning, bones, vertex)))
+                .collect();
             let is_corner = |corner: &&u32| is_mirrored.get(**corner as usize) == Some(&true);
             let run = |corners: &[u32; 3]| match corners.iter().filter(is_corner).count() {
                 0 | 1 => *corners,

@@ -62,7 +62,7 @@ fn layouts() -> Vec<Layout> {
             size: shapes + size_of::<GpuActiveShape>(),
             members: vec![("count", offset_of!(GpuActiveShapesHead, count)), ("shapes", shapes)],
         },
-        layout!("DeformedVertex", GpuDeformedVertex, position, normal),
+        layout!("DeformedVertex", GpuDeformedVertex, position, is_mirrored, normal),
         layout!("Lamp", GpuLamp, direction_world, radiance),
         layout!(
             "HairRegion",
@@ -227,6 +227,8 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("shape_blocks", size_of::<u32>()),
         ("shape_offsets", size_of::<GpuShapeOffset>()),
         ("deformed", size_of::<GpuDeformedVertex>()),
+        ("corners", size_of::<u32>()),
+        ("turned_corners", size_of::<u32>()),
         ("points", size_of::<[f32; 4]>()),
         ("guides", size_of::<[f32; 4]>()),
         ("offsets", size_of::<[f32; 4]>()),

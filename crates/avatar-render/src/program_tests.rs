@@ -1,6 +1,7 @@
 //! Every program is parsed and validated, without a GPU.
 
-use crate::deform::deformer::DEFORM_PASS;
+use crate::deform::deformer::{Ability, DEFORM_PASS};
+use crate::deform::reversed::REVERSE_PASS;
 use crate::frame::programs::{
     NATURAL, OCCLUSION_PASS, OUTLINE, PLAIN, PREPASS, Programs, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS,
     TOON,
@@ -20,6 +21,7 @@ pub(crate) fn all() -> Vec<Program> {
     let passes = [
         OUTLINE,
         DEFORM_PASS,
+        REVERSE_PASS,
         SHADOW_PASS,
         PREPASS,
         OCCLUSION_PASS,
@@ -47,6 +49,7 @@ pub(crate) fn choices(shading: Shading, samples: u32) -> Vec<Constant> {
     };
     let mut choices = RendererConfig { color_format, samples, shading }.choices();
     choices.push(swinging(samples == 1));
+    choices.extend(Ability { has_further_bones: samples == 4, is_uneven: samples == 4 }.choices());
     choices
 }
 

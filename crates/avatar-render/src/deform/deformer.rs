@@ -1,13 +1,15 @@
 //! The pass that deforms avatars.
 
 use crate::deform::pose::{AVATAR, Pose, avatar_layout};
-use crate::deform::posed::deformed_layout;
+use crate::deform::posed::{DEFORMED, PosedPart, deformed_layout};
+use crate::deform::reversed::{REVERSE_PASS, reversed_layout};
 use crate::gpu::pipeline::compute_pipeline;
 use crate::gpu::program::{Constant, Module, Program, Value};
 use crate::model::geometry::Geometry;
 use crate::model::part::ModelPart;
 use crate::model::shape_blocks::{PART, SHAPE_BLOCK};
 use avatar_mesh::MIN_NORMAL_LENGTH;
+use std::sync::OnceLock;
 
 /// Vertices per workgroup: one block of blend shapes. With WebGPU's default limits, one row of workgroups
 /// covers the largest binding of vertices except for one block; larger parts are refused.
@@ -26,20 +28,55 @@ pub(crate) const DEFORM_PASS: Program = Program {
     label: "deform",
     entry: "deform_main",
     fragment: None,
-    modules: &[AVATAR, PART, DEFORM, Module::of(include_str!("shaders/deform_pass.wgsl"))],
+    modules: &[AVATAR, PART, DEFORMED, DEFORM, Module::of(include_str!("shaders/deform_pass.wgsl"))],
 };
+
+/// What a program of the pass can do. What a part does not need costs nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Ability {
+    /// Eight bones a vertex instead of four.
+    pub(crate) has_further_bones: bool,
+    /// Bones that scale unevenly, shear or mirror.
+    pub(crate) is_uneven: bool,
+}
+
+impl Ability {
+    pub(crate) fn choices(self) -> [Constant; 2] {
+        let sets = if self.has_further_bones { 2 } else { 1 };
+        [("BONE_SETS", Value::Count(sets)), ("UNEVEN", Value::Flag(self.is_uneven))]
+    }
+}
 
 /// The pass that deforms avatars, the first one of every frame. [`Deformer::run`] reads its results back.
 #[derive(Debug)]
 pub struct Deformer {
-    pipeline: wgpu::ComputePipeline,
+    /// Of four bones a vertex that turn evenly: the usual case.
+    usual: wgpu::ComputePipeline,
+    /// The others, made for the first frame that needs them.
+    others: [OnceLock<wgpu::ComputePipeline>; 3],
+    reverse: OnceLock<wgpu::ComputePipeline>,
+    device: wgpu::Device,
 }
 
 impl Deformer {
     /// Builds the pipeline.
     pub fn new(device: &wgpu::Device) -> Self {
-        let groups = [&deformed_layout(device), &avatar_layout(device), &Geometry::layout(device)];
-        Self { pipeline: compute_pipeline(device, &DEFORM_PASS, &groups, &[]) }
+        Self {
+            usual: pipeline(device, Ability::default()),
+            others: Default::default(),
+            reverse: OnceLock::new(),
+            device: device.clone(),
+        }
+    }
+
+    fn pipeline(&self, ability: Ability) -> &wgpu::ComputePipeline {
+        let other = match (ability.has_further_bones, ability.is_uneven) {
+            (false, false) => return &self.usual,
+            (true, false) => 0,
+            (false, true) => 1,
+            (true, true) => 2,
+        };
+        self.others[other].get_or_init(|| pipeline(&self.device, ability))
     }
 
     /// Deforms all parts of avatars into the buffers of their poses.
@@ -47,17 +84,26 @@ impl Deformer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
-        avatars: impl Iterator<Item = (&'a [ModelPart], &'a Pose)>,
+        avatars: impl Iterator<Item = (&'a [ModelPart], &'a Pose)> + Clone,
     ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("deform"),
             timestamp_writes: timestamps,
         });
-        pass.set_pipeline(&self.pipeline);
-        for (parts, pose) in avatars {
+        let mut set = Ability::default();
+        pass.set_pipeline(self.pipeline(set));
+        for (parts, pose) in avatars.clone() {
             pass.set_bind_group(1, &pose.bind_group, &[]);
             for (part, posed) in parts.iter().zip(&pose.parts) {
                 if part.geometry.vertex_count > 0 {
+                    let ability = Ability {
+                        has_further_bones: part.geometry.has_further_bones,
+                        is_uneven: !posed.is_even,
+                    };
+                    if set != ability {
+                        pass.set_pipeline(self.pipeline(ability));
+                        set = ability;
+                    }
                     let groups = part.geometry.vertex_count.div_ceil(DEFORM_WORKGROUP_SIZE);
                     pass.set_bind_group(0, &posed.output, &[]);
                     pass.set_bind_group(2, &part.geometry.bind_group, &[]);
@@ -65,5 +111,18 @@ impl Deformer {
                 }
             }
         }
+        let mut reversed =
+            avatars.flat_map(|(_, pose)| &pose.parts).filter_map(PosedPart::reversed).peekable();
+        if reversed.peek().is_some() {
+            let built =
+                || compute_pipeline(&self.device, &REVERSE_PASS, &[&reversed_layout(&self.device)], &[]);
+            pass.set_pipeline(self.reverse.get_or_init(built));
+            reversed.for_each(|reversed| reversed.record(&mut pass));
+        }
     }
+}
+
+fn pipeline(device: &wgpu::Device, ability: Ability) -> wgpu::ComputePipeline {
+    let groups = [&deformed_layout(device), &avatar_layout(device), &Geometry::layout(device)];
+    compute_pipeline(device, &DEFORM_PASS, &groups, &ability.choices())
 }

@@ -3,3 +3,4 @@
 pub(crate) mod deformer;
 pub(crate) mod pose;
 pub(crate) mod posed;
+pub(crate) mod reversed;

@@ -1,6 +1,6 @@
 //! The pose of one avatar: bone matrices and blend weights.
 
-use crate::deform::posed::{PosedPart, deformed_layout};
+use crate::deform::posed::{PosedPart, Turn, deformed_layout};
 use crate::gpu::bindings::storage_entry;
 use crate::gpu::buffers::written_buffer;
 use crate::gpu::program::Module;
@@ -50,6 +50,10 @@ pub(crate) struct Pose {
     pub(crate) bind_group: wgpu::BindGroup,
     /// What the deform pass makes of each part of the model.
     pub(crate) parts: Vec<PosedPart>,
+    /// What each bone does to normals and fronts.
+    turns: Vec<Turn>,
+    /// Makes room for parts that bones mirror.
+    device: wgpu::Device,
 }
 
 /// Layout of group 1 of the passes that deform and grow.
@@ -93,6 +97,8 @@ impl Pose {
             ],
         });
         Self {
+            turns: vec![Turn::Even; bones.len()],
+            device: device.clone(),
             bones,
             active_shapes: Vec::with_capacity(shape_count),
             shape_count,
@@ -105,7 +111,8 @@ impl Pose {
 
     /// Sets the pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order;
     /// they may include a placement in the world, which must not scale if the model has hair. `weights` has
-    /// one blend weight per shape; shapes with weight 0 cost nothing. Allocates nothing.
+    /// one blend weight per shape; shapes with weight 0 cost nothing. Allocates nothing, but for a part that
+    /// bones mirror for the first time.
     ///
     /// # Errors
     /// Another number of bones or weights than the model has; the state is unchanged then.
@@ -122,6 +129,8 @@ impl Pose {
             return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
         }
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
+        self.turns.iter_mut().zip(bones).for_each(|(turn, bone)| *turn = Turn::of(bone));
+        self.parts.iter_mut().for_each(|part| part.set_turns(&self.device, &self.turns));
         self.active_shapes.clear();
         let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
         self.active_shapes.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));

@@ -1,16 +1,24 @@
 //! Deformed parts: the deform pass writes their vertices, and all other passes draw from them.
 
+use crate::deform::reversed::Reversed;
 use crate::gpu::bindings::storage_entry;
+use crate::gpu::program::Module;
 use crate::model::part::ModelPart;
+use avatar_mesh::{mirrors, turns_evenly};
+use glam::Affine3A;
+use std::sync::Arc;
+
+/// WGSL of what the deform pass leaves.
+pub(crate) const DEFORMED: Module = Module::of(include_str!("shaders/deformed.wgsl"));
 
 /// WGSL `DeformedVertex`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct GpuDeformedVertex {
     pub(crate) position: [f32; 3],
-    pub(crate) pad_0: f32,
+    pub(crate) is_mirrored: u32,
     pub(crate) normal: [f32; 3],
-    pub(crate) pad_1: f32,
+    pub(crate) pad: f32,
 }
 
 /// Layout of group 0 of the deform pass: where its results go.
@@ -28,6 +36,36 @@ pub(crate) struct PosedPart {
     /// [`GpuDeformedVertex`] per vertex.
     pub(crate) vertices: wgpu::Buffer,
     pub(crate) output: wgpu::BindGroup,
+    /// Whether each bone that moves the part turns normals as it turns everything.
+    pub(crate) is_even: bool,
+    is_mirrored: bool,
+    /// The bones that move the part.
+    used_bones: Arc<[u32]>,
+    indices: wgpu::Buffer,
+    index_count: u32,
+    /// Made for the first pose in which a bone mirrors the part.
+    reversed: Option<Reversed>,
+}
+
+/// What a bone does to normals and fronts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Turn {
+    /// A rotation with one scale for all directions.
+    Even,
+    /// It scales unevenly or shears.
+    Uneven,
+    /// It makes a left hand of a right one.
+    Mirroring,
+}
+
+impl Turn {
+    pub(crate) fn of(bone: &Affine3A) -> Self {
+        match (turns_evenly(bone), mirrors(bone)) {
+            (true, _) => Self::Even,
+            (false, true) => Self::Mirroring,
+            (false, false) => Self::Uneven,
+        }
+    }
 }
 
 impl PosedPart {
@@ -45,6 +83,35 @@ impl PosedPart {
             layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: vertices.as_entire_binding() }],
         });
-        Self { vertex_count, vertices, output }
+        Self {
+            vertex_count,
+            vertices,
+            output,
+            is_even: true,
+            is_mirrored: false,
+            used_bones: part.geometry.used_bones.clone(),
+            indices: part.geometry.indices.clone(),
+            index_count: part.geometry.index_count,
+            reversed: None,
+        }
+    }
+
+    /// Takes in what the bones of the palette do. Allocates nothing, but for the first time that a bone
+    /// mirrors this part.
+    pub(crate) fn set_turns(&mut self, device: &wgpu::Device, turns: &[Turn]) {
+        let has = |wanted: fn(&Turn) -> bool| {
+            let mut used = self.used_bones.iter().filter_map(|bone| turns.get(*bone as usize));
+            used.any(wanted)
+        };
+        self.is_even = !has(|turn| *turn != Turn::Even);
+        self.is_mirrored = self.index_count > 0 && has(|turn| *turn == Turn::Mirroring);
+        if self.is_mirrored && self.reversed.is_none() {
+            self.reversed = Some(Reversed::new(device, &self.indices, self.index_count, &self.vertices));
+        }
+    }
+
+    /// The triangles to draw instead of those of the geometry, where bones mirror some.
+    pub(crate) fn reversed(&self) -> Option<&Reversed> {
+        self.reversed.as_ref().filter(|_| self.is_mirrored)
     }
 }

@@ -311,5 +311,12 @@ fn draw_part(pass: &mut wgpu::RenderPass<'_>, part: &ModelPart, posed: &PosedPar
     pass.set_vertex_buffer(POSED_SLOT, posed.vertices.slice(..));
     pass.set_vertex_buffer(BONE_SLOT, state.pose.bone_buffer.slice(bone..));
     pass.insert_debug_marker(&part.label);
+    let indices = |pass: &mut wgpu::RenderPass<'_>, buffer: &wgpu::Buffer| {
+        pass.set_index_buffer(buffer.slice(..), wgpu::IndexFormat::Uint32);
+    };
+    let reversed = posed.reversed();
+    reversed.iter().for_each(|reversed| indices(pass, &reversed.indices));
     pass.draw_indexed(0..part.geometry.index_count, 0, 0..1);
+    // The next avatar of the model has those of the part again.
+    reversed.iter().for_each(|_| indices(pass, &part.geometry.indices));
 }

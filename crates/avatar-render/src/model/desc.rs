@@ -24,7 +24,7 @@ pub struct PartDesc<'a> {
 /// What moves a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartBones {
-    /// Every vertex names up to four bones of the palette ([`avatar_mesh::Skinning`]).
+    /// Every vertex names up to eight bones of the palette ([`avatar_mesh::Skinning`]).
     PerVertex,
     /// The whole part follows the bone at this position in the palette.
     Rigid(usize),

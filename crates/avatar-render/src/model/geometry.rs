@@ -6,9 +6,10 @@ use crate::model::curvature::curvatures;
 use crate::model::desc::{PartBones, PartDesc};
 use crate::model::error::{PartProblem, fits};
 use crate::model::shape_blocks::{SHAPE_BLOCK, ShapeBlocks};
-use avatar_mesh::{DeformBounds, Mesh, Offsets, Winding};
+use avatar_mesh::{DeformBounds, Mesh, Offsets, Skinning, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
 /// WGSL `Part`.
@@ -55,6 +56,10 @@ pub(crate) struct Geometry {
     pub(crate) bind_group: wgpu::BindGroup,
     /// The bone that a rigid part follows; 0 for others.
     pub(crate) rigid_bone: u32,
+    /// All bones that move anything of it.
+    pub(crate) used_bones: Arc<[u32]>,
+    /// Whether vertices have eight bones instead of four.
+    pub(crate) has_further_bones: bool,
     /// Largest z at bind pose, and 1 / (largest - smallest).
     pub(crate) front_z: f32,
     pub(crate) per_depth: f32,
@@ -118,10 +123,8 @@ impl Geometry {
         let part = buffer(device, &[head], label, "part", wgpu::BufferUsages::UNIFORM);
         let vertices = storage_and_vertices(device, &vertices(mesh), label, "vertices");
         let curvatures = storage_and_vertices(device, &curvatures(mesh), label, "curvatures");
-        let vertex_bones: Vec<GpuVertexBones> = skinning.map_or_else(Vec::new, |skinning| {
-            let both = skinning.bones.iter().zip(&skinning.weights);
-            both.map(|(b, w)| GpuVertexBones { indices: b.map(u32::from), weights: *w }).collect()
-        });
+        let has_further_bones = skinning.is_some_and(|skinning| !skinning.more_bones.is_empty());
+        let vertex_bones = skinning.map_or_else(Vec::new, vertex_bones);
         let vertex_bones = storage(device, &vertex_bones, label, "vertex bones");
         let shape_blocks = storage(device, &shapes.table, label, "shape blocks");
         let shape_offsets = storage(device, &shapes.offsets, label, "shape offsets");
@@ -132,7 +135,14 @@ impl Geometry {
         Ok(Self {
             vertex_count: head.vertex_count,
             index_count: (mesh.triangles.len() * 3) as u32,
-            indices: buffer(device, &triangles(mesh), label, "indices", wgpu::BufferUsages::INDEX),
+            indices: buffer(
+                device,
+                &triangles(mesh),
+                label,
+                "indices",
+                // Storage for the pass that reverses what bones mirror.
+                wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE,
+            ),
             bind_group: device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some(&format!("{label}: geometry")),
                 layout,
@@ -147,6 +157,11 @@ impl Geometry {
             vertices,
             curvatures,
             rigid_bone: head.rigid_bone,
+            used_bones: match skinning {
+                Some(skinning) => skinning.used_bones().into_iter().map(u32::from).collect(),
+                None => Arc::new([head.rigid_bone]),
+            },
+            has_further_bones,
             front_z: bounds.map_or(0.0, |bounds| bounds.max.z),
             per_depth: if depth > 0.0 { depth.recip() } else { 0.0 },
             length_per_uv: length_per_uv(mesh),
@@ -170,6 +185,20 @@ fn vertices(mesh: &Mesh) -> Vec<GpuVertex> {
         v: uv.y,
     })
     .collect()
+}
+
+/// For each vertex one set of four bones, or two.
+fn vertex_bones(skinning: &Skinning) -> Vec<GpuVertexBones> {
+    let set = |(bones, weights): (&[u16; 4], &[f32; 4])| GpuVertexBones {
+        indices: bones.map(u32::from),
+        weights: *weights,
+    };
+    let first = skinning.bones.iter().zip(&skinning.weights).map(set);
+    if skinning.more_bones.is_empty() {
+        return first.collect();
+    }
+    let further = skinning.more_bones.iter().zip(&skinning.more_weights).map(set);
+    first.zip(further).flat_map(<[GpuVertexBones; 2]>::from).collect()
 }
 
 /// The square root of the part's area divided by the area of its texture coordinates.
@@ -262,8 +291,16 @@ fn check(
         (PartBones::PerVertex, Some(skinning)) => {
             count("bone indices", skinning.bones.len())?;
             count("bone weights", skinning.weights.len())?;
+            let mut sets = 1;
+            if !(skinning.more_bones.is_empty() && skinning.more_weights.is_empty()) {
+                count("further bone indices", skinning.more_bones.len())?;
+                count("further bone weights", skinning.more_weights.len())?;
+                sets = 2;
+            }
+            fits("bones of vertices", expected, sets * size_of::<GpuVertexBones>(), binding(limits))?;
             let beyond = |bones: &[u16; 4]| bones.iter().copied().find(|b| usize::from(*b) >= palette_len);
-            let mut vertices = skinning.bones.iter().enumerate();
+            let both = [&skinning.bones, &skinning.more_bones].map(|bones| bones.iter().enumerate());
+            let mut vertices = both.into_iter().flatten();
             if let Some((vertex, found)) = vertices.find_map(|(vertex, bones)| Some((vertex, beyond(bones)?)))
             {
                 return Err(PartProblem::VertexBone { vertex, found: found.into(), palette_len });
@@ -279,7 +316,7 @@ fn check(
     let dispatched = u64::from(limits.max_compute_workgroups_per_dimension) * u64::from(SHAPE_BLOCK);
     let deformed = dispatched.saturating_mul(size_of::<GpuVertex>() as u64);
     fits("vertices", expected, size_of::<GpuVertex>(), binding(limits).min(deformed))?;
-    fits("triangles", mesh.triangles.len(), size_of::<[u32; 3]>(), limits.max_buffer_size)
+    fits("triangles", mesh.triangles.len(), size_of::<[u32; 3]>(), binding(limits))
 }
 
 /// Bytes that a shader can read from one buffer.

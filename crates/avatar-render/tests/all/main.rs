@@ -8,6 +8,7 @@ mod common;
 // From the mesh to the picture, as the crate's own modules stand.
 mod bad_input;
 mod deform;
+mod turning;
 mod hair;
 mod hair_motion;
 mod hair_shadows;

@@ -3,13 +3,13 @@
 use crate::common;
 use crate::common::stage::{light_of, lit_scene};
 use crate::common::{Random, ball, gpu, model, part, shadings, square};
-use avatar_mesh::{Mesh, PartKind};
+use avatar_mesh::{Mesh, PartKind, Skinning};
 use avatar_render::headless::Gpu;
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Environment, Image, Lamp, Light, Panel, PartTextures, Shading, Terms,
-    ToneMap,
+    AvatarModel, AvatarState, Camera, Environment, Image, Lamp, Light, Panel, PartBones, PartDesc,
+    PartTextures, Shading, Terms, ToneMap,
 };
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 
 const SIZE: u32 = 80;
 
@@ -152,6 +152,77 @@ fn a_mirrored_head_in_mirrored_light_is_a_mirrored_picture() {
         // The same head from the same side is something else: the comparison can tell.
         let not_mirrored = light_of(shading, SIZE, &scene(-yaw, light), &one).flipped();
         assert!(here.difference_share(&not_mirrored, 0.012) > 0.2, "{name}, yaw {yaw}");
+    }
+}
+
+#[test]
+fn a_bone_that_mirrors_draws_what_a_mirrored_mesh_does() {
+    let Some(gpu) = gpu() else { return };
+    let meshes = head();
+    let mirrored = meshes.clone().map(|(kind, mesh)| (kind, mirror_mesh(&mesh)));
+    let (mut one, other) = (avatar(gpu, &meshes), avatar(gpu, &mirrored));
+    one.1.set(&gpu.queue, &[Affine3A::from_scale(MIRROR)], &[]).expect("lengths fit");
+    for (name, shading) in shadings() {
+        for yaw in [0.0, 0.8, -1.9] {
+            let scene = lit_scene(Camera::orbit(Vec3::ZERO, 5.0, yaw, 0.3, 0.5, 1.0), lopsided_light());
+            let by_bone = light_of(shading, SIZE, &scene, &one);
+            let by_mesh = light_of(shading, SIZE, &scene, &other);
+            let share = by_bone.difference_share(&by_mesh, 0.004);
+            assert!(share < 0.002, "{name}, yaw {yaw}: {share}");
+        }
+    }
+    // And back again: the same bytes as before.
+    one.1.set(&gpu.queue, &[Affine3A::IDENTITY], &[]).expect("lengths fit");
+    let untouched = avatar(gpu, &meshes);
+    let scene = lit_scene(Camera::orbit(Vec3::ZERO, 5.0, 0.8, 0.3, 0.5, 1.0), lopsided_light());
+    let [again, first] = [&one, &untouched].map(|avatar| light_of(shadings()[3].1, SIZE, &scene, avatar));
+    assert_eq!(again.difference_share(&first, 0.0), 0.0);
+}
+
+/// Two parts of one mesh, each with its own bone; the second one's triangles are the first one's shifted.
+fn pair(mesh: &Mesh, shift: Vec3) -> Mesh {
+    let count = mesh.positions.len();
+    let mut both = mesh.clone();
+    both.positions.extend(mesh.positions.iter().map(|p| *p + shift));
+    both.normals.extend(&mesh.normals);
+    both.uvs.extend(&mesh.uvs);
+    both.triangles.extend(mesh.triangles.iter().map(|t| t.map(|corner| corner + count as u32)));
+    let of = |bone: u16| vec![[bone, 0, 0, 0]; count];
+    both.skinning = Some(Skinning {
+        bones: [of(0), of(1)].concat(),
+        weights: vec![[1.0, 0.0, 0.0, 0.0]; 2 * count],
+        ..Skinning::default()
+    });
+    both
+}
+
+#[test]
+fn one_part_can_have_bones_that_mirror_and_others() {
+    let Some(gpu) = gpu() else { return };
+    let [(_, skin), ..] = head();
+    let shift = Vec3::X * 1.6;
+    let both = pair(&skin, shift);
+    let moved = |mesh: &Mesh, by: Vec3| Mesh {
+        positions: mesh.positions.iter().map(|p| *p + by).collect(),
+        ..mesh.clone()
+    };
+    let halves = [moved(&mirror_mesh(&skin), -shift), moved(&skin, shift)];
+    for kind in [PartKind::Skin, PartKind::Surface, PartKind::Eyeball] {
+        let skinned = PartDesc { bones: PartBones::PerVertex, ..part(&both, kind, PartTextures::default()) };
+        let one = AvatarModel::new(&gpu.device, &gpu.queue, &[skinned], 2).expect("valid");
+        let mut state = AvatarState::new(&gpu.device, &one);
+        let bones = [Affine3A::from_translation(-shift) * Affine3A::from_scale(MIRROR), Affine3A::IDENTITY];
+        state.set(&gpu.queue, &bones, &[]).expect("lengths fit");
+        let apart = [&halves[0], &halves[1]].map(|half| part(half, kind, PartTextures::default()));
+        let (one, other) = ((one, state), model(gpu, &apart));
+        // Plain shading knows nothing of what differs between one part and two, as its height.
+        for shading in [Shading::Plain, Shading::Toon] {
+            let scene = lit_scene(Camera::orbit(Vec3::ZERO, 7.0, 0.4, 0.3, 0.6, 1.0), lopsided_light());
+            let here = light_of(shading, SIZE, &scene, &one);
+            let there = light_of(shading, SIZE, &scene, &other);
+            let share = here.difference_share(&there, 0.004);
+            assert!(share < 0.002, "{kind:?} {shading:?}: {share}");
+        }
     }
 }
 

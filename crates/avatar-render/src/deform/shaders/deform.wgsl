@@ -3,10 +3,14 @@
 //
 //   v_blend = v + sum_k b_k d_k         v_out = sum_i w_i X_i v_blend
 //   n_blend = n + sum_k b_k dn_k        n_out = normalize(sum_i w_i mat3(X_i) n_blend)
+//
+// Where UNEVEN, n_out is turned by the inverse transpose of sum_i w_i mat3(X_i) instead.
 
 struct Deformed {
     position_world: vec3f,
     normal_world: vec3f,
+    // Whether the bones make a left hand of a right one; only told where UNEVEN.
+    is_mirrored: bool,
 }
 
 fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
@@ -37,26 +41,66 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
 
 // The matrices are summed instead of the transformed points: one product each for the position and the
 // normal.
-fn vertex_posed_from_bind(vertex: u32) -> Bone {
-    if part.has_vertex_bones == 0u {
-        return posed_from_bind[part.rigid_bone];
-    }
-    let bones = vertex_bones[vertex];
+fn mean_of(bones: VertexBones) -> Bone {
     return bones.weights.x * posed_from_bind[bones.indices.x]
         + bones.weights.y * posed_from_bind[bones.indices.y]
         + bones.weights.z * posed_from_bind[bones.indices.z]
         + bones.weights.w * posed_from_bind[bones.indices.w];
 }
 
+fn vertex_posed_from_bind(vertex: u32) -> Bone {
+    if part.has_vertex_bones == 0u {
+        return posed_from_bind[part.rigid_bone];
+    }
+    let posed = mean_of(vertex_bones[vertex * BONE_SETS]);
+    if BONE_SETS > 1u {
+        return posed + mean_of(vertex_bones[vertex * BONE_SETS + 1u]);
+    }
+    return posed;
+}
+
+fn largest_of(v: vec3f) -> f32 {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+// What a matrix makes of a normal if it is to stand on the surface: the cofactors, which are the inverse
+// transpose times the determinant, and exist for flat matrices, too. Both steps divide by the largest number,
+// so that small and large scales lose nothing; the length is between 1 and 2. `along` is the answer where there
+// is no direction.
+fn standing_normal(posed: Bone, normal: vec3f, along: vec3f) -> vec3f {
+    let largest = max(max(largest_of(posed[0].xyz), largest_of(posed[1].xyz)), largest_of(posed[2].xyz));
+    if !(largest > 0.0) {
+        return along;
+    }
+    let x = posed[0].xyz / largest;
+    let y = posed[1].xyz / largest;
+    let z = posed[2].xyz / largest;
+    let turned = vec3f(dot(cross(y, z), normal), dot(cross(z, x), normal), dot(cross(x, y), normal));
+    let size = largest_of(turned);
+    if !(size > 0.0) {
+        return along;
+    }
+    return turned / select(size, -size, is_mirroring(posed));
+}
+
+fn is_mirroring(posed: Bone) -> bool {
+    let largest = max(max(largest_of(posed[0].xyz), largest_of(posed[1].xyz)), largest_of(posed[2].xyz));
+    return dot(posed[0].xyz / largest, cross(posed[1].xyz / largest, posed[2].xyz / largest)) < 0.0;
+}
+
 // `block` must be the same in all of a workgroup, so that the loop over shapes branches uniformly.
 fn deform_vertex(block: u32, within: u32) -> Deformed {
     let vertex = block * SHAPE_BLOCK + within;
-    let bind = Deformed(vertices[vertex].position, vertices[vertex].normal);
+    let bind = Deformed(vertices[vertex].position, vertices[vertex].normal, false);
     let blended = blended_from_bind(block, within, bind);
     let posed = vertex_posed_from_bind(vertex);
-    let normal = vec4f(blended.normal_world, 0.0) * posed;
-    let normal_length = length(normal);
+    var normal = vec4f(blended.normal_world, 0.0) * posed;
     var out: Deformed;
+    if UNEVEN {
+        normal = standing_normal(posed, blended.normal_world, normal);
+        out.is_mirrored = is_mirroring(posed);
+    }
+    let normal_length = length(normal);
     out.position_world = vec4f(blended.position_world, 1.0) * posed;
     out.normal_world = select(normal / normal_length, bind.normal_world, normal_length < MIN_NORMAL_LENGTH);
     return out;

@@ -1,11 +1,6 @@
 // Deforms every vertex of a part into a buffer, once a frame: every later pass draws from it, and it can be
 // read back.
 
-struct DeformedVertex {
-    position: vec3f,
-    normal: vec3f,
-}
-
 @group(0) @binding(0) var<storage, read_write> deformed: array<DeformedVertex>;
 
 @compute @workgroup_size(DEFORM_WORKGROUP_SIZE)
@@ -16,5 +11,9 @@ fn deform_main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     }
     // A workgroup deforms one block.
     let posed = deform_vertex(group.x, within);
-    deformed[vertex] = DeformedVertex(posed.position_world, posed.normal_world);
+    deformed[vertex].position = posed.position_world;
+    deformed[vertex].normal = posed.normal_world;
+    if UNEVEN {
+        deformed[vertex].is_mirrored = u32(posed.is_mirrored);
+    }
 }

@@ -35,6 +35,7 @@ struct ShapeOffset {
 
 @group(2) @binding(0) var<uniform> part: Part;
 @group(2) @binding(1) var<storage, read> vertices: array<Vertex>;
+// BONE_SETS of them for each vertex, one after the other.
 @group(2) @binding(2) var<storage, read> vertex_bones: array<VertexBones>;
 // A table with a row for each shape, so that shapes at rest are never read. A row has one entry per block of
 // SHAPE_BLOCK vertices: the number of a block in `shape_offsets`, or RESTING_BLOCK if the shape moves nothing
