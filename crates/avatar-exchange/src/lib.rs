@@ -6,7 +6,7 @@
 //!                                                   parts ────────── avatar_mesh::deform ◀──────────┘
 //!
 //!  rooms:  scene ◀── build ◀── gltf ◀── vrm    obj ◀── target    fbx    collada    md5    bvh ◀── read
-//!            └────────────── write (glb)
+//!            └────────────── write (glb)          look_at ◀── vrm
 //! ```
 //!
 //! Spaces and units are those of the crate `rig-core`: column vectors, right-handed, +Y up; a reader of a
@@ -37,6 +37,7 @@
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
 mod scene;
+pub mod look_at;
 mod build;
 #[cfg(feature = "gltf")]
 pub mod gltf;

@@ -135,7 +135,7 @@ fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
         Some(sliders) => {
             let mut values = vec![0.0; sliders.names.len()];
             pack.binding().apply(&effective, &mut locals, &mut values).ok()?;
-            sliders.drivers.run(&values, &mut weights).ok()?;
+            sliders.run(&values, &mut weights).ok()?;
         }
     }
     Some((locals.as_slice().to_vec(), weights))

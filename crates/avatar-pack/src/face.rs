@@ -135,7 +135,7 @@ impl FaceState {
             None => pack.binding().apply(&self.effective, &mut self.locals, &mut self.weights)?,
             Some(sliders) => {
                 pack.binding().apply(&self.effective, &mut self.locals, &mut self.sliders)?;
-                sliders.drivers.run(&self.sliders, &mut self.weights)?;
+                sliders.run(&self.sliders, &mut self.weights)?;
             }
         }
         Ok(())

@@ -25,6 +25,7 @@
 //!      ▼
 //!  slider 7 "smile"                           Pack::sliders; packs without have one for each shape
 //!      │ ShapeDrivers: in-between shapes, products of sliders (here sliders are called drivers)
+//!      │ Expressions: of VRM; each is a slider, adds to several shapes, and may hold others back
 //!      ▼
 //!  shape 12 "smile 50 %"                      Pack::shapes: one weight each, FaceState::weights
 //!      │ Part::shapes: which range of the shapes is that part's own
@@ -77,9 +78,7 @@ mod raw;
 pub use error::{ContentsError, PackError, PackProblem, Warning};
 pub use export::{export, portable_pictures};
 pub use face::{FaceError, FaceState};
-pub use gaze::Gaze;
-#[cfg(feature = "vrm")]
-pub use import::gaze_values;
+pub use gaze::{Gaze, LookRule, gaze_values};
 pub use import::{Import, ImportFailure, ImportReport, Role, ShapeSet, leave_helpers_out};
 pub use load::{load_clips, load_hair, load_materials, load_poses};
 pub use motion::{MotionAt, MotionError, MotionSampler, SceneMotion};
@@ -87,6 +86,6 @@ pub use pack::{Pack, PackContents, PaletteBone, Part};
 pub use pick::Hit;
 pub use raw::{RawError, RawFiles, raw_files};
 pub use reach::Reach;
-pub use sliders::Sliders;
+pub use sliders::{Expressions, Sliders};
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

@@ -38,6 +38,7 @@ impl Pack {
             materials: load_materials(source)?,
             hair: load_hair(source)?,
             motion: None,
+            look_rule: None,
             face: None,
             warnings,
         };

@@ -1,3 +1,4 @@
+use crate::gaze::LookRule;
 use crate::{ContentsError, SceneMotion, Sliders, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
@@ -47,6 +48,9 @@ pub struct PackContents {
     pub hair: Option<Hair>,
     /// The clips of a file of an interchange format, of whole joints; packs in the raw format have none.
     pub motion: Option<SceneMotion>,
+    /// How the eyes look at things, where the file says it; else they turn to them as far as their controls
+    /// go.
+    pub look_rule: Option<LookRule>,
     /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind
     /// pose in world space.
     pub face: Option<Bounds>,
@@ -215,6 +219,11 @@ impl Pack {
         self.contents.motion.as_ref()
     }
 
+    /// How the eyes look at things, where the file says it.
+    pub fn look_rule(&self) -> Option<&LookRule> {
+        self.contents.look_rule.as_ref()
+    }
+
     /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind
     /// pose in world space.
     pub fn face(&self) -> Option<Bounds> {
@@ -224,6 +233,12 @@ impl Pack {
     /// What was mended while loading.
     pub fn warnings(&self) -> &[Warning] {
         &self.contents.warnings
+    }
+
+    /// Adds what was found after the pack was put together.
+    #[cfg(feature = "vrm")]
+    pub(crate) fn warn(&mut self, warning: Warning) {
+        self.contents.warnings.push(warning);
     }
 
     /// Sets the boxes around the parts and the face, which are measured in a pack that is otherwise complete.
@@ -265,7 +280,10 @@ impl Pack {
 }
 
 fn check(contents: &PackContents) -> Result<(), ContentsError> {
-    let PackContents { rig, parts, palette, shapes, sliders, .. } = contents;
+    let PackContents { rig, parts, palette, shapes, sliders, look_rule, .. } = contents;
+    if let Some(rule) = look_rule {
+        in_range(rule.head.index(), rig.len(), "joints", || "the rule of looking".to_owned())?;
+    }
     for (bone, PaletteBone { joint, .. }) in palette.iter().enumerate() {
         in_range(joint.index(), rig.len(), "joints", || format!("bone {bone}"))?;
     }
@@ -290,6 +308,15 @@ fn check(contents: &PackContents) -> Result<(), ContentsError> {
         if expected != found {
             return Err(ContentsError::Count { place: "the sliders".to_owned(), what, expected, found });
         }
+    }
+    let expressions = &sliders.expressions;
+    let end = expressions.first_slider.saturating_add(expressions.list.len());
+    if end > sliders.names.len() {
+        in_range(end - 1, sliders.names.len(), "sliders", || "the expressions".to_owned())?;
+    }
+    let bound = expressions.list.iter().flat_map(|one| one.binds.iter().map(|(shape, _)| *shape));
+    for shape in bound.chain(expressions.rest.iter().map(|(shape, _)| *shape)) {
+        in_range(shape, shapes.len(), "shapes", || "the expressions".to_owned())?;
     }
     for (shape, followed) in shapes.iter().zip(&sliders.of_shapes) {
         for slider in followed {

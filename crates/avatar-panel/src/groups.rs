@@ -24,8 +24,9 @@ pub(crate) enum Row {
     },
 }
 
-/// Parts of the face from the large to the small. What is not here follows in the order of the table.
-const ORDER: [(&str, &str); 11] = [
+/// Whole faces, then parts of the face from the large to the small. What is not here follows in the order of the table.
+const ORDER: [(&str, &str); 12] = [
+    ("expression", "Expressions"),
     ("neck", "Neck"),
     ("head", "Head"),
     ("jaw", "Jaw"),

@@ -21,8 +21,11 @@ const EYE_SECS: f64 = 0.1;
 const OFF_DEGREES: f32 = 0.25;
 /// A control that is this near to the start of a clip need not be led there.
 const AT_START: f64 = 1e-3;
-/// Controls that a gaze moves: two of each eye, two of the head.
-const GAZE_CONTROLS: usize = 6;
+/// Controls that a gaze moves, at most: two of each eye, two of the head and four expressions, the first six
+/// by their names once more.
+const GAZE_CONTROLS: usize = 16;
+/// Share of its range by which a control has to be off that follows a file's rule of looking.
+const OFF_SHARE: f32 = 1e-4;
 
 /// Why a performer does not do what it was told. Nothing has changed then, except after [`Self::Face`], where
 /// time has passed or values were set.
@@ -236,30 +239,37 @@ impl Performer {
         self.targets.clear();
         self.targets.extend(self.layers.base_ref().targets());
         gaze.face_toward(&self.pack, &self.targets, point, HEAD_SHARE, &mut self.found)?;
-        let turns = self.lead(HEAD_SECS);
+        let turns = self.lead(HEAD_SECS, false);
         let Some(gaze) = &mut self.gaze else { return Ok(turns) };
         gaze.look_at(&self.pack, self.layers.values(), point, &mut self.found)?;
-        Ok(self.lead(EYE_SECS) || turns)
+        let is_exact = gaze.follows_rule();
+        Ok(self.lead(EYE_SECS, is_exact) || turns)
     }
 
     /// Looks straight ahead again.
     pub fn look_ahead(&mut self) {
         let pack = Arc::clone(&self.pack);
         let controls = pack.controls();
-        let names = face::EYES.iter().chain([&face::FACING]).flatten();
-        let ahead = names.filter_map(|name| {
-            let index = controls.index(name)?;
-            Some((index, controls.controls().get(index)?.default))
-        });
+        let named = face::EYES.iter().chain([&face::FACING]).flatten();
+        let named = named.filter_map(|name| controls.index(name));
+        let gaze = self.gaze.take();
+        let ahead = named.chain(gaze.iter().flat_map(Gaze::controls));
+        let ahead = ahead.filter_map(|index| Some((index, controls.controls().get(index)?.default)));
         self.press_single(ahead, None);
+        self.gaze = gaze;
     }
 
-    /// Moves controls to the values that a gaze found, except those that are nearly there. Returns whether
-    /// any control has to move.
-    fn lead(&mut self, secs: f64) -> bool {
-        let Self { layers, found, .. } = self;
+    /// Moves controls to the values that a gaze found, except those that are nearly there, the more so where
+    /// the gaze is exact. Returns whether any control has to move.
+    fn lead(&mut self, secs: f64, is_exact: bool) -> bool {
+        let Self { layers, found, pack, .. } = self;
         let target = |control: usize| layers.base_ref().target(control).unwrap_or_default();
-        found.retain(|(control, value)| (target(*control) - value).abs() > OFF_DEGREES);
+        let controls = pack.controls().controls();
+        let off = |control: usize| match controls.get(control).filter(|_| is_exact) {
+            Some(control) => OFF_SHARE * (control.max - control.min),
+            None => OFF_DEGREES,
+        };
+        found.retain(|(control, value)| (target(*control) - value).abs() > off(*control));
         let found = std::mem::take(&mut self.found);
         let is_off = !found.is_empty();
         if is_off {

@@ -15,7 +15,6 @@
 mod place;
 mod meta;
 mod expression;
-mod look_at;
 mod first_person;
 mod descent;
 mod spring;
@@ -32,11 +31,11 @@ use glam::Quat;
 use place::Place;
 use serde_json::Value;
 
+pub use crate::look_at::{EyeTurn, Gaze, LookAt, LookAtKind, RangeMap};
 pub use avatar_mesh::expressions::Override;
 pub use constraint::{ConstraintKind, NodeConstraint};
 pub use expression::{ShapeWeights, expression_weights};
 pub use first_person::{FirstPerson, FirstPersonView};
-pub use look_at::{EyeTurn, Gaze, LookAt, LookAtKind, RangeMap};
 pub use meta::Meta;
 pub use spring::{ColliderGroup, ColliderShape, SpringChain, SpringCollider, SpringJoint, Springs};
 

@@ -8,12 +8,16 @@
 //! Nothing is assumed about axes and signs of controls: what looks along +Z at bind pose is turned by its
 //! joint's bone matrix `X`, and the values are found by steps that try out what each control does.
 
+mod rule;
 mod solve;
 
 use crate::{FaceError, FaceState, Pack};
 use glam::{Affine3A, Vec3};
 use pose_anim::{Control, Drive, JointMotion, face};
+use rule::Follower;
 use solve::Unknown;
+
+pub use rule::{LookRule, gaze_values};
 
 /// Directions further from straight ahead say nothing about the side.
 const WIDEST_RAD: f32 = 0.95 * std::f32::consts::PI;
@@ -30,6 +34,8 @@ pub struct Gaze {
     values: Vec<f32>,
     eyes: Vec<Turned>,
     head: Option<Turned>,
+    /// Where the file says how eyes look.
+    rule: Option<Follower>,
 }
 
 /// What one or two controls turn.
@@ -55,16 +61,30 @@ struct Sight {
 impl Gaze {
     /// The eyes of this pack, by the names of their controls (`eye.left.ud`, `eye.left.lr` and those of the
     /// right eye), and its head (`head.turn`, `head.bow`). Some of them may be missing; `None` where no
-    /// control turns an eye's joint.
+    /// control turns an eye's joint and the file has no expressions that look.
     pub fn new(pack: &Pack) -> Option<Self> {
         let mut eyes: Vec<Turned> = face::EYES.iter().filter_map(|names| Turned::of(pack, *names)).collect();
         let middle = eyes.iter().map(|eye| eye.origin).sum::<Vec3>() / eyes.len().max(1) as f32;
+        let rule = Follower::of(pack);
+        let middle = rule.and_then(|rule| rule.origin(pack)).unwrap_or(middle);
         let mut head = Turned::of(pack, face::FACING).map(|head| Turned { origin: middle, ..head });
         let (mut state, mut values) = (FaceState::new(pack), pack.controls().defaults());
         for turned in eyes.iter_mut().chain(&mut head) {
             turned.reach_rad = turned.reach(pack, &mut state, &mut values).ok()?;
         }
-        (!eyes.is_empty()).then_some(Self { state, values, eyes, head })
+        (!eyes.is_empty() || rule.is_some()).then_some(Self { state, values, eyes, head, rule })
+    }
+
+    /// Whether eyes follow a rule of the file ([`Pack::look_rule`]): then they find the same values each time,
+    /// to the last bit.
+    pub fn follows_rule(&self) -> bool {
+        self.rule.is_some()
+    }
+
+    /// The controls that look: those of the eyes, and of the head.
+    pub fn controls(&self) -> impl Iterator<Item = usize> {
+        let turned = self.eyes.iter().chain(&self.head).flat_map(|turned| turned.controls).flatten();
+        turned.chain(self.rule.iter().flat_map(Follower::controls))
     }
 
     /// Values of the eyes' controls, as pairs of control and value, at which each eye looks at `target` (in
@@ -74,6 +94,9 @@ impl Gaze {
     /// Where the target is out of an eye's reach, the eye turns toward it as far as it can: along the way
     /// from straight ahead to the target, and then to the nearest direction within the ranges. Behind the
     /// eyes both take the direction from the middle between them, so that they do not part or cross.
+    ///
+    /// Where the pack has a [`Pack::look_rule`], the values are those of the rule instead, which need not meet
+    /// the target.
     ///
     /// # Errors
     /// As [`FaceState::pose`].
@@ -85,9 +108,14 @@ impl Gaze {
         out: &mut Vec<(usize, f32)>,
     ) -> Result<(), FaceError> {
         out.clear();
-        let Self { state, values: tried, eyes, .. } = self;
+        let Self { state, values: tried, eyes, rule, .. } = self;
         take(tried, values)?;
         if !target.is_finite() {
+            return Ok(());
+        }
+        if let Some(rule) = rule {
+            state.pose(pack, tried)?;
+            rule.look_at(pack, state, target, out);
             return Ok(());
         }
         eyes.iter().for_each(|eye| eye.put(tried, eye.unknowns.map(|unknown| unknown.start)));

@@ -4,6 +4,7 @@ use super::shape_sets::{ShapeSet, face_control};
 use super::sliders::Wanted;
 use super::{ImportFailure, ImportReport};
 use avatar_exchange::Scene;
+use avatar_exchange::look_at::{LookAt, LookAtKind, RangeMap};
 use glam::Vec3;
 use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, face};
 use std::collections::{HashMap, HashSet};
@@ -45,8 +46,19 @@ pub(super) struct EyeRanges {
 }
 
 impl EyeRanges {
+    /// The ranges of eyes that are turned by their bones.
+    pub(super) fn of(look_at: &LookAt) -> Option<Self> {
+        let most = |range: RangeMap| range.map(f32::MAX).max(0.0);
+        (look_at.kind == LookAtKind::Bone).then(|| Self {
+            to_nose: most(look_at.horizontal_inner),
+            from_nose: most(look_at.horizontal_outer),
+            down: most(look_at.vertical_down),
+            up: most(look_at.vertical_up),
+        })
+    }
+
     /// The range of a control, if it is one of an eye.
-    fn of(self, control: &str) -> Option<(f32, f32)> {
+    fn of_control(self, control: &str) -> Option<(f32, f32)> {
         match control {
             face::EYE_LEFT_UD | face::EYE_RIGHT_UD => Some((-self.down, self.up)),
             face::EYE_LEFT_LR => Some((-self.to_nose, self.from_nose)),
@@ -66,10 +78,15 @@ pub(super) fn controls(
     let mut table = Table::default();
     for (role, node) in &joints.roles {
         let node_from_world = joints.turned_back(*node);
-        for (name, axis, min, max) in face_controls(*role) {
-            let axis = (node_from_world * *axis).normalize_or(*axis);
+        let mut of_role = face_controls(*role).to_vec();
+        // A rule of looking lifts first and then turns; the factors of a joint act from right to left.
+        if eyes.is_some() && matches!(role, Role::LeftEye | Role::RightEye) {
+            of_role.reverse();
+        }
+        for (name, axis, min, max) in of_role {
+            let axis = (node_from_world * axis).normalize_or(axis);
             let joint = joints.names[*node].clone();
-            let (min, max) = eyes.and_then(|eyes| eyes.of(name)).unwrap_or((*min, *max));
+            let (min, max) = eyes.and_then(|eyes| eyes.of_control(name)).unwrap_or((min, max));
             table.add(name, Drive::Joint { joint, axis, kind: JointMotion::Rotation }, min, max, 0.0);
         }
     }
@@ -94,12 +111,15 @@ fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table
     let mut counts = ShapeSet::ALL.map(|set| (set, 0));
     // Several nodes may have one of a name: the control reaches whatever one of them does.
     let mut ranges: HashMap<&str, (f32, f32, f32)> = HashMap::new();
-    for (shape, (own_min, own_max, own_rest)) in sliders.names.iter().zip(&sliders.ranges) {
+    // Their names are what poses and the gaze look for; a shape of such a name gets another one.
+    table.names.extend(sliders.expressions.iter().cloned());
+    let of_shapes = &sliders.names[..sliders.first_expression];
+    for (shape, (own_min, own_max, own_rest)) in of_shapes.iter().zip(&sliders.ranges) {
         let (min, max, rest) = ranges.entry(shape).or_default();
         (*min, *max) = (min.min(*own_min), max.max(*own_max));
         *rest = if own_rest.abs() > rest.abs() { *own_rest } else { *rest };
     }
-    for shape in &sliders.names {
+    for shape in of_shapes {
         // Each name once, where it is first.
         let Some((min, max, rest)) = ranges.remove(shape.as_str()) else { continue };
         match ShapeSet::find(shape).map(|(set, _)| set) {
@@ -110,6 +130,10 @@ fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table
         }
         let name = face_control(shape).filter(|name| !table.names.contains(*name)).unwrap_or(shape);
         table.add(name, Drive::Shape { shape: shape.clone() }, min, max, rest);
+    }
+    let of_expressions = &sliders.names[sliders.first_expression..];
+    for (name, slider) in sliders.expressions.iter().zip(of_expressions) {
+        table.push(name.clone(), Drive::Shape { shape: slider.clone() }, 0.0, 1.0, 0.0);
     }
     report.shape_sets.extend(counts.into_iter().filter(|(_, count)| *count > 0));
 }
@@ -128,7 +152,11 @@ impl Table {
             count += 1;
             unique = format!("{name}.{count}");
         }
-        let pace = Pace::named(&unique, &drives);
-        self.controls.push(Control { name: unique, drives, min, max, default, pace });
+        self.push(unique, drives, min, max, default);
+    }
+
+    fn push(&mut self, name: String, drives: Drive, min: f32, max: f32, default: f32) {
+        let pace = Pace::named(&name, &drives);
+        self.controls.push(Control { name, drives, min, max, default, pace });
     }
 }

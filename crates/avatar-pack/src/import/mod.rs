@@ -3,6 +3,7 @@
 
 mod controls;
 mod face;
+mod known;
 mod names;
 mod parts;
 mod poses;
@@ -13,12 +14,12 @@ mod sliders;
 #[cfg(feature = "vrm")]
 mod vrm;
 
+pub(crate) use known::EXPRESSION;
 pub use names::Role;
 pub use shape_sets::ShapeSet;
 pub(crate) use shape_sets::face_control;
-#[cfg(feature = "vrm")]
-pub use vrm::gaze_values;
 
+use crate::gaze::LookRule;
 use crate::{ContentsError, FaceError, FaceState, Pack, PackContents, SceneMotion, Textures, Warning};
 use avatar_exchange::Scene;
 use avatar_look::Materials;
@@ -50,6 +51,8 @@ pub struct ImportReport {
     pub other_shapes: Vec<String>,
     /// Joints whose turns became controls of their own names.
     pub other_joints: Vec<String>,
+    /// What the file says about itself: name, version, licence, authors, terms of use.
+    pub about: Vec<(String, String)>,
     /// What could not be represented, or was mended.
     pub notes: Vec<String>,
 }
@@ -97,15 +100,11 @@ impl Import {
     /// # Errors
     /// Nodes, controls or parts that do not fit together.
     pub fn from_scene(scene: Scene) -> Result<Self, ImportFailure> {
-        Self::with_roles(scene, &[], None)
+        Self::with_known(scene, known::Known::default())
     }
 
-    /// As [`Import::from_scene`], where what some nodes do is known, and perhaps how far eyes turn.
-    fn with_roles(
-        mut scene: Scene,
-        known: &[(Role, usize)],
-        eyes: Option<controls::EyeRanges>,
-    ) -> Result<Self, ImportFailure> {
+    /// As [`Import::from_scene`], where something about the scene is known.
+    fn with_known(mut scene: Scene, known: known::Known) -> Result<Self, ImportFailure> {
         let mut report = ImportReport {
             notes: scene.notes.iter().map(ToString::to_string).collect(),
             ..Default::default()
@@ -114,16 +113,21 @@ impl Import {
             report.notes.push("there is no mesh: a skeleton and its motion, nothing to draw".to_owned());
         }
         note_helpers(leave_helpers_out(&mut scene), &mut report);
-        let joints = rig::Joints::of(&scene, known, &mut report)?;
+        let joints = rig::Joints::of(&scene, &known.roles, &mut report)?;
         let shapes = parts::ShapeNames::of(&scene);
-        let sliders = sliders::Wanted::of(&scene, &shapes)?;
+        let sliders = sliders::Wanted::of(&scene, &shapes, &known.expressions)?;
+        let eyes = known.look.and_then(|(look_at, _)| controls::EyeRanges::of(&look_at));
         let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
         let (parts, textures) = parts::parts(&scene, &shapes, &mut report)?;
         let poses = poses::poses(&controls);
         let head =
             joints.roles.iter().find(|(role, _)| *role == Role::Head).map(|(_, node)| joints.of_node[*node]);
+        let look_rule = known
+            .look
+            .and_then(|(look_at, head)| Some(LookRule { look_at, head: joints.of_node.get(head).copied()? }));
         let mut pack = Pack::new(PackContents {
             face: None,
+            look_rule,
             palette: joints.palette,
             rig: joints.rig,
             parts,
@@ -139,6 +143,15 @@ impl Import {
         })?;
         measure(&mut pack, head)?;
         Ok(Self { pack, textures, report })
+    }
+}
+
+#[cfg(feature = "vrm")]
+impl Import {
+    /// Adds a note to the report and to the warnings of the pack.
+    fn note(&mut self, text: String) {
+        self.pack.warn(Warning::Import(text.clone()));
+        self.report.notes.push(text);
     }
 }
 
@@ -180,6 +193,9 @@ fn measure(pack: &mut Pack, head: Option<JointId>) -> Result<(), ImportFailure> 
 impl fmt::Display for ImportReport {
     /// One line for each finding.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (what, text) in &self.about {
+            writeln!(f, "{what}: {text}")?;
+        }
         for (role, joint) in &self.joints {
             writeln!(f, "joint {joint:?} is the {role}")?;
         }

@@ -37,6 +37,13 @@ impl ShapeNames {
         }
         all
     }
+
+    /// The place of a shape of a node in the common list, where a part shows it.
+    pub(super) fn place(&self, node: usize, shape: usize) -> Option<usize> {
+        let first = *self.first.get(node)?;
+        let end = self.first.get(node + 1).copied().unwrap_or(self.names.len());
+        Some(first + shape).filter(|place| *place < end)
+    }
 }
 
 /// The parts, which know the places of their shapes in the common list, and their pictures.

@@ -1,7 +1,9 @@
+use super::known::{EXPRESSION, NamedExpression};
 use super::parts::ShapeNames;
-use crate::Sliders;
+use crate::{Expressions, Sliders};
 use avatar_exchange::{NodeDrivers, Scene};
 use avatar_mesh::drivers::{DriversError, Input, Rule, ShapeDrivers, ShapeRule};
+use avatar_mesh::expressions::Expression;
 use std::collections::{HashMap, HashSet};
 use std::hash::Hash;
 
@@ -12,11 +14,19 @@ pub(super) struct Wanted {
     /// Least and greatest values at which shapes stand alone, and 0 and 1; and the values at rest.
     pub(super) ranges: Vec<(f32, f32, f32)>,
     pub(super) sliders: Option<Sliders>,
+    /// From here on `names` are those of expressions.
+    pub(super) first_expression: usize,
+    /// What the controls of the expressions are called.
+    pub(super) expressions: Vec<String>,
 }
 
 impl Wanted {
-    /// The sliders of the scene; where shapes have none, they are their own.
-    pub(super) fn of(scene: &Scene, shapes: &ShapeNames) -> Result<Self, DriversError> {
+    /// The sliders of the scene; where shapes have none, they are their own. Each expression has one more.
+    pub(super) fn of(
+        scene: &Scene,
+        shapes: &ShapeNames,
+        known: &[NamedExpression],
+    ) -> Result<Self, DriversError> {
         let mut wanted = Self::default();
         // Names may come more than once, numbers do not.
         let (mut keys, mut rules) = (Vec::new(), Vec::new());
@@ -40,14 +50,57 @@ impl Wanted {
                 }
             }
         }
-        if !scene.drivers.is_empty() {
+        let expressions = wanted.add_expressions(shapes, known, &mut keys);
+        if !scene.drivers.is_empty() || !known.is_empty() {
             let of_shapes: Vec<String> = (0..shapes.names.len()).map(key_of).collect();
             let drivers = ShapeDrivers::new(&keys, &of_shapes, &rules)?;
             let followed = Followed::new(&keys, &rules);
-            let of_shapes = of_shapes.iter().map(|shape| followed.by(shape)).collect();
-            wanted.sliders = Some(Sliders { names: wanted.names.clone(), of_shapes, drivers });
+            let mut of_shapes: Vec<_> = of_shapes.iter().map(|shape| followed.by(shape)).collect();
+            for (number, expression) in expressions.list.iter().enumerate() {
+                for (shape, _) in &expression.binds {
+                    // A shape may be bound by one expression twice.
+                    let followed = &mut of_shapes[*shape];
+                    let slider = expressions.first_slider + number;
+                    followed.extend((followed.last() != Some(&slider)).then_some(slider));
+                }
+            }
+            wanted.sliders = Some(Sliders { names: wanted.names.clone(), of_shapes, drivers, expressions });
         }
         Ok(wanted)
+    }
+
+    /// The sliders of the expressions, and what these do to the shapes.
+    fn add_expressions(
+        &mut self,
+        shapes: &ShapeNames,
+        known: &[NamedExpression],
+        keys: &mut Vec<String>,
+    ) -> Expressions {
+        self.first_expression = self.names.len();
+        let mut names: HashSet<String> = self.names.iter().cloned().collect();
+        let mut bound = vec![false; shapes.names.len()];
+        let mut list = Vec::with_capacity(known.len());
+        for NamedExpression { name, expression, binds } in known {
+            let mut unique = format!("{EXPRESSION}{name}");
+            self.expressions.push(unique.clone());
+            // A shape may have that name.
+            while !names.insert(unique.clone()) {
+                unique.push('\'');
+            }
+            self.add(unique, 0.0, [0.0, 1.0], keys);
+            let place = |bind: usize| {
+                let (node, shape) = *binds.get(bind)?;
+                shapes.place(node, shape)
+            };
+            let weights = expression.binds.iter();
+            let binds = weights.filter_map(|(bind, weight)| Some((place(*bind)?, *weight)));
+            let expression = Expression { binds: binds.collect(), ..expression.clone() };
+            expression.binds.iter().for_each(|(shape, _)| bound[*shape] = true);
+            list.push(expression);
+        }
+        let weights = shapes.weights.iter().copied().enumerate();
+        let rest = weights.filter(|(shape, weight)| bound[*shape] && *weight != 0.0 && weight.is_finite());
+        Expressions { first_slider: self.first_expression, list, rest: rest.collect() }
     }
 
     fn add(&mut self, name: String, rest: f32, outermost: [f32; 2], keys: &mut Vec<String>) -> String {

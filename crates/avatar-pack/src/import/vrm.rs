@@ -1,15 +1,15 @@
-use super::controls::EyeRanges;
+use super::known::{EXPRESSION, Known, NamedExpression};
 use super::{Import, ImportFailure, Role};
-use crate::Pack;
-use avatar_exchange::vrm::{Gaze, LookAt, LookAtKind, RangeMap, Vrm, VrmModel, expression_weights};
-use pose_anim::{Drive, Pose, face};
-use std::collections::{BTreeMap, HashMap};
+use avatar_exchange::vrm::{Expression, Meta, Vrm, VrmModel};
+use pose_anim::{ControlTable, Drive, Pose};
+use std::collections::HashMap;
 
 impl Import {
-    /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word,
-    /// and a pose for each expression, which puts the shapes of all others to rest. Where the file lets eye
-    /// bones look, the controls of the eyes go as far as it says ([`gaze_values`]); where it lets expressions
-    /// look, these are poses as all others.
+    /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word. Each
+    /// expression has a control, `expression.happy` and so on, whose values make the weights of shapes as
+    /// [`avatar_exchange::vrm::expression_weights`] does, with what expressions take from each other; and a
+    /// pose of its own name, in which all other expressions and shapes rest. Eyes look by the file's ranges,
+    /// by bones or by expressions ([`crate::Gaze`]).
     ///
     /// # Errors
     /// As [`Import::from_scene`].
@@ -21,70 +21,98 @@ impl Import {
             (Role::LeftEye, "leftEye"),
             (Role::RightEye, "rightEye"),
         ];
-        let known: Vec<_> =
-            bones.into_iter().filter_map(|(role, bone)| Some((role, vrm.bone(bone)?))).collect();
-        let turning = vrm.look_at.filter(|look_at| look_at.kind == LookAtKind::Bone);
-        let mut import = Self::with_roles(scene, &known, turning.map(|look_at| eye_ranges(&look_at)))?;
-        let mut control_of = HashMap::new();
-        for (index, control) in import.pack.controls().controls().iter().enumerate() {
-            if let Drive::Shape { shape } = &control.drives {
-                control_of.entry(shape.as_str()).or_insert(index);
-            }
-        }
-        let expressions: Vec<Pose> = (vrm.expressions.iter())
-            .map(|expression| pose(&import.pack, &control_of, &vrm, &expression.name))
+        let known = Known {
+            roles: bones.into_iter().filter_map(|(role, bone)| Some((role, vrm.bone(bone)?))).collect(),
+            look: vrm.look_at.zip(vrm.bone("head")),
+            expressions: vrm.expressions.iter().map(named).collect(),
+        };
+        let mut import = Self::with_known(scene, known)?;
+        import.report.about = about(&vrm.meta);
+        note_what_rests(&vrm, &mut import);
+        import.add_poses(&vrm)?;
+        Ok(import)
+    }
+
+    fn add_poses(&mut self, vrm: &Vrm) -> Result<(), ImportFailure> {
+        let controls = self.pack.controls();
+        let names = &vrm.expressions;
+        let of_expressions: Vec<Option<usize>> = names
+            .iter()
+            .map(|expression| controls.index(&format!("{EXPRESSION}{}", expression.name)))
             .collect();
-        let mut poses = import.pack.poses().clone();
+        let mut poses = self.pack.poses().clone();
+        // Each control of a shape has a pose of its name; those of expressions get the expressions' own names.
+        let is_of_expression =
+            |name: &str| controls.index(name).is_some_and(|control| of_expressions.contains(&Some(control)));
+        poses.poses.retain(|pose| !is_of_expression(&pose.name));
+        // The faces that are not one of a single shape put the expressions to rest.
+        for pose in poses.poses.iter_mut().filter(|pose| controls.index(&pose.name).is_none()) {
+            for control in of_expressions.iter().flatten() {
+                if pose.value(*control).is_none() {
+                    pose.values.push((*control, 0.0));
+                }
+            }
+            pose.values.sort_unstable_by_key(|(control, _)| *control);
+        }
+        let rest = shapes_at_rest(controls);
         let mut places: HashMap<String, usize> =
             poses.iter().enumerate().rev().map(|(place, pose)| (pose.name.clone(), place)).collect();
-        for pose in expressions {
+        for (expression, control) in names.iter().zip(&of_expressions) {
+            let Some(control) = control else { continue };
+            let with_own =
+                |(other, rest): &(usize, f32)| (*other, if other == control { 1.0 } else { *rest });
+            let values: Vec<(usize, f32)> = rest.iter().map(with_own).collect();
             // The usual pose of that name keeps its place and its key.
-            match places.get(&pose.name).and_then(|place| poses.poses.get_mut(*place)) {
+            match places.get(&expression.name).and_then(|place| poses.poses.get_mut(*place)) {
                 // An expression that moves nothing says no more than the usual face.
-                Some(_) if pose.values.is_empty() => {}
-                Some(other) => other.values = pose.values,
+                Some(_) if expression.binds.is_empty() => {}
+                Some(other) => other.values = values,
                 None => {
-                    places.insert(pose.name.clone(), poses.poses.len());
-                    poses.poses.push(pose);
+                    places.insert(expression.name.clone(), poses.poses.len());
+                    poses.poses.push(Pose::new(&expression.name, values));
                 }
             }
         }
-        import.pack.set_poses(poses)?;
-        Ok(import)
+        self.pack.set_poses(poses)?;
+        Ok(())
     }
 }
 
-/// The values of the controls of the eyes for a gaze as the head sees it, through the file's ranges:
-/// `eye.left.lr` and so on, in degrees. For look-at by bones; for that by expressions there is
-/// [`LookAt::expressions`].
-pub fn gaze_values(look_at: &LookAt, gaze: Gaze) -> [(&'static str, f32); 4] {
-    let turn = look_at.eyes(gaze);
-    [
-        (face::EYE_LEFT_UD, -turn.left.pitch_deg),
-        (face::EYE_LEFT_LR, turn.left.yaw_deg),
-        (face::EYE_RIGHT_UD, -turn.right.pitch_deg),
-        (face::EYE_RIGHT_LR, turn.right.yaw_deg),
-    ]
+fn named(expression: &Expression) -> NamedExpression {
+    let mut binds = Vec::with_capacity(expression.binds.len());
+    let in_places = expression.in_places(|node, shape| {
+        binds.push((node, shape));
+        Some(binds.len() - 1)
+    });
+    NamedExpression { name: expression.name.clone(), expression: in_places, binds }
 }
 
-fn eye_ranges(look_at: &LookAt) -> EyeRanges {
-    let most = |range: RangeMap| range.map(f32::MAX).max(0.0);
-    EyeRanges {
-        to_nose: most(look_at.horizontal_inner),
-        from_nose: most(look_at.horizontal_outer),
-        down: most(look_at.vertical_down),
-        up: most(look_at.vertical_up),
-    }
+/// All controls of shapes and expressions at their defaults.
+fn shapes_at_rest(controls: &ControlTable) -> Vec<(usize, f32)> {
+    let controls = controls.controls().iter().enumerate();
+    let shapes = controls.filter(|(_, control)| matches!(control.drives, Drive::Shape { .. }));
+    shapes.map(|(index, control)| (index, control.default)).collect()
 }
 
-/// The pose of an expression. `control_of` has the controls of shapes by the shapes' names.
-fn pose(pack: &Pack, control_of: &HashMap<&str, usize>, vrm: &Vrm, expression: &str) -> Pose {
-    let mut values: BTreeMap<usize, f32> = BTreeMap::new();
-    for ((node, shape), weight) in expression_weights(vrm, &[(expression, 1.0)]).by_shape {
-        let name = pack.motion().and_then(|motion| pack.shapes().get(motion.shape(node, shape)?));
-        let Some(control) = name.and_then(|name| control_of.get(name.as_str())) else { continue };
-        // Shapes of one name at several nodes have one control.
-        values.entry(*control).and_modify(|value| *value = weight.max(*value)).or_insert(weight);
+/// Name, authors, licence and terms of use in words.
+fn about(meta: &Meta) -> Vec<(String, String)> {
+    let single = [("name", &meta.title), ("version", &meta.version), ("licence", &meta.licence)];
+    let authors = ("authors".to_owned(), meta.authors.join(", "));
+    let single = single.into_iter().map(|(what, text)| (what.to_owned(), text.clone()));
+    let all = single.chain([authors]).chain(meta.terms.iter().cloned());
+    all.filter(|(_, text)| !text.is_empty()).collect()
+}
+
+/// Notes what was read and moves nothing.
+fn note_what_rests(vrm: &Vrm, import: &mut Import) {
+    let views = vrm.first_person.views.len();
+    for (count, what) in [
+        (vrm.springs.chains.len(), "springs of hair and clothes are at rest"),
+        (vrm.constraints.len(), "nodes that turn with others stay as they are"),
+        (views, "parts are shown to everybody, whatever the character itself is to see of them"),
+    ] {
+        if count > 0 {
+            import.note(format!("VRM: {count} {what}"));
+        }
     }
-    Pose::new(expression, values.into_iter().collect())
 }

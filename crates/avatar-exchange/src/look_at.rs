@@ -1,3 +1,6 @@
+//! How eyes follow things: the ranges of VRM, as functions from angles to turns of eyes and to values of
+//! expressions. Angles are in degrees, as in the files.
+
 use glam::{DAffine3, DVec3, EulerRot, Quat, Vec3};
 
 /// How eyes look at things.
