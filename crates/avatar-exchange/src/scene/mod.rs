@@ -23,6 +23,8 @@ pub use uneven::deform_unevenly;
 
 #[cfg(feature = "gltf")]
 pub(crate) use error::quoted;
+#[cfg(feature = "gltf")]
+pub(crate) use interpolate::sample;
 #[cfg(any(feature = "collada", feature = "gltf", feature = "md5"))]
 pub(crate) use raw::narrow;
 #[cfg(feature = "collada")]
