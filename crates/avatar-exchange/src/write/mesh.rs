@@ -2,9 +2,9 @@ use super::ExportError;
 use super::animation::is_unit;
 use super::buffer::{Buffer, Target};
 use super::plan::{Group, Plan};
-use crate::scene::{Scene, ScenePart};
+use crate::scene::{Scene, ScenePart, UvSet};
 use avatar_mesh::Skinning;
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use serde_json::{Map, Value, json};
 
 /// What glTF's validator grants the sum of weights, for each weight that counts.
@@ -44,12 +44,22 @@ fn primitive(scene: &Scene, number: usize, buffer: &mut Buffer) -> Result<Value,
         let tangents = mesh.tangents.iter().map(|tangent| with_handedness(*tangent).to_array());
         attribute("TANGENT", buffer.vectors(tangents, vertices, false));
     }
-    let textures = part.material.map_or(0, |material| scene.materials[material].textures().count());
-    let says_something =
-        textures > 0 || mesh.uvs.iter().any(|uv| uv.to_array().iter().any(|x| x.to_bits() != 0));
+    let textures = || part.material.into_iter().flat_map(|material| scene.materials[material].textures());
+    let needs_second = textures().any(|texture| texture.uvs == UvSet::Second) || !mesh.uvs_1.is_empty();
+    let is_zero = |uv: &Vec2| uv.to_array().iter().all(|x| x.to_bits() == 0);
+    let says_something = needs_second || textures().count() > 0 || !mesh.uvs.iter().all(is_zero);
     let uvs = mesh.uvs.iter().map(|uv| uv.to_array());
     if says_something {
         attribute("TEXCOORD_0", buffer.vectors(uvs, vertices, false));
+    }
+    if needs_second {
+        // Without coordinates they are 0, as a reader takes them.
+        let uvs = (0..mesh.positions.len()).map(|vertex| mesh.uvs_1.get(vertex).copied().unwrap_or_default());
+        attribute("TEXCOORD_1", buffer.vectors(uvs.map(|uv| uv.to_array()), vertices, false));
+    }
+    if !mesh.colors.is_empty() {
+        let colors = mesh.colors.iter().map(|color| color.clamp(Vec4::ZERO, Vec4::ONE).to_array());
+        attribute("COLOR_0", buffer.vectors(colors, vertices, false));
     }
     if let Some(skinning) = &mesh.skinning {
         let (joints, weights) = influences(part, number, skinning)?;
