@@ -1,6 +1,7 @@
 //! FBX: values computed by hand, other people's files, damaged files.
 
 mod others;
+mod reference;
 
 use crate::support::damage::read_any;
 use avatar_exchange::{ImportError, Scene, Transform, fbx};
