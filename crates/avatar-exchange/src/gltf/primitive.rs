@@ -158,7 +158,7 @@ impl Document<'_> {
         }
     }
 
-    /// All sets of joints and weights of a primitive, reduced to four bones a vertex; `None` without a first
+    /// All sets of joints and weights of a primitive, reduced to eight bones a vertex; `None` without a first
     /// set.
     fn skinning(
         &mut self,
@@ -189,7 +189,7 @@ impl Document<'_> {
         if sets.is_empty() {
             return Ok(None);
         }
-        self.take(place, vertices, size_of::<Four>())?;
+        self.take(place, vertices, sets.len().min(2) * size_of::<Four>())?;
         let mut influences = Influences::with_capacity(vertices);
         let mut bones = Vec::with_capacity(4 * sets.len());
         for vertex in 0..vertices {
@@ -201,11 +201,7 @@ impl Document<'_> {
             }
             influences.push(&mut bones, 0);
         }
-        if influences.reduced > 0 {
-            let text = format!(
-                "{} vertices have more than four bones: the four largest are kept",
-                influences.reduced
-            );
+        if let Some(text) = influences.note("vertices") {
             self.note(place, Finding::Converted(text));
         }
         if influences.unweighted > 0 {

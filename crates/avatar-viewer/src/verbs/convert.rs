@@ -111,13 +111,14 @@ pub(super) fn world_obj(pack: &Pack, state: &FaceState) -> Result<String> {
     }
     let deformed: Vec<_> =
         (0..pack.parts().len()).map(|part| Ok(state.deform(pack, part)?)).collect::<Result<_>>()?;
-    let parts: Vec<ObjPart<'_>> = (pack.parts().iter().zip(&deformed))
-        .map(|(part, deformed)| ObjPart {
+    let triangles: Vec<_> = (0..pack.parts().len()).map(|part| state.triangles(pack, part)).collect();
+    let parts: Vec<ObjPart<'_>> = (pack.parts().iter().zip(&deformed).zip(&triangles))
+        .map(|((part, deformed), triangles)| ObjPart {
             name: &part.name,
             positions: &deformed.positions,
             normals: &deformed.normals,
             uvs: &part.mesh.uvs,
-            triangles: &part.mesh.triangles,
+            triangles,
         })
         .collect();
     Ok(obj::write_parts(&parts))

@@ -3,7 +3,8 @@
 
 use crate::support::data::shared_data;
 use crate::support::gltf::{Builder, floats, glb, one_primitive, read};
-use avatar_exchange::{ImportError, Scene, deform_unevenly, gltf};
+use avatar_exchange::{ImportError, Scene, gltf};
+use avatar_mesh::deform;
 use std::time::{Duration, Instant};
 
 /// Far more than any file here takes, far less than what an unchecked count would.
@@ -22,7 +23,7 @@ fn exercise(scene: &Scene) {
         for (number, part) in scene.parts.iter().enumerate() {
             let mut out = part.mesh.deformed();
             let (bones, weights) = (scene.bones_of(number, &bones), scene.weights_of(number, pose));
-            deform_unevenly(&part.mesh, bones, weights, &mut out).expect("a checked part");
+            deform(&part.mesh, bones, weights, &mut out).expect("a checked part");
         }
     }
 }

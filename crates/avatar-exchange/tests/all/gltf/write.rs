@@ -169,6 +169,34 @@ fn node(name: &str, parent: Option<usize>) -> Node {
     Node { name: name.to_owned(), parent, ..Node::default() }
 }
 
+#[test]
+fn eight_bones_are_written_in_two_sets() {
+    let mut scene = RawScene { nodes: vec![node("a", None)], ..RawScene::default() };
+    scene.nodes.extend((1..8).map(|_| node("b", Some(0))));
+    scene.skins.push(Skin {
+        name: String::new(),
+        joints: (0..8).collect(),
+        inverse_binds: vec![Affine3A::IDENTITY; 8],
+    });
+    let mut mesh = skinned([0, 1, 2, 3], [0.25, 0.125, 0.125, 0.125]);
+    let more = mesh.skinning.as_mut().expect("bones");
+    // The sixth and the seventh are one bone, the eighth has no weight.
+    (more.more_bones, more.more_weights) = (vec![[4, 5, 5, 7]], vec![[0.125, 0.125, 0.125, 0.0]]);
+    scene.parts.push(ScenePart::skinned("eight", 0, mesh, 0));
+    let bytes = glb::write_raw(&scene).expect("a good scene");
+    let again = read(&bytes).expect("what was written");
+    let skinning = again.parts[0].mesh.skinning.as_ref().expect("bones");
+    let json = String::from_utf8_lossy(&bytes).into_owned();
+    assert!(json.contains("JOINTS_1") && json.contains("WEIGHTS_1"), "{json}");
+    // Read, the largest are first.
+    assert_eq!((skinning.bones[0], skinning.weights[0]), ([0, 5, 1, 2], [0.25, 0.25, 0.125, 0.125]));
+    assert_eq!((skinning.more_bones[0], skinning.more_weights[0]), ([3, 4, 0, 0], [0.125, 0.125, 0.0, 0.0]));
+    let four = skinned([0, 1, 2, 3], [0.25; 4]);
+    scene.parts[0].mesh = four;
+    let bytes = glb::write_raw(&scene).expect("a good scene");
+    assert!(!String::from_utf8_lossy(&bytes).contains("JOINTS_1"));
+}
+
 /// What glTF has no word for becomes what deforms alike.
 #[test]
 fn awkward_scenes_deform_as_before() {

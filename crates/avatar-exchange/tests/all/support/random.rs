@@ -63,7 +63,7 @@ impl Random {
 pub fn scene(seed: u64) -> RawScene {
     let mut r = Random(seed);
     let mut scene = RawScene::default();
-    for number in 0..r.below(8) {
+    for number in 0..r.below(12) {
         let local = if r.chance(5) { sheared(&mut r) } else { Transform::Trs(trs(&mut r)) };
         // Below the first node, so that the joints of skins share a root.
         let parent = (number > 0).then(|| r.below(number));
@@ -194,7 +194,25 @@ fn skinning(r: &mut Random, vertices: usize, joints: usize) -> Skinning {
         skinning.bones.push(bones);
         skinning.weights.push(weights);
     }
+    // Some meshes have more than four bones a vertex; there a reader puts the largest first.
+    if joints >= 8 && r.chance(2) {
+        for vertex in 0..vertices {
+            let first = r.below(joints);
+            let eight: [u16; 8] = std::array::from_fn(|slot| ((first + slot) % joints) as u16);
+            let is_one = vertex > 0 && r.chance(2);
+            let (bones, further) =
+                if is_one { ([eight[0], 0, 0, 0], [0; 4]) } else { (of(&eight[..4]), of(&eight[4..])) };
+            (skinning.bones[vertex], skinning.weights[vertex]) =
+                (bones, if is_one { [1.0, 0.0, 0.0, 0.0] } else { [0.25, 0.25, 0.125, 0.125] });
+            skinning.more_bones.push(further);
+            skinning.more_weights.push(if is_one { [0.0; 4] } else { [0.125, 0.0625, 0.03125, 0.03125] });
+        }
+    }
     skinning
+}
+
+fn of(four: &[u16]) -> [u16; 4] {
+    std::array::from_fn(|slot| four[slot])
 }
 
 fn material(r: &mut Random, images: usize) -> Material {
@@ -296,7 +314,7 @@ pub fn awkward(seed: u64) -> RawScene {
         {
             if r.chance(2) {
                 bones[3] = bones[0];
-                (weights[0], weights[3]) = (weights[0] / 2.0, weights[0] / 2.0 + 4e-7);
+                (weights[0], weights[3]) = (weights[0] / 2.0, weights[3] + weights[0] / 2.0 + 4e-7);
             }
         }
         if r.chance(4) && !part.mesh.shapes.is_empty() {
