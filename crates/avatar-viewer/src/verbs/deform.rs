@@ -1,7 +1,9 @@
 use crate::cli::DeformArgs;
+use crate::ending;
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
+use crate::standard;
 use crate::usage;
 use anyhow::Result;
 use avatar_mesh::Deformed;
@@ -10,7 +12,8 @@ use avatar_pack::{FaceState, Pack, Textures};
 use clap::ArgMatches;
 
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
-    let out = OutputFile::check(&args.out)?;
+    ending::format(&args.out, None, &[("obj", ())], "")?;
+    let out = OutputFile::check(&args.out, Contents::Text)?;
     let pack = super::open(&args.pack)?.load_pack()?;
     let parts = if args.world { (0..pack.parts().len()).collect() } else { vec![part(&pack, args)?] };
     let face = args.face.resolve(&pack, matches)?;
@@ -19,7 +22,7 @@ pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
     face.apply(&pack, &mut state)?;
     let deformed: Vec<Deformed> = if args.gpu {
         let mut offscreen = Offscreen::open(&pack, &Textures::default(), 1, LookArgs::default())?;
-        eprintln!("adapter: {}", offscreen.adapter());
+        standard::tell(format_args!("adapter: {}", offscreen.adapter()));
         parts.iter().map(|part| offscreen.deform(&pack, &face, *part)).collect::<Result<_>>()?
     } else {
         parts.iter().map(|part| Ok(state.deform(&pack, *part)?)).collect::<Result<_>>()?
