@@ -52,7 +52,9 @@ impl BoundSkin {
             let text = format!("{} points without weights follow the mesh's own node", influences.unweighted);
             note(&mut scene.notes, place.as_str(), Finding::Mended(text));
         }
-        if let Some(text) = influences.note("points") {
+        if influences.reduced > 0 {
+            let text =
+                format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced);
             note(&mut scene.notes, place, Finding::Converted(text));
         }
         scene.skins.push(skin);

@@ -31,10 +31,29 @@ pub(crate) fn quoted(name: &str) -> String {
     }
 }
 
+/// Characters of each text of an error. Our own lists of what is possible are shorter.
+const TEXT_SHOWN: usize = 1000;
+
+/// A text of an error, cut where it is longer than [`TEXT_SHOWN`]: it repeats identifiers and names, and a
+/// file decides how long these are.
+fn shown(mut text: String) -> String {
+    if let Some((end, _)) = text.char_indices().nth(TEXT_SHOWN) {
+        text.truncate(end);
+        text.push('…');
+    }
+    text
+}
+
 impl ImportError {
-    /// An error at a place of a file that is not known here; see [`ImportError::in_file`].
+    /// An error at a place of a file that is not known here; see [`ImportError::in_file`]. Of each text
+    /// the first 1000 characters are told.
     pub fn new(place: impl Into<String>, expected: impl Into<String>, found: impl Into<String>) -> Self {
-        Self { file: String::new(), place: place.into(), expected: expected.into(), found: found.into() }
+        let (place, expected) = (shown(place.into()), shown(expected.into()));
+        let mut found = shown(found.into());
+        if found.is_empty() {
+            found.push_str("an empty text");
+        }
+        Self { file: String::new(), place, expected, found }
     }
 
     /// The same, in a file of this name.

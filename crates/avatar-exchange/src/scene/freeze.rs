@@ -262,7 +262,8 @@ fn check_channel(channel: &Channel, node: &Node) -> Result<(), (String, String)>
     if channel.times.is_empty() {
         return Err(("at least one key".to_owned(), "none".to_owned()));
     }
-    if let Some(at) = channel.times.iter().position(|time| !time.is_finite()) {
+    // In files times have 32 bits.
+    if let Some(at) = channel.times.iter().position(|time| !(*time as f32).is_finite()) {
         return Err((format!("a finite time of key {at}"), channel.times[at].to_string()));
     }
     if let Some(at) = channel.times.windows(2).position(|pair| pair[1] < pair[0]) {

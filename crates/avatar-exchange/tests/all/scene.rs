@@ -159,3 +159,25 @@ fn transforms_come_back_from_their_matrices() {
         assert_eq!(again.affine().translation, trs.affine().translation);
     }
 }
+
+/// A file decides how long its names are, and errors repeat them.
+#[test]
+fn errors_are_short_and_never_empty() {
+    let long = "ä".repeat(100_000);
+    let error = ImportError::new(long.clone(), long.clone(), long);
+    let lengths = [error.place, error.expected, error.found].map(|text| text.chars().count());
+    assert_eq!(lengths, [1001; 3]);
+    assert_eq!(ImportError::new("here", "a name", "").found, "an empty text");
+}
+
+/// A clip that could not be written: glTF's times have 32 bits.
+#[test]
+fn times_fit_into_32_bits() {
+    let mut raw = sample();
+    let last = raw.clips[0].channels[0].times.len() - 1;
+    raw.clips[0].channels[0].times.fill(f64::from(f32::MAX));
+    assert!(Scene::from_raw(raw.clone()).is_ok());
+    raw.clips[0].channels[0].times[last] = 1e39;
+    let error = Scene::from_raw(raw).expect_err("an endless clip");
+    assert_eq!(error.expected, format!("a finite time of key {last}"));
+}

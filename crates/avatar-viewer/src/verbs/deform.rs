@@ -1,9 +1,7 @@
 use crate::cli::DeformArgs;
-use crate::ending;
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
-use crate::output::{Contents, OutputFile};
-use crate::standard;
+use crate::output::OutputFile;
 use crate::usage;
 use anyhow::Result;
 use avatar_mesh::Deformed;
@@ -12,31 +10,28 @@ use avatar_pack::{FaceState, Pack, Textures};
 use clap::ArgMatches;
 
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
-    ending::format(&args.out, None, &[("obj", ())], "")?;
-    let out = OutputFile::check(&args.out, Contents::Text)?;
+    let out = OutputFile::check(&args.out)?;
     let pack = super::open(&args.pack)?.load_pack()?;
     let parts = if args.world { (0..pack.parts().len()).collect() } else { vec![part(&pack, args)?] };
     let face = args.face.resolve(&pack, matches)?;
 
-    let mut state = FaceState::new(&pack);
-    face.apply(&pack, &mut state)?;
     let deformed: Vec<Deformed> = if args.gpu {
         let mut offscreen = Offscreen::open(&pack, &Textures::default(), 1, LookArgs::default())?;
-        standard::tell(format_args!("adapter: {}", offscreen.adapter()));
+        eprintln!("adapter: {}", offscreen.adapter());
         parts.iter().map(|part| offscreen.deform(&pack, &face, *part)).collect::<Result<_>>()?
     } else {
+        let mut state = FaceState::new(&pack);
+        face.apply(&pack, &mut state)?;
         parts.iter().map(|part| Ok(state.deform(&pack, *part)?)).collect::<Result<_>>()?
     };
-    let triangles: Vec<_> = parts.iter().map(|part| state.triangles(&pack, *part)).collect();
     let objects: Vec<ObjPart<'_>> = (parts.iter().map(|part| &pack.parts()[*part]).zip(&deformed))
-        .zip(&triangles)
-        .map(|((part, deformed), triangles)| ObjPart {
+        .map(|(part, deformed)| ObjPart {
             name: &part.name,
             positions: &deformed.positions,
             normals: &deformed.normals,
             // A single part is for comparing numbers.
             uvs: if args.world { &part.mesh.uvs } else { &[] },
-            triangles,
+            triangles: &part.mesh.triangles,
         })
         .collect();
     out.write(obj::write_parts(&objects).as_bytes())

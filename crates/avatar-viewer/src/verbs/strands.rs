@@ -1,17 +1,14 @@
 use crate::cli::StrandsArgs;
-use crate::ending;
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
-use crate::output::{Contents, OutputFile};
-use crate::standard;
+use crate::output::OutputFile;
 use anyhow::Result;
 use avatar_groom::PlantedStrand;
 use clap::ArgMatches;
 use serde_json::json;
 
 pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
-    ending::format(&args.out, None, &[("json", ())], "")?;
-    let out = OutputFile::check(&args.out, Contents::Text)?;
+    let out = OutputFile::check(&args.out)?;
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
@@ -23,8 +20,8 @@ pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
     let groom = hair.and_then(|hair| pack.groom(&textures, &hair));
     let planted = groom.as_ref().map_or(&[][..], |(_, groom)| groom.strands());
     if strands.is_empty() {
-        standard::warn(
-            "expected hair to grow, found none: --hair is off, density is 0, or the pack has no HairMap",
+        eprintln!(
+            "warning: expected hair to grow, found none: --hair is off, density is 0, or the pack has no HairMap"
         );
     }
     let strands: Vec<_> = (planted.iter().zip(&strands))

@@ -1,4 +1,3 @@
-use crate::standard;
 use avatar_panel::{Message, Severity};
 use std::time::{Duration, Instant};
 
@@ -44,7 +43,7 @@ impl Messages {
     /// Tells of an error, also where the program was started from.
     pub(super) fn error(&mut self, about: About, title: impl Into<String>, error: &anyhow::Error) {
         let (title, text) = (title.into(), format!("{error:#}"));
-        standard::tell(format_args!("error: {text}: {}", as_clause(&title)));
+        eprintln!("error: {text}: {}", as_clause(&title));
         self.tell(about, Severity::Error, title, text);
     }
 
@@ -58,7 +57,7 @@ impl Messages {
 
     pub(super) fn warn(&mut self, about: About, title: impl Into<String>, text: impl Into<String>) {
         let (title, text) = (title.into(), text.into());
-        standard::warn(&text);
+        eprintln!("warning: {text}");
         self.tell(about, Severity::Warning, title, text);
     }
 

@@ -1,0 +1,46 @@
+//! The functions that fuzzing calls with bytes of any kind, one for each kind of input. None of them may
+//! panic, hang, or take more memory than its input is worth; where a text can be written back, it has to say
+//! the same.
+//!
+//! ```text
+//!  libFuzzer ─▶ fuzz_targets/NAME.rs ─▶ NAME(bytes) ─▶ a reader ─▶ exercise: pose, import, write, read
+//!  corpus, regressions ─▶ tests/tests/fuzz.rs ─┘
+//! ```
+//!
+//! Several files are packed into one input with [`SEPARATOR`] between them, a byte that no text format uses.
+#![forbid(unsafe_code)]
+
+mod exercise;
+mod mutate;
+mod packed;
+mod scenes;
+mod texts;
+
+pub use mutate::mutate_json;
+pub use packed::{SEPARATOR, glb_of};
+pub use scenes::{bvh, collada, fbx, glb, gltf, md5, obj, target, vrm};
+pub use texts::{clips, controls, hair, materials, pack, picture, poses, rig};
+
+/// What a target does with an input.
+pub type Run = fn(&[u8]);
+
+/// All targets by their names, which are also those of their folders in `corpus` and `regressions`.
+pub const TARGETS: [(&str, Run); 17] = [
+    ("gltf", gltf),
+    ("glb", glb),
+    ("vrm", vrm),
+    ("obj", obj),
+    ("target", target),
+    ("fbx", fbx),
+    ("collada", collada),
+    ("md5", md5),
+    ("bvh", bvh),
+    ("rig", rig),
+    ("controls", controls),
+    ("poses", poses),
+    ("clips", clips),
+    ("materials", materials),
+    ("hair", hair),
+    ("pack", pack),
+    ("picture", picture),
+];

@@ -1,0 +1,190 @@
+//! The project's own files: rigs, everything in TOML, packs and their pictures.
+
+use crate::exercise::{act, within_memory};
+use crate::packed::files;
+use avatar_groom::Hair;
+use avatar_look::Materials;
+use avatar_pack::{MemorySource, Pack, Textures, raw_files};
+use pose_anim::{ClipSet, ControlTable, PoseSet};
+use pose_book::{ClipBook, PoseBook};
+use rig_core::{RawRig, Rig};
+
+/// `Transformations.xml`. What was read and written again is the same.
+pub fn rig(data: &[u8]) {
+    let without_places = |mut raw: RawRig| {
+        raw.joints.iter_mut().for_each(|joint| joint.place = None);
+        raw
+    };
+    match within_memory(data.len(), "the reader", || RawRig::from_xml(data)) {
+        Ok(raw) => {
+            let _ = Rig::from_raw(&raw).map_err(|error| error.to_string());
+            let _ = Rig::from_raw_affine(&raw).map_err(|error| error.to_string());
+            if let Ok(text) = raw.to_xml() {
+                let again = RawRig::from_xml(text.as_bytes()).map(without_places);
+                assert_eq!(again, Ok(without_places(raw)), "written as {text}");
+            }
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+fn text(data: &[u8]) -> Option<&str> {
+    std::str::from_utf8(data).ok()
+}
+
+/// `controls.toml`. Axes may change in their last digit, so what is written is only read.
+pub fn controls(data: &[u8]) {
+    let Some(text) = text(data) else { return };
+    match within_memory(data.len(), "the reader", || ControlTable::from_toml(text)) {
+        Ok(table) => {
+            let written = table.to_toml();
+            let again = ControlTable::from_toml(&written);
+            assert!(again.is_ok(), "{again:?}: {written}");
+            let poses = PoseSet::default_face(&table);
+            let again = PoseSet::from_toml(&poses.to_toml(&table), &table);
+            assert!(again.is_ok(), "{again:?}: {written}");
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `poses.toml` for the default controls, and its edits.
+pub fn poses(data: &[u8]) {
+    let Some(text) = text(data) else { return };
+    let controls = ControlTable::default_face();
+    match within_memory(data.len(), "the reader", || PoseSet::from_toml(text, &controls)) {
+        Ok(poses) => {
+            let written = poses.to_toml(&controls);
+            assert_eq!(PoseSet::from_toml(&written, &controls), Ok(poses.clone()), "written as {written}");
+            let Ok(mut book) = PoseBook::read(text, &controls) else {
+                panic!("a text is read as poses, but not for editing")
+            };
+            let count = poses.poses.len();
+            let _ = book.rename(0, "a new name");
+            let _ = book.set_values(count / 2, &[(0, 1.0), (9, -3.0)]);
+            let _ = book.move_to(0, count.saturating_sub(1));
+            let _ = book.remove(count / 2);
+            while book.undo().is_some() {}
+            assert_eq!(book.poses(), &poses);
+            while book.redo().is_some() {}
+            assert_eq!(PoseSet::from_toml(book.text(), &controls).as_ref(), Ok(book.poses()));
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `clips.toml` for the default controls, and its edits.
+pub fn clips(data: &[u8]) {
+    let Some(text) = text(data) else { return };
+    let controls = ControlTable::default_face();
+    match within_memory(data.len(), "the reader", || ClipSet::from_toml(text, &controls)) {
+        Ok(clips) => {
+            let written = clips.to_toml(&controls);
+            assert_eq!(ClipSet::from_toml(&written, &controls), Ok(clips.clone()), "written as {written}");
+            let mut values = controls.defaults();
+            for clip in &clips.clips {
+                for time in [-1.0, 0.0, 0.4 * clip.duration_secs(), 1e9, f64::NAN] {
+                    clip.sample(time, &mut values);
+                }
+            }
+            let Ok(mut book) = ClipBook::read(text, &controls) else {
+                panic!("a text is read as clips, but not for editing")
+            };
+            if let Some(first) = clips.clips.first() {
+                let mut first = first.clone();
+                first.reverse();
+                let _ = first.scale_time(0.5);
+                let _ = book.set(0, &first, "turn around");
+                let _ = book.remove(0);
+            }
+            while book.undo().is_some() {}
+            assert_eq!(book.clips(), &clips);
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `materials.toml`.
+pub fn materials(data: &[u8]) {
+    let Some(text) = text(data) else { return };
+    match within_memory(data.len(), "the reader", || Materials::from_toml(text)) {
+        Ok(materials) => {
+            let written = materials.to_toml();
+            assert_eq!(Materials::from_toml(&written), Ok(materials), "written as {written}");
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `hair.toml`.
+pub fn hair(data: &[u8]) {
+    let Some(text) = text(data) else { return };
+    match within_memory(data.len(), "the reader", || Hair::from_toml(text)) {
+        Ok(hair) => {
+            let written = hair.to_toml();
+            assert_eq!(Hair::from_toml(&written), Ok(hair), "written as {written}");
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// The files of the golden pack that an input does not say.
+const GOLDEN: [(&str, &[u8]); 15] = [
+    ("LowerJaw_IB.raw", include_bytes!("../../tests/golden/pack/LowerJaw_IB.raw")),
+    ("LowerJaw_VB.raw", include_bytes!("../../tests/golden/pack/LowerJaw_VB.raw")),
+    ("LtEyeBall_smtt_IB.raw", include_bytes!("../../tests/golden/pack/LtEyeBall_smtt_IB.raw")),
+    ("LtEyeBall_smtt_VB.raw", include_bytes!("../../tests/golden/pack/LtEyeBall_smtt_VB.raw")),
+    ("LtEyeTransp_smtt_IB.raw", include_bytes!("../../tests/golden/pack/LtEyeTransp_smtt_IB.raw")),
+    ("LtEyeTransp_smtt_VB.raw", include_bytes!("../../tests/golden/pack/LtEyeTransp_smtt_VB.raw")),
+    ("MarsienneSkin_IB.raw", include_bytes!("../../tests/golden/pack/MarsienneSkin_IB.raw")),
+    ("MarsienneSkin_VB.raw", include_bytes!("../../tests/golden/pack/MarsienneSkin_VB.raw")),
+    ("RtEyeBall_smtt_IB.raw", include_bytes!("../../tests/golden/pack/RtEyeBall_smtt_IB.raw")),
+    ("RtEyeBall_smtt_VB.raw", include_bytes!("../../tests/golden/pack/RtEyeBall_smtt_VB.raw")),
+    ("RtEyeTransp_smtt_IB.raw", include_bytes!("../../tests/golden/pack/RtEyeTransp_smtt_IB.raw")),
+    ("RtEyeTransp_smtt_VB.raw", include_bytes!("../../tests/golden/pack/RtEyeTransp_smtt_VB.raw")),
+    ("Transformations.xml", include_bytes!("../../tests/golden/pack/Transformations.xml")),
+    ("UpperJaw_IB.raw", include_bytes!("../../tests/golden/pack/UpperJaw_IB.raw")),
+    ("UpperJaw_VB.raw", include_bytes!("../../tests/golden/pack/UpperJaw_VB.raw")),
+];
+
+/// What an input of [`pack`] says, in this order; an empty file stands for one of the golden pack, or none.
+const SAID: [&str; 8] = [
+    "Transformations.xml",
+    "controls.toml",
+    "poses.toml",
+    "clips.toml",
+    "materials.toml",
+    "hair.toml",
+    "LowerJaw_IB.raw",
+    "LowerJaw_VB.raw",
+];
+
+/// A whole pack: texts that belong together, and the buffers of one part. It is written back, too.
+pub fn pack(data: &[u8]) {
+    let mut source = MemorySource::default();
+    for (name, bytes) in GOLDEN {
+        source.files.insert(name.to_owned(), bytes.to_vec());
+    }
+    for (name, bytes) in SAID.into_iter().zip(files(data)).filter(|(_, bytes)| !bytes.is_empty()) {
+        source.files.insert(name.to_owned(), bytes.to_vec());
+    }
+    match within_memory(data.len(), "the reader", || Pack::load(&source)) {
+        Ok(pack) => {
+            let textures = Textures::default();
+            act(&pack, &textures);
+            match raw_files(&pack, &textures) {
+                Ok(_) => {}
+                Err(error) => drop(error.to_string()),
+            }
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// A picture of a pack.
+pub fn picture(data: &[u8]) {
+    let mut source = MemorySource::default();
+    source.files.insert("SkinTex_Decal.png".to_owned(), data.to_vec());
+    let textures = within_memory(data.len(), "the decoder", || Textures::load(&source));
+    let _ = textures.warnings.iter().map(ToString::to_string).collect::<String>();
+}
