@@ -40,6 +40,15 @@ impl Format {
         }
     }
 
+    /// Whether pixels can be transparent; without, they are shown on black.
+    pub const fn keeps_alpha(self) -> bool {
+        match self {
+            Self::Gif | Self::Apng => true,
+            #[cfg(feature = "mp4")]
+            Self::Mp4 => false,
+        }
+    }
+
     /// Longer and shorter side of the largest picture.
     pub(crate) const fn largest(self) -> (u32, u32) {
         match self {

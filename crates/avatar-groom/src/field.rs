@@ -221,11 +221,8 @@ fn other_bones(skin: &Mesh, head_bone: u32) -> [u32; OTHER_BONES] {
 }
 
 fn skinned(skin: &Mesh, vertex: u32) -> impl Iterator<Item = (u32, f32)> {
-    let of = skin.skinning.as_ref().and_then(|skinning| {
-        Some((skinning.bones.get(vertex as usize)?, skinning.weights.get(vertex as usize)?))
-    });
-    of.into_iter()
-        .flat_map(|(bones, weights)| bones.iter().map(|b| u32::from(*b)).zip(weights.iter().copied()))
+    let of = skin.skinning.iter().flat_map(move |skinning| skinning.influences(vertex as usize));
+    of.map(|(bone, weight)| (bone.into(), weight))
 }
 
 fn shares(skin: &Mesh, vertex: u32, bones: [u32; OTHER_BONES]) -> [f32; OTHER_BONES] {

@@ -115,10 +115,9 @@ fn head_bone(skin: &Mesh, roots: &[Root]) -> u32 {
     let Some(skinning) = &skin.skinning else { return 0 };
     let mut weights: BTreeMap<u16, f32> = BTreeMap::new();
     for vertex in roots.iter().map(|root| root.corners[0] as usize) {
-        let Some((bones, shares)) = skinning.bones.get(vertex).zip(skinning.weights.get(vertex)) else {
-            continue;
-        };
-        bones.iter().zip(shares).for_each(|(bone, share)| *weights.entry(*bone).or_default() += share);
+        for (bone, share) in skinning.influences(vertex) {
+            *weights.entry(bone).or_default() += share;
+        }
     }
     let most = weights.into_iter().max_by(|(_, a), (_, b)| a.total_cmp(b));
     most.map_or(0, |(bone, _)| u32::from(bone))

@@ -1,4 +1,4 @@
-use crate::turning::{all_turn_evenly, blended, is_mirroring, moved_normal, wide};
+use crate::turning::{all_turn_evenly, blended, is_mirroring, normal_matrix, wide};
 use crate::{Deformed, Mesh, SmoothNormals};
 use glam::{Affine3A, DMat3, Vec3, Vec3A};
 
@@ -215,7 +215,8 @@ impl Sums {
 
 /// The unit normal that stands on what a matrix makes of the surface, or `otherwise` where it makes nothing.
 fn standing(matrix: &DMat3, normal: Vec3A, otherwise: Vec3) -> Vec3 {
-    moved_normal(matrix, normal).map_or(otherwise, |normal| normal.as_vec3())
+    let standing = (normal_matrix(matrix) * normal.as_dvec3()).try_normalize();
+    standing.map_or(otherwise, |normal| normal.as_vec3())
 }
 
 fn blended_normal(blended: Vec3, undeformed: Vec3) -> Vec3A {

@@ -107,7 +107,7 @@ pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec
 pub use shape::Shape;
 pub use skinning::Skinning;
 pub use smooth::SmoothNormals;
-pub use turning::{deformed_triangles, mirrors, turns_evenly};
+pub use turning::{deformed_triangles, mirrors, normal_matrix, turns_evenly};
 pub use validate::{MeshError, MeshWarning, WEIGHT_SUM_LIMIT, WEIGHT_SUM_TOLERANCE};
 pub use weld::{Welded, weld, weld_positions};
 pub use winding::Winding;

@@ -19,7 +19,7 @@ pub struct Skinning {
 impl Skinning {
     /// The bones of a vertex and their weights, four or eight, those of weight 0 as well; none for a vertex
     /// that does not exist.
-    pub fn influences(&self, vertex: usize) -> impl Iterator<Item = (u16, f32)> + '_ {
+    pub fn influences(&self, vertex: usize) -> impl Iterator<Item = (u16, f32)> + Clone + use<> {
         let four = |bones: &[[u16; 4]], weights: &[[f32; 4]]| {
             let four = bones.get(vertex).copied().zip(weights.get(vertex).copied());
             four.into_iter().flat_map(|(bones, weights)| bones.into_iter().zip(weights))

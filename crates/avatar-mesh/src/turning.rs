@@ -1,7 +1,7 @@
 //! What bone matrices do to directions: to normals, and to the way that triangles run around.
 
 use crate::{Mesh, Skinning};
-use glam::{Affine3A, DMat3, DVec3, Vec3A};
+use glam::{Affine3A, DMat3};
 use std::borrow::Cow;
 
 /// How far axes may be from equal lengths and right angles before normals need a matrix of their own:
@@ -33,13 +33,13 @@ pub(crate) fn is_mirroring(matrix: &DMat3) -> bool {
     matrix.x_axis.dot(matrix.y_axis.cross(matrix.z_axis)) < 0.0
 }
 
-/// The direction of a normal that stands on a surface which a matrix moves: the inverse transpose, up to a
-/// positive factor. It is computed as the cofactors times the sign of the determinant, which exist for flat
-/// matrices, too. `None` where that has no direction.
-pub(crate) fn moved_normal(matrix: &DMat3, normal: Vec3A) -> Option<DVec3> {
+/// What turns normals where a matrix moves a surface, so that they stand on it again: the inverse transpose,
+/// up to a positive factor. It is computed as the cofactors times the sign of the determinant, which exist for
+/// flat matrices, too.
+pub fn normal_matrix(matrix: &DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
     let sign = if is_mirroring(matrix) { -1.0 } else { 1.0 };
-    (DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * normal.as_dvec3() * sign).try_normalize()
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
 /// The directions of the mean of a vertex's bones; bones beyond the palette count as nothing.

@@ -45,7 +45,8 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     for (number, part) in pack.parts().iter().enumerate() {
         let node = scene.nodes.len();
         let weights = rest.get(part.shapes()).unwrap_or_default().to_vec();
-        scene.nodes.push(Node { name: part.name.clone(), weights, ..Node::default() });
+        let local = place(pack, part);
+        scene.nodes.push(Node { name: part.name.clone(), weights, local, ..Node::default() });
         let mesh = mesh(pack, part);
         let material = material(pack, textures, number, &mut images, &mut scene.notes);
         scene.parts.push(ScenePart {
@@ -100,6 +101,26 @@ fn trs(parent_from_joint: DAffine3) -> Trs {
 /// The scale without what is only the rounding of a rotation.
 fn unit_scale(scale: Vec3) -> Vec3 {
     if scale.abs_diff_eq(Vec3::ONE, 1e-6) { Vec3::ONE } else { scale }
+}
+
+/// The node of a part moves nothing, since joints do. Programs that take the winding of triangles from it, as
+/// glTF 2.0 says in section 3.7.4, are to find a mirror where the joints are one.
+fn place(pack: &Pack, part: &Part) -> Transform {
+    let mirrors = |bone: usize| {
+        let bone = pack.palette().get(bone)?;
+        let world_from_joint = pack.rig().world_from_bind().get(bone.joint.index())?;
+        Some(avatar_mesh::mirrors(&(*world_from_joint * bone.joint_from_mesh)))
+    };
+    let is_mirrored = match (part.bone, &part.mesh.skinning) {
+        (Some(bone), _) => mirrors(bone) == Some(true),
+        (None, Some(skinning)) => {
+            let used = skinning.used_bones();
+            !used.is_empty() && used.into_iter().all(|bone| mirrors(bone.into()) == Some(true))
+        }
+        (None, None) => false,
+    };
+    let scale = if is_mirrored { Vec3::new(-1.0, 1.0, 1.0) } else { Vec3::ONE };
+    Transform::Trs(Trs { scale, ..Trs::default() })
 }
 
 /// The mesh as a scene has it: its shapes with the names that they have in the pack, and triangles that agree

@@ -1,7 +1,8 @@
 use crate::{MotionAt, Pack, PaletteBone, Part};
-use avatar_mesh::{DeformError, Deformed};
+use avatar_mesh::{DeformError, Deformed, deformed_triangles};
 use glam::Affine3A;
 use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
+use std::borrow::Cow;
 
 /// Why control values could not be turned into a face.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -175,11 +176,7 @@ impl FaceState {
         let missing =
             DeformError::VertexCount { what: "the parts", expected: pack.parts().len(), found: part };
         let part = pack.parts().get(part).ok_or(missing)?;
-        let Part { mesh, bone, .. } = part;
-        let bones = match bone {
-            Some(bone) => self.bones.get(*bone..=*bone).unwrap_or_default(),
-            None => &self.bones,
-        };
+        let mesh = &part.mesh;
         let shapes = part.shapes();
         let (expected, found) = (shapes.end, self.weights.len());
         let weights = match shapes.is_empty() {
@@ -187,8 +184,24 @@ impl FaceState {
             false => self.weights.get(shapes).ok_or(DeformError::WeightCount { expected, found })?,
         };
         let mut deformed = mesh.deformed();
-        avatar_mesh::deform(mesh, bones, weights, &mut deformed)?;
+        avatar_mesh::deform(mesh, self.bones_of(part), weights, &mut deformed)?;
         Ok(deformed)
+    }
+
+    /// The triangles of a part as they run in this pose: those of its mesh, but what bones mirror the other
+    /// way around, so that all are counter-clockwise seen from outside
+    /// ([`avatar_mesh::deformed_triangles`]). None of a part that the pack does not have.
+    pub fn triangles<'a>(&self, pack: &'a Pack, part: usize) -> Cow<'a, [[u32; 3]]> {
+        let part = pack.parts().get(part);
+        part.map_or(Cow::Borrowed(&[]), |part| deformed_triangles(&part.mesh, self.bones_of(part)))
+    }
+
+    /// The bone matrices that the part's mesh means.
+    fn bones_of(&self, part: &Part) -> &[Affine3A] {
+        match part.bone {
+            Some(bone) => self.bones.get(bone..=bone).unwrap_or_default(),
+            None => &self.bones,
+        }
     }
 
     /// Bone matrices `X` in the order of the pack's palette.

@@ -289,7 +289,9 @@ fn check(contents: &PackContents) -> Result<(), ContentsError> {
     }
     for part in parts {
         let place = || format!("part {:?}", part.name);
-        let skinned = part.mesh.skinning.iter().flat_map(|skinning| skinning.bones.as_flattened());
+        let skinned = part.mesh.skinning.iter().flat_map(|skinning| {
+            skinning.bones.as_flattened().iter().chain(skinning.more_bones.as_flattened())
+        });
         if let Some(most) = skinned.map(|bone| usize::from(*bone)).chain(part.bone).max() {
             in_range(most, palette.len(), "bones", place)?;
         }

@@ -155,12 +155,12 @@ fn on_head(pack: &Pack, part: &Part) -> Vec<bool> {
     match (&part.mesh.skinning, part.bone) {
         (Some(skinning), None) => {
             let bones: Vec<bool> = (0..pack.palette().len()).map(is_head).collect();
-            let weight = |(bones_of, weights): (&[u16; 4], &[f32; 4])| {
-                let both = bones_of.iter().zip(weights);
-                let on_head = both.filter(|(bone, _)| bones.get(usize::from(**bone)) == Some(&true));
+            let is_on_head = |vertex| {
+                let all = skinning.influences(vertex);
+                let on_head = all.filter(|(bone, _)| bones.get(usize::from(*bone)) == Some(&true));
                 on_head.map(|(_, weight)| weight).sum::<f32>() > 0.5
             };
-            skinning.bones.iter().zip(&skinning.weights).map(weight).collect()
+            (0..skinning.bones.len()).map(is_on_head).collect()
         }
         (_, bone) => vec![is_head(bone.unwrap_or(0)); count],
     }
@@ -168,15 +168,10 @@ fn on_head(pack: &Pack, part: &Part) -> Vec<bool> {
 
 /// The bones that move anything of a part.
 fn used_bones(part: &Part) -> Vec<usize> {
-    let Some(skinning) = part.mesh.skinning.as_ref().filter(|_| part.bone.is_none()) else {
-        return vec![part.bone.unwrap_or(0)];
-    };
-    let both = skinning.bones.iter().flatten().zip(skinning.weights.iter().flatten());
-    let mut used: Vec<usize> =
-        both.filter(|(_, weight)| **weight != 0.0).map(|(bone, _)| usize::from(*bone)).collect();
-    used.sort_unstable();
-    used.dedup();
-    used
+    match part.mesh.skinning.as_ref().filter(|_| part.bone.is_none()) {
+        Some(skinning) => skinning.used_bones().into_iter().map(usize::from).collect(),
+        None => vec![part.bone.unwrap_or(0)],
+    }
 }
 
 /// Whether anything that moves a part is not as at rest.

@@ -1,6 +1,8 @@
 use crate::face_args::FaceArgs;
 use crate::hair_args::HairArgs;
 use crate::look_args::LookArgs;
+use crate::numbers::{count, positive};
+use crate::output::STANDARD;
 use crate::picture_args::PictureArgs;
 use avatar_film::Rate;
 use clap::{ArgGroup, Args, Parser, Subcommand};
@@ -34,7 +36,7 @@ pub(crate) struct WindowArgs {
     #[command(flatten)]
     pub(crate) look: LookArgs,
     /// Size of the window's picture in pixels [default: as it was left, at first 1280x720]
-    #[arg(long, value_name = "WIDTHxHEIGHT")]
+    #[arg(long, allow_hyphen_values = true, value_name = "WIDTHxHEIGHT")]
     pub(crate) size: Option<Size>,
     /// Show nothing but the face
     #[arg(long)]
@@ -84,11 +86,15 @@ pub(crate) struct RenderArgs {
     pub(crate) face: FaceArgs,
     #[command(flatten)]
     pub(crate) look: LookArgs,
-    /// The picture, a PNG, with the face's state in its text "Mimik"
+    /// The picture; its end says the format: .png, .jpg (or .jpeg) or .webp (without loss). `-` is standard
+    /// output. What the face does is written into it
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
+    /// Format of what goes to standard output: png, jpg or webp [default: png]
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<String>,
     /// Size in pixels
-    #[arg(long, default_value = "1280x720", value_name = "WIDTHxHEIGHT")]
+    #[arg(long, default_value = "1280x720", allow_hyphen_values = true, value_name = "WIDTHxHEIGHT")]
     pub(crate) size: Size,
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
@@ -107,19 +113,22 @@ pub(crate) struct RecordArgs {
     #[arg(long, value_name = "NAME")]
     pub(crate) clip: Option<String>,
     /// Frames per second, up to 240 (GIF: 50): 30, 12.5 or 30000/1001
-    #[arg(long, default_value = "30", allow_negative_numbers = true, value_name = "RATE")]
+    #[arg(long, default_value = "30", allow_hyphen_values = true, value_name = "RATE")]
     pub(crate) fps: Rate,
     /// Seconds [default: until the script's last motion has come to rest, or the clip's end]
-    #[arg(long, value_parser = positive, allow_negative_numbers = true, value_name = "SECONDS")]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true, value_name = "SECONDS")]
     pub(crate) duration: Option<f64>,
     #[command(flatten)]
     pub(crate) look: LookArgs,
     /// The film; its end says the format: .gif, .png (animated) or .mp4. A name without one is a folder of
-    /// pictures
+    /// pictures; `-` is standard output
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
+    /// Format of what goes to standard output: gif, png or mp4 [default: gif]
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<String>,
     /// Size in pixels
-    #[arg(long, default_value = "640x360", value_name = "WIDTHxHEIGHT")]
+    #[arg(long, default_value = "640x360", allow_hyphen_values = true, value_name = "WIDTHxHEIGHT")]
     pub(crate) size: Size,
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
@@ -131,9 +140,13 @@ pub(crate) struct SheetArgs {
     pub(crate) pack: PackArg,
     #[command(flatten)]
     pub(crate) look: LookArgs,
-    /// The picture, a PNG
+    /// The picture; its end says the format: .png, .jpg (or .jpeg) or .webp (without loss). `-` is standard
+    /// output
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
+    /// Format of what goes to standard output: png, jpg or webp [default: png]
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<String>,
 }
 
 #[derive(Debug, Args)]
@@ -142,6 +155,9 @@ pub(crate) struct BonesArgs {
     pub(crate) pack: PackArg,
     #[command(flatten)]
     pub(crate) face: FaceArgs,
+    /// The matrices, as .json; `-` is standard output
+    #[arg(long, default_value = STANDARD, value_name = "FILE")]
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -150,7 +166,7 @@ pub(crate) struct DeformArgs {
     pub(crate) pack: PackArg,
     #[command(flatten)]
     pub(crate) face: FaceArgs,
-    /// The mesh, an OBJ
+    /// The mesh, an .obj; `-` is standard output
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
     /// Name of the part [default: skin, or the first part of an avatar without one]
@@ -174,9 +190,12 @@ pub(crate) struct ConvertArgs {
     #[command(flatten)]
     pub(crate) face: FaceArgs,
     /// The file to write, whose end says the format; a name without an end, or with a separator at its end,
-    /// is that of a folder
+    /// is that of a folder; `-` is standard output
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    /// Format of what goes to standard output: glb or obj [default: glb]
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) format: Option<String>,
 }
 
 #[derive(Debug, Args)]
@@ -187,11 +206,11 @@ pub(crate) struct StrandsArgs {
     pub(crate) face: FaceArgs,
     #[command(flatten)]
     pub(crate) hair: HairArgs,
-    /// The strands, JSON
+    /// The strands, as .json; `-` is standard output
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
     /// Only the first so many strands
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_parser = count, allow_hyphen_values = true, value_name = "NUMBER")]
     pub(crate) limit: Option<usize>,
 }
 
@@ -207,11 +226,14 @@ pub(crate) struct TraceArgs {
     #[arg(long)]
     pub(crate) derivatives: bool,
     /// Rows per second
-    #[arg(long, default_value = "240", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, default_value = "240", value_parser = positive, allow_hyphen_values = true)]
     pub(crate) hz: f64,
     /// Seconds; the last row is at or just before this time
-    #[arg(long, default_value = "3", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, default_value = "3", value_parser = positive, allow_hyphen_values = true)]
     pub(crate) duration: f64,
+    /// The motion, as .csv; `-` is standard output
+    #[arg(long, default_value = STANDARD, value_name = "FILE")]
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -257,9 +279,4 @@ impl FromStr for Size {
             .ok_or_else(|| format!("expected WIDTHxHEIGHT, each from 1 to {MAX_SIDE}, as in 1280x720"))?;
         Ok(Self { width, height })
     }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0);
-    number.ok_or_else(|| "expected a finite number above 0".to_owned())
 }

@@ -2,7 +2,7 @@
 
 use crate::usage::{unknown, usage};
 use anyhow::Result;
-use avatar_pack::{MotionAt, Pack};
+use avatar_pack::{MotionAt, Pack, SceneMotion};
 use pose_anim::{Clip, Wrap};
 
 /// A clip that exists.
@@ -19,12 +19,13 @@ pub(crate) fn find(pack: &Pack, name: &str) -> Result<FoundClip> {
     if let Some(clip) = pack.clips().get(name) {
         return Ok(FoundClip::Controls(clip.clone()));
     }
-    match pack.motion() {
-        Some(motion) => {
-            motion.duration_secs(name).map_err(|error| usage(error.to_string()))?;
-            Ok(FoundClip::File(name.to_owned()))
+    let of_file = pack.motion().map(SceneMotion::clips).unwrap_or_default();
+    match of_file.iter().any(|clip| clip == name) {
+        true => Ok(FoundClip::File(name.to_owned())),
+        false => {
+            let of_controls = pack.clips().clips.iter().map(|clip| clip.name.as_str());
+            Err(unknown("clip", name, of_file.iter().map(String::as_str).chain(of_controls)))
         }
-        None => Err(unknown("clip", name, pack.clips().clips.iter().map(|clip| clip.name.as_str()))),
     }
 }
 

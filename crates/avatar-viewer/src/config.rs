@@ -1,6 +1,6 @@
 //! What the program remembers of its user: in one folder, as TOML that a person can read.
 
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
 use crate::reading;
 use anyhow::Result;
 use avatar_panel::PanelState;
@@ -51,7 +51,7 @@ impl Config {
     pub(crate) fn save(&self) -> Result<()> {
         let Some(folder) = folder() else { return Ok(()) };
         std::fs::create_dir_all(&folder)?;
-        OutputFile::check(&folder.join(FILE))?.write(toml::to_string(self)?.as_bytes())
+        OutputFile::check(&folder.join(FILE), Contents::Text)?.write(toml::to_string(self)?.as_bytes())
     }
 
     /// Puts an avatar at the top of those that were open.

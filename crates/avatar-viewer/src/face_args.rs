@@ -1,5 +1,7 @@
 use crate::clips::{self, FoundClip};
-use crate::usage::{self, unknown, usage};
+use crate::numbers::{finite, seconds};
+use crate::standard;
+use crate::usage::{self, unknown};
 use anyhow::Result;
 use avatar_pack::{FaceState, MotionAt, Pack};
 use clap::{ArgMatches, Args};
@@ -26,7 +28,7 @@ pub(crate) struct FaceArgs {
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
     /// Seconds from the clip's beginning
-    #[arg(long, value_name = "SECONDS", requires = "clip", default_value_t = 0.0, value_parser = number, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", requires = "clip", default_value_t = 0.0, value_parser = seconds, allow_hyphen_values = true)]
     time: f32,
 }
 
@@ -42,7 +44,7 @@ impl FromStr for Setting {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let (control, value) = text.rsplit_once('=').ok_or("expected CONTROL=VALUE, as in jaw.open=12")?;
-        let value = number(value)?;
+        let value = finite_value(value)?;
         Ok(Self { control: control.trim().to_owned(), value })
     }
 }
@@ -70,16 +72,16 @@ impl FromStr for Rotation {
                 "z" | "Z" => Axis::Z,
                 _ => return Err(form.to_owned()),
             };
-            Ok(Elementary::rotation(axis, number(degrees)?.to_radians()))
+            Ok(Elementary::rotation(axis, finite_value(degrees)?.to_radians()))
         };
         let factors = factors.split(',').map(factor).collect::<Result<_, _>>()?;
         Ok(Self { text: text.to_owned(), joint: joint.trim().to_owned(), factors })
     }
 }
 
-fn number(text: &str) -> Result<f32, String> {
-    let number = text.trim().parse().ok().filter(|x: &f32| x.is_finite());
-    number.ok_or_else(|| format!("expected a finite number, found {text:?}"))
+/// A number within an argument, which its error has to name.
+fn finite_value(text: &str) -> Result<f32, String> {
+    finite(text).map_err(|expected| format!("{expected}, found {text:?}"))
 }
 
 /// A face state that is known to fit a pack.
@@ -227,23 +229,16 @@ impl FaceArgs {
     fn setting(&self, pack: &Pack, setting: &Setting) -> Result<(usize, f32)> {
         let controls = pack.controls().controls();
         let index = pack.controls().index(&setting.control).ok_or_else(|| {
-            let nearest = pack.controls().nearest(&setting.control);
-            let hint = nearest.map(|name| format!(" (did you mean {name:?}?)")).unwrap_or_default();
-            let names: Vec<_> = controls.iter().map(|control| control.name.as_str()).collect();
-            let names = names.join(", ");
-            usage(format!(
-                "expected the name of a control, found {:?}{hint}; there are: {names}",
-                setting.control
-            ))
+            unknown("control", &setting.control, controls.iter().map(|control| control.name.as_str()))
         })?;
         let control = &controls[index];
         let value = setting.value.clamp(control.min, control.max);
         if value != setting.value {
             let (min, max, found) = (control.min, control.max, setting.value);
-            eprintln!(
-                "warning: --set {}: expected {min} to {max}, found {found}: clamped to {value}",
+            standard::warn(format_args!(
+                "--set {}: expected {min} to {max}, found {found}: clamped to {value}",
                 control.name
-            );
+            ));
         }
         Ok((index, value))
     }

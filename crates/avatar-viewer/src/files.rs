@@ -1,5 +1,6 @@
 use crate::config;
-use crate::reading::{self, Pipes, Unread};
+use crate::reading::{self, MAX_FILE_BYTES, Unread, not_a_file};
+use crate::standard;
 use crate::store::{self, Store};
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::vrm::VrmModel;
@@ -8,6 +9,7 @@ use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, War
 use avatar_stage::DefaultFace;
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +27,10 @@ impl Files {
     pub(crate) fn open(pack: Option<&Path>, further: &[PathBuf]) -> Result<Self> {
         let Some(path) = pack else { return Ok(Self::BuiltIn) };
         match std::fs::metadata(path) {
+            Ok(metadata) if !metadata.is_dir() && not_a_file(&metadata).is_some() => {
+                let found = not_a_file(&metadata).unwrap_or_default();
+                bail!("{}: expected the folder or file of an avatar, found {found}", path.display())
+            }
             Ok(metadata) if metadata.is_dir() && further.is_empty() => Ok(Self::Folder(path.to_owned())),
             Ok(metadata) if metadata.is_dir() => {
                 bail!("{}: expected a file that further files belong to, found a folder", path.display())
@@ -43,7 +49,7 @@ impl Files {
             }
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 bail!(
-                    "{}: expected the folder or file of an avatar (or a verb), found nothing of that name",
+                    "{}: expected the folder or file of an avatar, found nothing of that name",
                     path.display()
                 )
             }
@@ -56,7 +62,7 @@ impl Files {
     /// beside it, those of the built-in avatar among the user's settings.
     pub(crate) fn store(&self) -> Store {
         let paths = [store::POSES, store::CLIPS].map(|which| self.path_of(store::NAMES[which]));
-        Store::new(paths, matches!(self, Self::Folder(_)))
+        Store::new(paths, !matches!(self, Self::BuiltIn))
     }
 
     fn path_of(&self, name: &str) -> Option<PathBuf> {
@@ -86,14 +92,14 @@ impl Files {
         let pack = self.read_pack()?;
         // Parts that were turned around are not worth a warning here; `info` lists them.
         let told = pack.warnings().iter().filter(|warning| !matches!(warning, Warning::InsideOut { .. }));
-        told.for_each(|warning| eprintln!("warning: {warning}"));
+        told.for_each(standard::warn);
         Ok(pack)
     }
 
     /// Loads the textures, and prints warnings.
     pub(crate) fn load_textures(&self) -> Textures {
         let textures = self.read_textures();
-        textures.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+        textures.warnings.iter().for_each(standard::warn);
         textures
     }
 
@@ -135,7 +141,7 @@ impl Files {
             };
             match pack {
                 Ok(pack) => {
-                    eprintln!("warning: {error:#}: poses and clips of its own are left out");
+                    standard::warn(format_args!("{error:#}: poses and clips of its own are left out"));
                     Ok(pack)
                 }
                 Err(_) => Err(error),
@@ -197,19 +203,27 @@ fn read(path: &Path, further: &[PathBuf]) -> Result<FileScene> {
     let file = path.display().to_string();
     let bytes = reading::file(path).map_err(|reason| anyhow!("{file}: {reason}"))?;
     let mut files = Vec::new();
-    let base = path;
-    for path in further {
-        let name = path.display().to_string();
-        let found = with_its_files(path, base).map_err(|reason| anyhow!("{name}: {reason}"))?;
-        for path in found {
-            let name = path.display().to_string();
-            files.push((reading::file(&path).map_err(|reason| anyhow!("{name}: {reason}"))?, name));
+    for further in further {
+        let placed = |path: &Path, reason: &dyn Display| anyhow!("{}: {reason}", path.display());
+        if !further.is_dir() {
+            let bytes = reading::file(further).map_err(|reason| placed(further, &reason))?;
+            files.push((bytes, further.display().to_string()));
+            continue;
+        }
+        for name in files_of(further, path).map_err(|reason| placed(further, &reason))? {
+            let path = further.join(&name);
+            let bytes = reading::file_within(further, &name, MAX_FILE_BYTES);
+            files.push((bytes.map_err(|reason| placed(&path, &reason))?, path.display().to_string()));
         }
     }
     let further: Vec<_> = files.iter().map(|(bytes, file)| TextFile { file, bytes }).collect();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut resolve =
-        |name: &str| reading::file_within(folder, name, Pipes::Read).map_err(|error| error.to_string());
+    let mut left = MAX_FILE_BYTES;
+    let mut resolve = |name: &str| {
+        let bytes = reading::file_within(folder, name, left).map_err(|error| error.to_string())?;
+        left -= bytes.len() as u64;
+        Ok(bytes)
+    };
     if Format::of_name(&file) == Some(Format::Vrm) && further.is_empty() {
         let model = avatar_exchange::vrm::read(&file, &bytes, &mut resolve)?;
         return Ok(FileScene::Vrm(Box::new(model)));
@@ -218,19 +232,17 @@ fn read(path: &Path, further: &[PathBuf]) -> Result<FileScene> {
     Ok(FileScene::Other(Box::new(scene)))
 }
 
-/// A file, or those files of a folder that may belong to `first`, in the order of their names.
-fn with_its_files(path: &Path, first: &Path) -> Result<Vec<PathBuf>, String> {
-    if !path.is_dir() {
-        return Ok(vec![path.to_owned()]);
-    }
+/// Names of those files of a folder that may belong to `first`, in an order in which `f2` comes before `f10`.
+/// What only looks like a file is among them: reading refuses it.
+fn files_of(folder: &Path, first: &Path) -> Result<Vec<String>, String> {
     let unreadable = |error: std::io::Error| format!("expected a readable folder, found: {error}");
-    let entries = std::fs::read_dir(path).map_err(unreadable)?;
+    let entries = std::fs::read_dir(folder).map_err(unreadable)?;
     let mut files =
         entries.map(|entry| Ok(entry?.path())).collect::<std::io::Result<Vec<_>>>().map_err(unreadable)?;
     let endings = Format::of_name(&first.to_string_lossy()).map_or(&[][..], Format::further_extensions);
     let belongs = |file: &Path| {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        ending.is_some_and(|ending| endings.contains(&ending.as_str())) && file.is_file()
+        ending.is_some_and(|ending| endings.contains(&ending.as_str())) && !file.is_dir()
     };
     files.retain(|file| belongs(file));
     // The avatar itself may be among them.
@@ -245,8 +257,15 @@ fn with_its_files(path: &Path, first: &Path) -> Result<Vec<PathBuf>, String> {
     if files.is_empty() {
         return Err(format!("expected files that end in {}, found none", endings.join(", ")));
     }
-    files.sort_by_cached_key(|file| (by_numbers(&file.to_string_lossy()), file.clone()));
-    Ok(files)
+    let mut names = Vec::new();
+    for file in files {
+        let name = file.file_name().unwrap_or_default();
+        let name =
+            name.to_str().ok_or_else(|| format!("expected a name in UTF-8, found {}", name.display()))?;
+        names.push(name.to_owned());
+    }
+    names.sort_by_cached_key(|name| (by_numbers(name), name.clone()));
+    Ok(names)
 }
 
 /// A name in an order in which `f2` comes before `f10`: runs of digits are numbers.
@@ -290,10 +309,12 @@ impl Source for Files {
             Self::File(..) => return Ok(None),
             Self::Folder(folder) => folder,
         };
-        // Texts are read again while the window is open, on its thread, which a pipe would stop.
         let is_text = Path::new(name).extension().is_some_and(|ending| ending == "toml");
-        let pipes = if is_text { Pipes::Refused } else { Pipes::Read };
-        match reading::file_within(folder, name, pipes) {
+        let read = match is_text {
+            true => reading::text_bytes_within(folder, name),
+            false => reading::file_within(folder, name, MAX_FILE_BYTES),
+        };
+        match read {
             Ok(bytes) => Ok(Some(Cow::Owned(bytes))),
             Err(Unread::Missing(_)) => Ok(None),
             Err(Unread::Refused(reason)) => Err(SourceError(reason)),

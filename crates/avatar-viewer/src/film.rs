@@ -1,9 +1,12 @@
-//! Pictures and films as files, for verbs and for the window.
+//! Films as files, for verbs and for the window.
 
 use crate::cli::Size;
+use crate::drafts::{DraftFile, DraftFolder};
+use crate::ending;
 use crate::face_args::FaceChoice;
 use crate::offscreen::Offscreen;
-use crate::output::{OutputFile, OutputFolder};
+use crate::output::{Contents, OutputFile, OutputFolder, is_nameless};
+use crate::picture_file::no_alpha;
 use crate::usage::usage;
 use anyhow::{Context, Error, Result, anyhow, bail};
 use avatar_film::{Film, FilmError, Format, Rate};
@@ -14,28 +17,12 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::JoinHandle;
-use tempfile::{NamedTempFile, TempDir};
 
-/// Keyword of the text in a PNG that says what the face does.
-const KEYWORD: &str = "Mimik";
 /// Frames that may wait for the encoder: it works while the next one is drawn, and memory stays bounded.
 const WAITING: usize = 2;
 
 /// More pictures of one name than these are not looked through.
 const MOST_NAMES: u32 = 100_000;
-
-/// A picture as the bytes of a PNG. `state` says what the face does
-/// ([`crate::face_args::FaceChoice::describe`]).
-pub(crate) fn png(picture: &RgbaImage, state: &str) -> Result<Vec<u8>> {
-    let software = concat!("Mimik ", env!("CARGO_PKG_VERSION"));
-    let texts = [("Software", software), (KEYWORD, state)];
-    Ok(avatar_film::png(picture.width(), picture.height(), picture.as_raw(), &texts)?)
-}
-
-/// Writes a picture with what the face does in it.
-pub(crate) fn still(out: &OutputFile, picture: &RgbaImage, state: &str) -> Result<()> {
-    out.write(&png(picture, state)?)
-}
 
 /// A name in the folder that the program was started in that nothing has yet.
 pub(crate) fn free_name(stem: &str, ending: &str) -> Result<PathBuf> {
@@ -55,21 +42,33 @@ pub(crate) enum FilmTarget {
 }
 
 impl FilmTarget {
-    /// The end of a name says the format; one without an end is a folder.
-    pub(crate) fn check(path: &Path, size: Size, rate: Rate) -> Result<Self> {
-        let name = path.to_string_lossy();
-        if name.ends_with(std::path::is_separator) || path.extension().is_none() {
+    /// The end of a name says the format; one without an end is a folder. What has no name has the format
+    /// that was asked for, or is a GIF. `background` is sRGB with straight alpha.
+    pub(crate) fn check(
+        path: &Path,
+        asked: Option<&str>,
+        size: Size,
+        rate: Rate,
+        background: [u8; 4],
+    ) -> Result<Self> {
+        let is_folder =
+            path.to_string_lossy().ends_with(std::path::is_separator) || path.extension().is_none();
+        if is_folder && !is_nameless(path) && asked.is_none() {
             return Ok(Self::Folder(OutputFolder::check(path)?));
         }
-        let format = Format::of_name(&name).ok_or_else(|| {
-            let endings = Format::ALL.iter().flat_map(|format| format.extensions());
-            let endings = endings.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ");
-            usage(format!(
-                "--out: expected a name that ends in {endings}, or that of a folder, found {name:?}"
-            ))
-        })?;
+        let endings = Format::ALL.iter().copied();
+        let endings: Vec<_> = endings
+            .flat_map(|format| format.extensions().iter().map(move |ending| (*ending, format)))
+            .collect();
+        let format =
+            ending::format(path, asked, &endings, ", or that of a folder of pictures (without an end)")?;
+        if background[3] < 255 && !format.keeps_alpha() {
+            let others = endings.iter().filter(|(_, format)| format.keeps_alpha());
+            let others = ending::listed(others.map(|(ending, _)| *ending));
+            return Err(no_alpha(&format.to_string(), &format!("{others}, or a folder of pictures")));
+        }
         format.check(size.width, size.height, rate).map_err(|error| usage(error.to_string()))?;
-        Ok(Self::File(OutputFile::check(path)?, format))
+        Ok(Self::File(OutputFile::check(path, Contents::Binary("a film"))?, format))
     }
 }
 
@@ -183,7 +182,7 @@ impl Drop for FilmSink {
 fn write_film(
     received: &Receiver<Message>,
     out: &OutputFile,
-    draft: NamedTempFile,
+    draft: DraftFile,
     format: Format,
     size: Size,
     rate: Rate,
@@ -203,14 +202,19 @@ fn write_film(
     Ok(())
 }
 
-fn write_folder(received: &Receiver<Message>, out: &OutputFolder, draft: TempDir, frames: u64) -> Result<()> {
+fn write_folder(
+    received: &Receiver<Message>,
+    out: &OutputFolder,
+    draft: DraftFolder,
+    frames: u64,
+) -> Result<()> {
     let mut number = 0;
     while let Ok(message) = received.recv() {
         match message {
             Message::Frame(frame) => {
-                let file = draft.path().join(avatar_film::frame_name(number, frames));
                 let bytes = avatar_film::png(frame.width(), frame.height(), frame.as_raw(), &[])?;
-                std::fs::write(file, bytes).with_context(|| out.expected())?;
+                let name = avatar_film::frame_name(number, frames);
+                draft.write(&name, &bytes).with_context(|| out.expected())?;
                 number += 1;
             }
             Message::End => return out.commit(draft),

@@ -1,5 +1,6 @@
 //! Which hair the face has: what the command line says over what the pack says.
 
+use crate::numbers::seed;
 use avatar_groom::{Hair, Style};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -10,10 +11,10 @@ pub(crate) struct HairArgs {
     #[arg(long, value_enum)]
     hair: Option<HairName>,
     /// How many strands, by the usual number [default: the pack's hair.toml, else 1]
-    #[arg(long, value_parser = factor, value_name = "FACTOR")]
+    #[arg(long, value_parser = factor, allow_hyphen_values = true, value_name = "FACTOR")]
     hair_density: Option<f32>,
     /// Which random numbers [default: the pack's hair.toml, else 1]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_parser = seed, allow_hyphen_values = true, value_name = "NUMBER")]
     hair_seed: Option<u64>,
 }
 

@@ -20,7 +20,7 @@ pub(crate) struct LookArgs {
     #[arg(long, value_enum, default_value = "neutral")]
     tone_map: ToneMapName,
     /// Brighter (above 0) or darker, in stops
-    #[arg(long, default_value = "0", allow_negative_numbers = true, value_parser = stops, value_name = "STOPS")]
+    #[arg(long, default_value = "0", allow_hyphen_values = true, value_parser = stops, value_name = "STOPS")]
     exposure: f32,
     #[command(flatten)]
     pub(crate) hair: HairArgs,

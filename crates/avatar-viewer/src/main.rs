@@ -4,13 +4,19 @@
 //! the other. Exit status: 0 on success, 2 where the command line has to be corrected, 1 on any other
 //! failure.
 
+mod standard;
+mod usage;
+mod numbers;
+mod drafts;
+mod output;
+mod ending;
+mod picture_file;
 mod hair_args;
 mod label;
 mod look_args;
-mod output;
 mod progress;
 mod reading;
-mod usage;
+mod adapter;
 mod clips;
 mod face_args;
 mod picture_args;
@@ -24,23 +30,45 @@ mod window;
 mod script;
 mod verbs;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, FromArgMatches};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let matches = cli::Cli::command().get_matches();
+    let matches = match cli::Cli::command().try_get_matches() {
+        Ok(matches) => matches,
+        Err(error) => return wrong_usage(&error),
+    };
     quiet_mesa();
     let run = match cli::Cli::from_arg_matches(&matches) {
         Ok(cli) => verbs::run(cli, &matches),
-        Err(error) => error.exit(),
+        Err(error) => return wrong_usage(&error),
     };
     let Err(error) = run else { return ExitCode::SUCCESS };
-    if output::is_closed_pipe(&error) {
+    if standard::is_closed_pipe(&error) {
         // Whoever read our output has seen enough (`avatar-viewer trace … | head`).
         return ExitCode::SUCCESS;
     }
-    eprintln!("error: {error:#}");
+    standard::tell(format_args!("error: {error:#}"));
     if error.is::<usage::UsageError>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+}
+
+/// What clap says, or prints: help and version are errors to it. Names are explained as everywhere else.
+fn wrong_usage(error: &clap::Error) -> ExitCode {
+    let text = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => text.as_str(),
+        _ => "",
+    };
+    let option = text(ContextKind::InvalidArg).split(' ').next().unwrap_or_default();
+    match (error.get(ContextKind::ValidValue), text(ContextKind::InvalidValue)) {
+        (Some(ContextValue::Strings(names)), found) => {
+            let error = usage::unknown_option(option, found, names.iter().map(String::as_str));
+            standard::tell(format_args!("error: {error}\n\nFor more information, try '--help'."));
+        }
+        // Nothing can be done where nobody reads it.
+        _ => drop(error.print()),
+    }
+    ExitCode::from(if error.use_stderr() { 2 } else { 0 })
 }
 
 /// Starts the program anew where Mesa's layer that sorts devices would look for Wayland and print an error of

@@ -1,3 +1,4 @@
+use crate::adapter;
 use crate::cli::Size;
 use crate::face_args::FaceChoice;
 use crate::look_args::LookArgs;
@@ -33,7 +34,7 @@ pub(crate) struct Offscreen {
 impl Offscreen {
     /// Opens the best adapter and uploads the avatar.
     pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
-        let gpu = open_blocking(GpuOptions::default())?;
+        let gpu = open_blocking(GpuOptions::default()).map_err(adapter::explained)?;
         let hair = look.hair.choose(pack.hair());
         let model = upload_with_hair(&gpu.device, &gpu.queue, pack, textures, hair.as_ref())?;
         let mut avatar = AvatarState::new(&gpu.device, &model);

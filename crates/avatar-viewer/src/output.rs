@@ -1,8 +1,10 @@
-use anyhow::{Context, Result, bail};
-use std::fs::Permissions;
-use std::io::{BufWriter, ErrorKind, Seek, StdoutLock, Write};
+use crate::drafts::{DraftFile, DraftFolder};
+use crate::standard;
+use crate::usage::usage;
+use anyhow::{Context, Error, Result, bail};
+use std::fs::{File, OpenOptions, Permissions};
+use std::io::{BufWriter, ErrorKind, IntoInnerError, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{NamedTempFile, TempDir};
 
 /// A file to be written, whole or not at all. Checked before the work, so that a slip in a name costs
 /// nothing.
@@ -10,6 +12,7 @@ use tempfile::{NamedTempFile, TempDir};
 pub(crate) struct OutputFile {
     path: PathBuf,
     kind: Kind,
+    contents: Contents,
 }
 
 #[derive(Debug)]
@@ -18,18 +21,43 @@ enum Kind {
     File(Option<Permissions>),
     /// A terminal, a pipe, `/dev/null`: written to directly, for a rename would replace it.
     Device,
+    /// Standard output.
+    Standard,
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Contents {
+    /// For people and for programs; every line is of use by itself.
+    Text,
+    /// For programs, and of use only as a whole. In words, such as "a picture".
+    Binary(&'static str),
+}
+
+/// The name of standard output.
+pub(crate) const STANDARD: &str = "-";
+
+/// Whether there is no name whose end could say a format: standard output, or a device.
+pub(crate) fn is_nameless(path: &Path) -> bool {
+    path.as_os_str() == STANDARD
+        || std::fs::metadata(path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
 }
 
 impl OutputFile {
-    /// Checks that a file can be made there.
-    pub(crate) fn check(named: &Path) -> Result<Self> {
+    /// Checks that a file can be made there; `-` is standard output.
+    pub(crate) fn check(named: &Path, contents: Contents) -> Result<Self> {
+        if named.as_os_str() == STANDARD {
+            refuse_terminal(&std::io::stdout(), named, contents)?;
+            return Ok(Self { path: named.to_owned(), kind: Kind::Standard, contents });
+        }
         if named.to_string_lossy().ends_with(std::path::is_separator) {
             bail!("{}: expected the name of a file to write, found that of a folder", named.display());
         }
         // A link keeps pointing to the file that it names, also where that file is yet to be made.
         let mut path = named.to_owned();
         for _ in 0..MAX_LINKS {
-            let Ok(target) = std::fs::read_link(&path) else { break };
+            // The system's links to open pipes lead to no name (`/dev/stdout`).
+            let Some(target) = std::fs::read_link(&path).ok().filter(|_| !is_nameless(&path)) else { break };
             path = folder_of(&path).join(target);
         }
         let kind = match std::fs::metadata(&path) {
@@ -37,65 +65,116 @@ impl OutputFile {
                 bail!("{}: expected the name of a file to write, found a folder", named.display())
             }
             Ok(metadata) if metadata.is_file() => Kind::File(Some(metadata.permissions())),
-            Ok(_) => Kind::Device,
+            Ok(metadata) => {
+                if is_character_device(&metadata) {
+                    refuse_terminal(&open_device(&path).with_context(|| expected(named))?, named, contents)?;
+                }
+                Kind::Device
+            }
             Err(_) => Kind::File(None),
         };
         let folder = folder_of(&path);
         if !folder.is_dir() {
             bail!("{}: expected a folder to write to, found none", folder.display());
         }
-        Ok(Self { path, kind })
+        Ok(Self { path, kind, contents })
     }
 
     /// Writes the file.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<()> {
-        if matches!(self.kind, Kind::Device) {
-            return std::fs::write(&self.path, bytes).with_context(|| self.expected());
+        self.stream(|out| Ok(out.write_all(bytes)?))
+    }
+
+    /// Writes the file piece by piece.
+    ///
+    /// # Errors
+    /// What `write` says, or a place that cannot be written to.
+    pub(crate) fn stream(&self, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+        match (&self.kind, self.contents) {
+            (Kind::Standard, Contents::Text) => standard::stream(|out| write(out)),
+            (Kind::Standard, Contents::Binary(_)) => standard::whole(write),
+            (Kind::Device, _) => {
+                let mut out = BufWriter::new(open_device(&self.path).with_context(|| self.expected())?);
+                let written = write(&mut out).and_then(|()| Ok(out.flush()?));
+                written.map_err(|error| self.placed(error))
+            }
+            (Kind::File(_), _) => {
+                let mut out = BufWriter::new(self.draft()?);
+                write(&mut out).map_err(|error| self.placed(error))?;
+                let draft = out.into_inner().map_err(IntoInnerError::into_error);
+                self.commit(draft.with_context(|| self.expected())?)
+            }
         }
-        let mut draft = self.draft()?;
-        draft.write_all(bytes).with_context(|| self.expected())?;
-        self.commit(draft)
     }
 
     /// An empty file that is to become this one. It vanishes when it is dropped.
-    pub(crate) fn draft(&self) -> Result<NamedTempFile> {
-        let mut builder = tempfile::Builder::new();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // As for any new file; the umask then removes permissions.
-            builder.permissions(Permissions::from_mode(0o666));
-        }
-        builder.prefix(DRAFT);
-        let file = match self.kind {
-            Kind::File(_) => builder.tempfile_in(folder_of(&self.path)),
-            Kind::Device => builder.tempfile(),
+    pub(crate) fn draft(&self) -> Result<DraftFile> {
+        let draft = match self.kind {
+            Kind::File(_) => DraftFile::new(Some(&folder_of(&self.path))),
+            Kind::Device | Kind::Standard => DraftFile::new(None),
         };
-        file.map_err(without_path).with_context(|| self.expected())
+        draft.with_context(|| self.expected())
     }
 
     /// Puts a draft that is written in this file's place.
-    pub(crate) fn commit(&self, mut draft: NamedTempFile) -> Result<()> {
+    pub(crate) fn commit(&self, mut draft: DraftFile) -> Result<()> {
         match &self.kind {
             Kind::File(permissions) => {
                 if let Some(permissions) = permissions {
                     let set = draft.as_file().set_permissions(permissions.clone());
                     set.with_context(|| self.expected())?;
                 }
-                let put = draft.persist(&self.path).map_err(|error| error.error);
-                put.with_context(|| self.expected())?;
+                draft.persist(&self.path).with_context(|| self.expected())
             }
             Kind::Device => {
-                copy_to(&mut draft, &self.path).with_context(|| self.expected())?;
+                let copied = open_device(&self.path).and_then(|device| draft.copy_to(device));
+                copied.with_context(|| self.expected())
             }
+            Kind::Standard => standard::whole(|out| Ok(draft.copy_to(out)?)),
         }
-        Ok(())
+    }
+
+    /// What the system says needs the name of the file; the rest speaks for itself.
+    fn placed(&self, error: Error) -> Error {
+        if error.is::<std::io::Error>() { error.context(self.expected()) } else { error }
     }
 
     /// The path and what was expected there, for error messages.
     pub(crate) fn expected(&self) -> String {
-        format!("{}: expected a file that can be written", self.path.display())
+        match self.kind {
+            Kind::Standard => "standard output".to_owned(),
+            _ => expected(&self.path),
+        }
     }
+}
+
+fn expected(path: &Path) -> String {
+    format!("{}: expected a file that can be written", path.display())
+}
+
+/// What is not text would only leave a terminal in disorder.
+fn refuse_terminal(out: &impl IsTerminal, named: &Path, contents: Contents) -> Result<()> {
+    match contents {
+        Contents::Binary(what) if out.is_terminal() => Err(usage(format!(
+            "--out {}: expected a file or a pipe for {what}, found a terminal, which shows text only",
+            named.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+fn open_device(path: &Path) -> std::io::Result<File> {
+    OpenOptions::new().write(true).open(path)
+}
+
+#[cfg(unix)]
+fn is_character_device(metadata: &std::fs::Metadata) -> bool {
+    std::os::unix::fs::FileTypeExt::is_char_device(&metadata.file_type())
+}
+
+#[cfg(not(unix))]
+fn is_character_device(_: &std::fs::Metadata) -> bool {
+    false
 }
 
 /// A folder to be made and filled, whole or not at all.
@@ -127,22 +206,15 @@ impl OutputFolder {
     }
 
     /// An empty folder that is to become this one. It vanishes when it is dropped, with all that is in it.
-    pub(crate) fn draft(&self) -> Result<TempDir> {
-        let mut builder = tempfile::Builder::new();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(Permissions::from_mode(0o777));
-        }
-        let folder = builder.prefix(DRAFT).tempdir_in(folder_of(&self.0));
-        folder.map_err(without_path).with_context(|| self.expected())
+    pub(crate) fn draft(&self) -> Result<DraftFolder> {
+        DraftFolder::new(&folder_of(&self.0)).with_context(|| self.expected())
     }
 
     /// Puts a draft that is filled in this folder's place.
-    pub(crate) fn commit(&self, draft: TempDir) -> Result<()> {
+    pub(crate) fn commit(&self, draft: DraftFolder) -> Result<()> {
         match std::fs::remove_dir(&self.0) {
             Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
-            _ => std::fs::rename(draft.path(), &self.0),
+            _ => draft.persist(&self.0),
         }
         .with_context(|| self.expected())
     }
@@ -151,9 +223,7 @@ impl OutputFolder {
     pub(crate) fn write(&self, files: &[(String, Vec<u8>)]) -> Result<()> {
         let draft = self.draft()?;
         for (name, bytes) in files {
-            std::fs::write(draft.path().join(name), bytes)
-                .map_err(without_path)
-                .with_context(|| self.expected())?;
+            draft.write(name, bytes).with_context(|| self.expected())?;
         }
         self.commit(draft)
     }
@@ -164,15 +234,6 @@ impl OutputFolder {
     }
 }
 
-/// Names of unfinished files begin with this.
-const DRAFT: &str = ".avatar-viewer-";
-
-/// Copies the contents of a file to a device.
-fn copy_to(file: &mut NamedTempFile, device: &Path) -> std::io::Result<u64> {
-    file.rewind()?;
-    std::io::copy(file, &mut std::fs::OpenOptions::new().write(true).open(device)?)
-}
-
 /// How many links in a row are followed; a longer chain is taken for a circle.
 const MAX_LINKS: usize = 40;
 
@@ -181,27 +242,4 @@ fn folder_of(path: &Path) -> PathBuf {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
     }
-}
-
-/// The bare reason: the name of the temporary file would only confuse.
-fn without_path(error: std::io::Error) -> std::io::Error {
-    error.raw_os_error().map_or_else(|| error.kind().into(), std::io::Error::from_raw_os_error)
-}
-
-/// Prints to standard output, all or an error.
-pub(crate) fn print(text: &str) -> Result<()> {
-    stream(|out| Ok(out.write_all(text.as_bytes())?))
-}
-
-/// Prints to standard output piece by piece, so that long output needs no room.
-pub(crate) fn stream(write: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> Result<()>) -> Result<()> {
-    let mut out = BufWriter::new(std::io::stdout().lock());
-    write(&mut out).context("standard output")?;
-    out.flush().context("standard output")
-}
-
-/// Whether the error says that the reader of our output has closed the pipe.
-pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
-    let io = error.chain().find_map(|cause| cause.downcast_ref::<std::io::Error>());
-    io.is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
 }

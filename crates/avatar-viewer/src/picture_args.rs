@@ -1,5 +1,6 @@
 //! Where the camera stands and what is behind the face, as the command line says it.
 
+use crate::numbers::finite;
 use crate::usage;
 use anyhow::Result;
 use avatar_pack::Pack;
@@ -16,16 +17,16 @@ pub(crate) struct PictureArgs {
     view: NamedView,
     /// Camera's angle around the vertical axis in degrees: 90 stands at the character's left [default: the
     /// view's]
-    #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
+    #[arg(long, allow_hyphen_values = true, value_parser = finite, value_name = "DEGREES")]
     yaw: Option<f32>,
     /// Camera's angle above the horizon in degrees [default: 0]
-    #[arg(long, allow_negative_numbers = true, value_parser = finite, value_name = "DEGREES")]
+    #[arg(long, allow_hyphen_values = true, value_parser = finite, value_name = "DEGREES")]
     pitch: Option<f32>,
     /// What fills the picture, where it is at rest: the name of a part, or `face` [default: the whole avatar]
     #[arg(long, value_name = "PART")]
     frame: Option<String>,
     /// Samples per pixel, 1 or 4
-    #[arg(long, default_value_t = SAMPLES, value_parser = samples)]
+    #[arg(long, default_value_t = SAMPLES, value_parser = samples, allow_hyphen_values = true)]
     pub(crate) samples: u32,
     /// `#RRGGBB` in sRGB, or `transparent`
     #[arg(long, default_value_t = Background(BACKGROUND), value_name = "COLOUR")]
@@ -90,8 +91,4 @@ fn samples(text: &str) -> Result<u32, String> {
         "4" => Ok(4),
         _ => Err("expected 1 or 4".to_owned()),
     }
-}
-
-fn finite(text: &str) -> Result<f32, String> {
-    text.parse().ok().filter(|x: &f32| x.is_finite()).ok_or_else(|| "expected a finite number".to_owned())
 }

@@ -13,12 +13,16 @@ impl Script {
     pub(crate) fn parse(script: &str, pack: &Pack) -> Result<Self> {
         let mut presses = Vec::new();
         for entry in script.split(';').map(str::trim).filter(|entry| !entry.is_empty()) {
-            let wrong =
+            let form =
                 || usage(format!("--script: expected \"SECONDS POSE; SECONDS POSE; …\", found {entry:?}"));
-            let (time, name) = entry.split_once(char::is_whitespace).ok_or_else(wrong)?;
-            let time: f64 =
-                time.parse().ok().filter(|time: &f64| time.is_finite() && *time >= 0.0).ok_or_else(wrong)?;
-            presses.push((time, usage::pose(pack, name.trim())?));
+            let (time, name) = entry.split_once(char::is_whitespace).ok_or_else(form)?;
+            let secs: f64 = time.parse().map_err(|_| form())?;
+            if !secs.is_finite() || secs < 0.0 {
+                return Err(usage(format!(
+                    "--script: expected seconds from 0 on, found {time} in {entry:?}"
+                )));
+            }
+            presses.push((secs, usage::pose(pack, name.trim())?));
         }
         presses.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         Ok(Self(presses))

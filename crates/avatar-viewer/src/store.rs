@@ -1,6 +1,6 @@
 //! Where poses and clips that a user makes are kept.
 
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
 use crate::reading;
 use anyhow::{Context, Result, anyhow};
 use avatar_pack::files;
@@ -80,7 +80,7 @@ impl Store {
             std::fs::create_dir_all(folder)
                 .with_context(|| format!("{}: expected a folder that can be made", folder.display()))?;
         }
-        OutputFile::check(path)?.write(text.as_bytes())?;
+        OutputFile::check(path, Contents::Text)?.write(text.as_bytes())?;
         self.take(which, text.to_owned());
         Ok(())
     }

@@ -64,6 +64,12 @@ impl Budget {
         budget
     }
 
+    /// How much may still be unpacked.
+    #[cfg(feature = "gltf")]
+    pub(crate) fn left(&self) -> u64 {
+        self.left
+    }
+
     /// Another file of so many bytes was read.
     #[cfg(feature = "gltf")]
     pub(crate) fn grow(&mut self, input_bytes: usize) {

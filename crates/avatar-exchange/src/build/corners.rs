@@ -92,9 +92,7 @@ impl Corners {
 
     /// The bones of vertices: those of their points.
     pub(crate) fn skinning(&self, influences: &Influences) -> Skinning {
-        let of = |corner: &Corner| influences.of(corner.point as usize);
-        let (bones, weights) = self.vertices.iter().map(of).unzip();
-        Skinning { bones, weights, ..Skinning::default() }
+        influences.of_points(self.vertices.iter().map(|corner| corner.point as usize))
     }
 
     /// Normals of points, for corners that have none.

@@ -93,9 +93,7 @@ impl<'a> Reader<'a> {
             let text = format!("{} points without weights follow the mesh's own node", influences.unweighted);
             self.note(at, Finding::Mended(text));
         }
-        if influences.reduced > 0 {
-            let text =
-                format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced);
+        if let Some(text) = influences.note("points") {
             self.note(at, Finding::Converted(text));
         }
         self.scene.skins.push(skin);

@@ -1,46 +1,64 @@
-//! Takes. The library samples them where straight lines between keys do not do.
+//! Takes. The library evaluates them; which times it is asked for is the matter of [`super::curves`].
 
+use super::curves::{Curves, Moment, Source, connections};
 use super::shapes::Blend;
-use super::{allocator, quat, vec3};
+use super::{note, quat, vec3};
 use crate::build::budget::{Budget, Exceeded};
-use crate::scene::{Channel, ChannelTarget, Clip, ImportError, Interpolation, RawScene};
+use crate::scene::{Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, RawScene, quoted};
 use std::collections::HashMap;
 
 /// The property of a blend channel that is its weight in percent.
 const WEIGHT: &str = "DeformPercent";
+/// What moves, turns and scales a node.
+const TRANSLATION: &str = "Lcl Translation";
+const ROTATION: &str = "Lcl Rotation";
+const SCALE: &str = "Lcl Scaling";
+/// What turns a node besides its rotation.
+const AXES: [&str; 3] = ["PreRotation", "PostRotation", "RotationOrder"];
+/// Where they are not 0, rotation and scale move a node, too.
+const PIVOTS: [&str; 4] = ["RotationOffset", "RotationPivot", "ScalingOffset", "ScalingPivot"];
+/// Frames in a second where the file names none, and the most that are sampled.
+const USUAL_RATE: f64 = 30.0;
+const MAX_RATE: f64 = 1000.0;
+/// Nodes above a node whose scale can act on it.
+const MAX_CHAIN: usize = 1024;
 
-/// Reads all takes that move something.
+/// Reads all takes that move something. Each begins at 0.
 pub(super) fn read(
     fbx: &ufbx::Scene,
     blends: &[Blend<'_>],
     scene: &mut RawScene,
     budget: &mut Budget,
-    memory_limit: usize,
 ) -> Result<(), ImportError> {
+    let rate = fbx.settings.frames_per_second;
+    let rate = if rate > 0.0 && rate.is_finite() { rate.min(MAX_RATE) } else { USUAL_RATE };
+    let connections = connections(fbx);
+    let of_channel: HashMap<u32, &ufbx::BlendChannel> =
+        fbx.blend_channels.iter().map(|channel| (channel.element.element_id, &**channel)).collect();
     for (number, stack) in fbx.anim_stacks.iter().enumerate() {
         let place = format!("take {number} '{}'", &*stack.element.name);
-        let options = ufbx::BakeOpts {
-            temp_allocator: allocator(memory_limit),
-            result_allocator: allocator(memory_limit),
-            trim_start_time: true,
-            resample_rate: 30.0,
-            step_handling: ufbx::BakeStepHandling::IdenticalTime,
-            ..ufbx::BakeOpts::default()
-        };
-        let baked = ufbx::bake_anim(fbx, &stack.anim, options).map_err(|error| {
-            ImportError::new(place.as_str(), "motion that can be sampled", &*error.description)
-        })?;
-        let mut channels = Vec::new();
         let wrong = |exceeded: Exceeded| exceeded.at(place.as_str());
-        for node in &baked.nodes {
-            let keys = node.translation_keys.len() + node.rotation_keys.len() + node.scale_keys.len();
-            budget.take(keys, 1).map_err(wrong)?;
-            node_channels(node, &mut channels);
+        let anim = &*stack.anim;
+        let range = Some((anim.time_begin, anim.time_end)).filter(|(begin, end)| begin < end);
+        let begin = range.map_or(0.0, |range| range.0);
+        let mut curves = Curves::new(anim, &connections, rate, range);
+        let mut channels = Vec::new();
+        for node in &fbx.nodes {
+            node_channels(anim, node, begin, &mut curves, &mut channels, budget).map_err(wrong)?;
         }
-        let keys = keys_of_weights(&baked);
+        let mut keys: HashMap<u32, Vec<(f64, f64)>> = HashMap::new();
+        for (element, _) in blends.iter().flat_map(|blend| &blend.channels) {
+            let Some(channel) = of_channel.get(element).filter(|_| !keys.contains_key(element)) else {
+                continue;
+            };
+            let moments = curves.moments(&[(*element, WEIGHT, false)], budget).map_err(wrong)?;
+            let key = |at: &Moment| (at.time - begin, ufbx::evaluate_blend_weight(anim, channel, at.asked()));
+            keys.extend(moments.map(|moments| (*element, moments.iter().map(key).collect())));
+        }
         for blend in blends.iter().filter(|blend| !scene.nodes[blend.node].weights.is_empty()) {
             channels.extend(weights(blend, &keys, budget).map_err(wrong)?);
         }
+        note_what_is_lost(&curves, &place, scene);
         if !channels.is_empty() {
             scene.clips.push(Clip { name: stack.element.name.to_string(), channels });
         }
@@ -48,37 +66,96 @@ pub(super) fn read(
     Ok(())
 }
 
-fn node_channels(node: &ufbx::BakedNode, channels: &mut Vec<Channel>) {
-    let mut push = |target, keys: Vec<(f64, Vec<f32>)>, constant: bool| {
-        let kept = if constant { 1 } else { keys.len() };
-        let (times, values): (Vec<f64>, Vec<Vec<f32>>) = keys.into_iter().take(kept).unzip();
-        if !times.is_empty() {
-            let node = node.typed_id as usize;
-            let interpolation = Interpolation::Linear;
-            channels.push(Channel { node, target, interpolation, times, values: values.concat() });
-        }
-    };
-    let of = |keys: &ufbx::List<ufbx::BakedVec3>| {
-        keys.iter().map(|key| (key.time, vec3(key.value).to_array().to_vec())).collect()
-    };
-    push(ChannelTarget::Translation, of(&node.translation_keys), node.constant_translation);
-    let turns =
-        node.rotation_keys.iter().map(|key| (key.time, quat(key.value).to_array().to_vec())).collect();
-    push(ChannelTarget::Rotation, turns, node.constant_rotation);
-    push(ChannelTarget::Scale, of(&node.scale_keys), node.constant_scale);
+fn note_what_is_lost(curves: &Curves<'_>, place: &str, scene: &mut RawScene) {
+    const SHOWN: usize = 8;
+    if !curves.going_on.is_empty() {
+        let text = format!(
+            "{} curves go on beyond their keys (cycles or slopes): they do so until the take ends, and hold there",
+            curves.going_on.len()
+        );
+        note(&mut scene.notes, place, Finding::Converted(text));
+    }
+    let unused = curves.unused();
+    if !unused.is_empty() {
+        let names: Vec<String> = unused.iter().take(SHOWN).map(|name| quoted(name)).collect();
+        let more = if unused.len() > SHOWN { " and more" } else { "" };
+        let text = format!("motion of {}{more} is left out", names.join(", "));
+        note(&mut scene.notes, place, Finding::LeftOut(text));
+    }
 }
 
-/// Times and weights of blend channels, by their element numbers.
-fn keys_of_weights(baked: &ufbx::BakedAnim) -> HashMap<u32, Vec<(f64, f64)>> {
-    let mut keys = HashMap::new();
-    for element in &baked.elements {
-        let weight = element.props.iter().find(|prop| &*prop.name == WEIGHT);
-        if let Some(weight) = weight.filter(|weight| !weight.keys.is_empty()) {
-            let percent = weight.keys.iter().map(|key| (key.time, key.value.x / 100.0));
-            keys.insert(element.element_id, percent.collect());
-        }
+/// What a take moves of a node: one channel each for translation, rotation and scale.
+fn node_channels<'a>(
+    anim: &ufbx::Anim,
+    node: &'a ufbx::Node,
+    begin: f64,
+    curves: &mut Curves<'a>,
+    channels: &mut Vec<Channel>,
+    budget: &mut Budget,
+) -> Result<(), Exceeded> {
+    let own = node.element.element_id;
+    // The scale of nodes above that this one does not inherit: it has a node of its own there, and moves
+    // those beside that.
+    let helpers: Vec<Source<'a>> =
+        scales_above(node).into_iter().map(|helper| (helper, SCALE, true)).collect();
+    let has_pivots = PIVOTS.iter().any(|name| {
+        let pivot = ufbx::find_prop(&node.element.props, name).map(|prop| prop.value_vec4);
+        pivot.is_some_and(|at| at.x != 0.0 || at.y != 0.0 || at.z != 0.0)
+    });
+    let turns: Vec<Source<'a>> = [ROTATION].iter().chain(&AXES).map(|name| (own, *name, true)).collect();
+    let pivots: Vec<Source<'a>> = PIVOTS.iter().map(|name| (own, *name, true)).collect();
+    let moves_pivots = curves.moments(&pivots, budget)?.is_some();
+    let mut translation = vec![(own, TRANSLATION, !helpers.is_empty())];
+    if !node.is_scale_helper {
+        translation.extend(&helpers);
     }
-    keys
+    if has_pivots || moves_pivots {
+        translation.extend(pivots.iter().chain(&turns).chain(&[(own, SCALE, true)]));
+    }
+    let mut scale = vec![(own, SCALE, node.is_scale_helper && !helpers.is_empty())];
+    if node.is_scale_helper {
+        scale.extend(&helpers);
+    }
+    for (target, sources) in [
+        (ChannelTarget::Translation, translation),
+        (ChannelTarget::Rotation, turns),
+        (ChannelTarget::Scale, scale),
+    ] {
+        let Some(moments) = curves.moments(&sources, budget)? else { continue };
+        let (mut times, mut values): (Vec<f64>, Vec<f32>) = (Vec::new(), Vec::new());
+        for moment in moments {
+            let local = ufbx::evaluate_transform(anim, node, moment.asked());
+            times.push(moment.time - begin);
+            match target {
+                ChannelTarget::Translation => values.extend(vec3(local.translation).to_array()),
+                ChannelTarget::Rotation => values.extend(quat(local.rotation).to_array()),
+                _ => values.extend(vec3(local.scale).to_array()),
+            }
+        }
+        let width = if target == ChannelTarget::Rotation { 4 } else { 3 };
+        if values.chunks_exact(width).all(|value| value == &values[..width]) {
+            times.truncate(1);
+            values.truncate(width);
+        }
+        let node = node.element.typed_id as usize;
+        channels.push(Channel { node, target, interpolation: Interpolation::Linear, times, values });
+    }
+    Ok(())
+}
+
+/// Nodes that hold a scale which acts on a node's place, or, where the node itself is such a one, on its scale.
+fn scales_above(node: &ufbx::Node) -> Vec<u32> {
+    let Some(parent) = &node.parent else { return Vec::new() };
+    let beside = parent.scale_helper.as_ref().filter(|_| !node.is_scale_helper);
+    let mut found: Vec<u32> = beside.map(|helper| helper.element.element_id).into_iter().collect();
+    let mut above = parent.inherit_scale_node.as_ref();
+    while let Some(helper) =
+        above.and_then(|above| above.scale_helper.as_ref()).filter(|_| found.len() < MAX_CHAIN)
+    {
+        found.push(helper.element.element_id);
+        above = above.and_then(|above| above.inherit_scale_node.as_ref());
+    }
+    found
 }
 
 /// The weights of a node's shapes: with keys wherever one of its channels has one, and where a shape begins
@@ -143,7 +220,7 @@ fn value_at(keys: &[(f64, f64)], time: f64, after: bool) -> f64 {
 #[cfg(test)]
 #[allow(clippy::expect_used, reason = "a test may panic")]
 mod tests {
-    use super::super::{load, memory, read_nodes};
+    use super::super::{load, read_nodes};
     use super::read;
     use crate::build::budget::Budget;
     use crate::scene::RawScene;
@@ -155,8 +232,7 @@ mod tests {
         let read_with = |left| {
             let mut scene = RawScene::default();
             read_nodes(&fbx, &mut scene).expect("nodes");
-            read(&fbx, &[], &mut scene, &mut Budget::with_vertices_left(left), memory(bytes.len()))
-                .map(|()| scene.clips.len())
+            read(&fbx, &[], &mut scene, &mut Budget::with_vertices_left(left)).map(|()| scene.clips.len())
         };
         assert_eq!(read_with(1000), Ok(1));
         assert_eq!(read_with(1).expect_err("too many keys").place, "take 0 'nod'");

@@ -9,9 +9,10 @@
 //!
 //! What the library evaluates and this module takes from it: pre- and post-rotations, pivots, orders of Euler
 //! angles, ways of inheriting scale, geometric transforms, layers of animation, curves. Motion is sampled at
-//! 30 Hz where straight lines between keys do not do, and each take begins at 0.
+//! the file's own frames where straight lines between keys do not do, and each take begins at 0.
 
 mod clips;
+mod curves;
 mod material;
 mod mesh;
 mod shapes;
@@ -67,7 +68,7 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     material::read(&fbx, resolve, &mut scene);
     let mut budget = Budget::of_vertices();
     let blends = mesh::read(&fbx, &mut scene, &mut budget)?;
-    clips::read(&fbx, &blends, &mut scene, &mut budget, memory(bytes.len()))?;
+    clips::read(&fbx, &blends, &mut scene, &mut budget)?;
     note_the_rest(&fbx, &mut scene.notes);
     Ok(scene)
 }

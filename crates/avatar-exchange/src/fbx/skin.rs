@@ -52,9 +52,7 @@ impl BoundSkin {
             let text = format!("{} points without weights follow the mesh's own node", influences.unweighted);
             note(&mut scene.notes, place.as_str(), Finding::Mended(text));
         }
-        if influences.reduced > 0 {
-            let text =
-                format!("{} points had more than 4 bones; the largest 4 were kept", influences.reduced);
+        if let Some(text) = influences.note("points") {
             note(&mut scene.notes, place, Finding::Converted(text));
         }
         scene.skins.push(skin);

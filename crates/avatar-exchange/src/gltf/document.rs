@@ -1,15 +1,16 @@
 use super::container::Container;
+use super::extensions::{Support, support_of};
 use super::json;
+use super::pointer::Pointers;
+use super::scan::{Found, scan};
+use super::texture::Looks;
 use super::uri::Uri;
 use crate::build::budget::Budget;
-use crate::scene::{Finding, ImportError, Note, Resolve};
+use crate::scene::{Finding, ImportError, Note, Resolve, quoted};
 use gltf::json::{Index, Root, buffer};
 use std::borrow::Cow;
-use std::collections::{BTreeMap, HashSet};
-
-/// Extensions that a file may require: the first is represented, the others change looks only and are noted.
-const KNOWN_EXTENSIONS: &[&str] = &["KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit"];
-const REPRESENTED_EXTENSIONS: usize = 1;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::ops::Range;
 
 /// The place of notes on extensions of the file as a whole.
 pub(super) const EXTENSIONS_USED: &str = "extensionsUsed";
@@ -17,11 +18,20 @@ pub(super) const EXTENSIONS_USED: &str = "extensionsUsed";
 /// A file while it is read: its structures, the bytes behind them, and the notes so far.
 pub(super) struct Document<'a> {
     pub(super) root: Root,
+    pub(super) pointers: Pointers,
     pub(super) budget: Budget,
+    /// For each material, which texture coordinates it needs.
+    pub(super) looks: Vec<Looks>,
+    /// Nodes that stand for the instances of a node, at the end of the scene's.
+    pub(super) instances: BTreeMap<usize, Range<usize>>,
+    /// What the structures do not have.
+    found: Found,
     /// Bytes of buffers and of other files, each one once.
-    stores: Vec<Cow<'a, [u8]>>,
+    pub(super) stores: Vec<Cow<'a, [u8]>>,
     /// Where each buffer's bytes are, and how many of them are its own.
     buffers: Vec<(usize, usize)>,
+    /// Where the bytes of views are that were compressed.
+    pub(super) unpacked: BTreeMap<usize, usize>,
     /// Which files are in the stores already.
     files: BTreeMap<String, usize>,
     resolve: &'a mut Resolve<'a>,
@@ -43,13 +53,18 @@ impl<'a> Document<'a> {
         file_bytes: usize,
         resolve: &'a mut Resolve<'_>,
     ) -> Result<Self, ImportError> {
-        let (root, dropped) = json::parse(container.json)?;
+        let json::Parsed { root, dropped, pointers } = json::parse(container.json)?;
         check_versions(&root)?;
         let mut document = Self {
             root,
+            pointers,
             budget: Budget::of_bytes(file_bytes),
+            looks: Vec::new(),
+            instances: BTreeMap::new(),
+            found: scan(container.json),
             stores: Vec::new(),
             buffers: Vec::new(),
+            unpacked: BTreeMap::new(),
             files: BTreeMap::new(),
             resolve,
             notes: Vec::new(),
@@ -60,6 +75,8 @@ impl<'a> Document<'a> {
             document.note("animations", Finding::LeftOut(text));
         }
         document.open_buffers(container.bin)?;
+        document.unpack_views()?;
+        document.unpack_primitives()?;
         Ok(document)
     }
 
@@ -69,11 +86,17 @@ impl<'a> Document<'a> {
             let (uri, length) = (buffer.uri.clone(), buffer.byte_length.0);
             let place = || format!("buffer {number}");
             let store = match (uri, bin) {
-                (Some(uri), _) => self.load(&place(), &uri)?.0,
                 (None, Some(bin)) if number == 0 => {
                     self.stores.push(Cow::Borrowed(bin));
                     self.stores.len() - 1
                 }
+                // Views into it are compressed elsewhere.
+                _ if is_fallback(buffer) => {
+                    let store = self.store(Vec::new());
+                    self.buffers.push((store, 0));
+                    continue;
+                }
+                (Some(uri), _) => self.load(&place(), &uri)?.0,
                 (None, _) => return Err(ImportError::new(place(), "an address or a GLB chunk", "neither")),
             };
             let found = self.stores[store].len();
@@ -119,19 +142,42 @@ impl<'a> Document<'a> {
     pub(super) fn view(&self, index: Index<buffer::View>) -> Result<View<'_>, ImportError> {
         let number = index.value();
         let view = in_range("bufferViews", &self.root.buffer_views, number)?;
-        let &(store, length) = in_range("buffers", &self.buffers, view.buffer.value())?;
+        let stride = view.byte_stride.map(|stride| stride.0);
+        if let Some(&store) = self.unpacked.get(&number) {
+            return Ok(View { number, bytes: &self.stores[store], stride });
+        }
+        let place = || format!("bufferView {number}");
         let offset = view.byte_offset.unwrap_or_default().0;
+        let bytes = self.part_of_buffer(place, view.buffer.value(), offset, view.byte_length.0)?;
+        Ok(View { number, bytes, stride })
+    }
+
+    /// Bytes of a buffer.
+    pub(super) fn part_of_buffer(
+        &self,
+        place: impl Fn() -> String,
+        buffer: usize,
+        offset: u64,
+        length: u64,
+    ) -> Result<&[u8], ImportError> {
+        let &(store, available) = in_range("buffers", &self.buffers, buffer)?;
         let range = usize::try_from(offset)
             .ok()
-            .zip(offset.checked_add(view.byte_length.0).and_then(|end| usize::try_from(end).ok()))
-            .filter(|(_, end)| *end <= length);
-        let Some((start, end)) = range else {
-            let expected = format!("a range within the {length} bytes of buffer {}", view.buffer.value());
-            let found = format!("{} bytes from {offset}", view.byte_length.0);
-            return Err(ImportError::new(format!("bufferView {number}"), expected, found));
-        };
-        let stride = view.byte_stride.map(|stride| stride.0);
-        Ok(View { number, bytes: &self.stores[store][start..end], stride })
+            .zip(offset.checked_add(length).and_then(|end| usize::try_from(end).ok()))
+            .filter(|(_, end)| *end <= available);
+        match range {
+            Some((start, end)) => Ok(&self.stores[store][start..end]),
+            None => {
+                let expected = format!("a range within the {available} bytes of buffer {buffer}");
+                Err(ImportError::new(place(), expected, format!("{length} bytes from {offset}")))
+            }
+        }
+    }
+
+    /// The position of further bytes, which are a view's own.
+    pub(super) fn store(&mut self, bytes: Vec<u8>) -> usize {
+        self.stores.push(Cow::Owned(bytes));
+        self.stores.len() - 1
     }
 
     /// Adds a note, once.
@@ -146,23 +192,29 @@ impl<'a> Document<'a> {
         self.notes
     }
 
-    /// Notes extensions and cameras, which are not represented.
+    /// Notes extensions, cameras and other things that are not represented.
     pub(super) fn note_the_rest(&mut self) {
-        let root = &self.root;
-        let left_out: Vec<_> = root
-            .extensions_used
-            .iter()
-            .filter(|name| !KNOWN_EXTENSIONS[..REPRESENTED_EXTENSIONS].contains(&name.as_str()))
-            .cloned()
-            .collect();
-        let cameras = root.cameras.len();
-        for name in left_out {
+        let listed = self.root.extensions_used.iter().chain(&self.root.extensions_required).cloned();
+        let mut extensions: BTreeSet<String> = listed.collect();
+        extensions.append(&mut self.found.extensions);
+        for name in extensions.into_iter().filter(|name| support_of(name) != Some(Support::Read)) {
             self.note(EXTENSIONS_USED, Finding::Extension(name));
         }
+        for name in std::mem::take(&mut self.found.target_attributes) {
+            self.note("meshes, targets", Finding::LeftOut(format!("{} is left out", quoted(&name))));
+        }
+        let cameras = self.root.cameras.len();
         if cameras > 0 {
             self.note("cameras", Finding::LeftOut(format!("{cameras} are left out")));
         }
     }
+}
+
+/// Whether a buffer is only there for programs that do not know the extension that its views have.
+fn is_fallback(buffer: &buffer::Buffer) -> bool {
+    let extensions = buffer.extensions.iter().flat_map(|all| all.others.iter());
+    let mut fallbacks = extensions.filter_map(|(_, extension)| extension.get("fallback")?.as_bool());
+    fallbacks.any(|is_fallback| is_fallback)
 }
 
 /// An element of a list of the file.
@@ -185,11 +237,11 @@ fn check_versions(root: &Root) -> Result<(), ImportError> {
     if !readable {
         return Err(ImportError::new(place, "glTF 2.0", format!("'{needed}'")));
     }
-    let unknown = |name: &&String| !KNOWN_EXTENSIONS.contains(&name.as_str());
-    let unknown: Vec<_> = root.extensions_required.iter().filter(unknown).map(String::as_str).collect();
-    if unknown.is_empty() {
+    let is_unread = |name: &&String| support_of(name).is_none_or(|support| support == Support::Refused);
+    let unread: Vec<_> = root.extensions_required.iter().filter(is_unread).map(|name| quoted(name)).collect();
+    if unread.is_empty() {
         return Ok(());
     }
-    let expected = format!("none but {}", KNOWN_EXTENSIONS.join(", "));
-    Err(ImportError::new("extensionsRequired", expected, unknown.join(", ")))
+    let expected = "none of what concerns geometry or motion and is not read here (docs/formats.md)";
+    Err(ImportError::new("extensionsRequired", expected, unread.join(", ")))
 }

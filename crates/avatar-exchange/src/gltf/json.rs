@@ -1,26 +1,42 @@
+use super::pointer::{self, Pointers};
 use crate::scene::{ImportError, quoted};
 use gltf::json::Root;
 use serde_json::{Value, json};
 
-/// The structures of a JSON text, and how many channels of animations had no node to move.
-pub(super) fn parse(text: &[u8]) -> Result<(Root, usize), ImportError> {
+/// The structures of a JSON text, and what had to be changed to fit them.
+pub(super) struct Parsed {
+    pub(super) root: Root,
+    /// How many channels of animations had no node to move.
+    pub(super) dropped: usize,
+    pub(super) pointers: Pointers,
+}
+
+pub(super) fn parse(text: &[u8]) -> Result<Parsed, ImportError> {
     let first = match Root::from_slice(text) {
-        Ok(root) => return Ok((root, 0)),
-        Err(error) => error,
+        Ok(root) if !pointer::may_occur(text) => {
+            return Ok(Parsed { root, dropped: 0, pointers: Pointers::default() });
+        }
+        Ok(_) => None,
+        Err(error) => Some(error),
     };
     if let Ok(mut value) = serde_json::from_slice::<Value>(text) {
         if let Some(error) = other_version(&value) {
             return Err(error);
         }
+        let pointers = pointer::resolve(&mut value);
         // A target without a node is valid and means nothing (section 3.11), as is a scene without nodes
         // (3.5.1), but the structures insist on both.
         let dropped = drop_channels_without_node(&mut value);
-        if add_nodes_to_scenes(&mut value) + dropped > 0 {
-            let text = serde_json::to_vec(&value).unwrap_or_default();
-            return Root::from_slice(&text).map(|root| (root, dropped)).map_err(|error| wrong(&error));
-        }
+        let is_changed = add_nodes_to_scenes(&mut value) + dropped > 0 || pointers.changed;
+        let text = serde_json::to_vec(&value).unwrap_or_default();
+        return match (Root::from_slice(&text), first) {
+            (Ok(root), _) => Ok(Parsed { root, dropped, pointers }),
+            // Places in the file's own text say more than those in a changed one.
+            (Err(_), Some(error)) if !is_changed => Err(wrong(&error)),
+            (Err(error), _) => Err(wrong(&error)),
+        };
     }
-    Err(wrong(&first))
+    Err(first.map_or_else(|| ImportError::new("JSON", "glTF 2.0", "another text"), |error| wrong(&error)))
 }
 
 fn wrong(error: &serde_json::Error) -> ImportError {

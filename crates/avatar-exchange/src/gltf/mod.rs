@@ -13,18 +13,29 @@ mod animation;
 mod component;
 mod container;
 mod document;
+mod draco;
+mod extensions;
 mod json;
 mod material;
+mod meshopt;
 mod node;
+mod pointer;
 mod primitive;
+mod scan;
+mod shown;
 mod skin;
+mod targets;
+mod texture;
 mod triangles;
 mod uri;
+mod vertex;
+mod weights;
 
 use crate::scene::{ImportError, RawScene, Resolve, Scene};
 use document::Document;
 
 pub use container::{Container, split};
+pub use extensions::{EXTENSIONS, Extension, Support, support_of};
 
 /// Reads `.gltf` (JSON) or `.glb`. `file` is its name for messages.
 ///
@@ -88,7 +99,7 @@ pub(crate) fn read_with_extras(
     let nodes = nodes.map(|all| all.map(|all| all.others.clone()).unwrap_or_default()).collect();
     let materials = document.root.materials.iter().map(|material| material.extensions.as_ref());
     let materials = materials.map(|all| all.map(|all| all.others.clone()).unwrap_or_default()).collect();
-    let textures = document.root.textures.iter().map(material::image_of).collect();
+    let textures = document.root.textures.iter().map(texture::image_of).collect();
     Ok((read_scene(document)?, Extras { extensions, nodes_of_meshes, nodes, materials, textures }))
 }
 
@@ -99,12 +110,13 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
 
 fn read_scene(mut document: Document<'_>) -> Result<RawScene, ImportError> {
     let mut scene = RawScene::default();
+    let showers = document.showers();
     document.read_nodes(&mut scene)?;
     document.read_skins(&mut scene)?;
     document.read_images(&mut scene)?;
     document.read_materials(&mut scene)?;
     document.read_parts(&mut scene)?;
-    document.read_clips(&mut scene)?;
+    document.read_clips(&mut scene, &showers)?;
     document.note_the_rest();
     scene.notes = document.into_notes();
     Ok(scene)

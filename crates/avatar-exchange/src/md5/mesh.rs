@@ -196,9 +196,7 @@ fn assemble(
         bones.extend(here.iter().map(|weight| (weight.joint as u16, f64::from(weight.weight))));
         influences.push(&mut bones, 0);
     }
-    if influences.reduced > 0 {
-        let reduced = influences.reduced;
-        let text = format!("{reduced} vertices have more than four weights: the largest four remain");
+    if let Some(text) = influences.note("vertices") {
         model.notes.push(Note::new(format!("line {first_line}"), Finding::Converted(text)));
     }
     mesh.skinning = Some(influences.into_skinning());

@@ -8,7 +8,6 @@ mod raw;
 mod interpolate;
 mod freeze;
 mod evaluate;
-mod uneven;
 
 pub use error::ImportError;
 pub use evaluate::{SceneGraph, ScenePose};
@@ -19,10 +18,11 @@ pub use note::{Finding, Note};
 pub use raw::{
     Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, RawScene, ScenePart, Skin, Transform, Trs,
 };
-pub use uneven::deform_unevenly;
 
 #[cfg(feature = "gltf")]
 pub(crate) use error::quoted;
+#[cfg(feature = "gltf")]
+pub(crate) use interpolate::sample;
 #[cfg(any(feature = "collada", feature = "gltf", feature = "md5"))]
 pub(crate) use raw::narrow;
 #[cfg(feature = "collada")]

@@ -1,13 +1,16 @@
 use super::buffer::Buffer;
-use crate::scene::{AlphaMode, Material, Scene, SceneImage, TextureRef};
+use crate::scene::{AlphaMode, Material, Scene, SceneImage, TextureRef, UvSet};
 use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
+
+const UNLIT: &str = "KHR_materials_unlit";
+const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
 
 /// The images that the file has: those with bytes.
 #[derive(Debug)]
 pub(super) struct Images {
     /// Per image of the scene its position in the file.
     places: Vec<Option<usize>>,
-    count: usize,
 }
 
 impl Images {
@@ -19,12 +22,24 @@ impl Images {
             has_bytes.then(|| count - 1)
         };
         let places = scene.images.iter().map(place).collect();
-        Self { places, count }
+        Self { places }
     }
 
-    /// One texture for each image, which repeats.
-    pub(super) fn textures(&self) -> Vec<Value> {
-        (0..self.count).map(|image| json!({ "source": image })).collect()
+    /// One texture for each image, which repeats. Other pictures than PNG and JPEG are those of an extension.
+    pub(super) fn textures(&self, scene: &Scene) -> Vec<Value> {
+        let with_bytes = scene.images.iter().filter(|image| !image.bytes.is_empty()).enumerate();
+        with_bytes
+            .map(|(place, image)| match extension_of(image) {
+                Some(name) => json!({ "extensions": { name: { "source": place } } }),
+                None => json!({ "source": place }),
+            })
+            .collect()
+    }
+
+    /// Adds the extensions that textures need: a program that does not know them has no picture.
+    pub(super) fn extensions(&self, scene: &Scene, required: &mut BTreeSet<&'static str>) {
+        let with_bytes = scene.images.iter().filter(|image| !image.bytes.is_empty());
+        required.extend(with_bytes.filter_map(extension_of));
     }
 
     pub(super) fn images(&self, scene: &Scene, buffer: &mut Buffer) -> Vec<Value> {
@@ -41,9 +56,36 @@ impl Images {
     }
 
     fn texture(&self, texture: Option<TextureRef>) -> Option<Map<String, Value>> {
-        let place = self.places.get(texture?.image).copied().flatten()?;
-        Some(Map::from_iter([("index".to_owned(), json!(place))]))
+        let texture = texture?;
+        let place = self.places.get(texture.image).copied().flatten()?;
+        let mut json = Map::from_iter([("index".to_owned(), json!(place))]);
+        if texture.uvs == UvSet::Second {
+            json.insert("texCoord".to_owned(), json!(1));
+        }
+        Some(json)
     }
+}
+
+/// The extension that gives textures pictures of this kind.
+fn extension_of(image: &SceneImage) -> Option<&'static str> {
+    match media_type(image) {
+        "image/webp" => Some("EXT_texture_webp"),
+        "image/ktx2" => Some("KHR_texture_basisu"),
+        "image/avif" => Some("EXT_texture_avif"),
+        _ => None,
+    }
+}
+
+/// Adds the extensions that materials use; programs that do not know them show something similar.
+pub(super) fn extensions(scene: &Scene, used: &mut BTreeSet<&'static str>) {
+    let any = |what: fn(&Material) -> bool| scene.materials.iter().any(what);
+    used.extend(any(|material| material.is_unlit).then_some(UNLIT));
+    used.extend(any(|material| strength(material) > 1.0).then_some(EMISSIVE_STRENGTH));
+}
+
+/// The largest factor of a material's own light, 1 at least.
+fn strength(material: &Material) -> f32 {
+    material.emissive.into_iter().filter(|factor| factor.is_finite()).fold(1.0, f32::max)
 }
 
 /// By the first bytes, or else as stated.
@@ -114,7 +156,8 @@ fn one(material: &Material, images: &Images) -> Value {
         json.insert("emissiveTexture".to_owned(), texture.into());
     }
     if material.emissive.iter().any(|x| !is(*x, 0.0)) {
-        let emissive = material.emissive.iter().map(|x| f64::from(within(*x, 0.0, 1.0, 0.0)));
+        let strength = strength(material);
+        let emissive = material.emissive.iter().map(|x| f64::from(within(*x / strength, 0.0, 1.0, 0.0)));
         json.insert("emissiveFactor".to_owned(), emissive.map(Value::from).collect());
     }
     let has_cutoff = !is(material.alpha_cutoff, default.alpha_cutoff);
@@ -132,6 +175,17 @@ fn one(material: &Material, images: &Images) -> Value {
     }
     if material.double_sided {
         json.insert("doubleSided".to_owned(), json!(true));
+    }
+    let mut extensions = Map::new();
+    if material.is_unlit {
+        extensions.insert(UNLIT.to_owned(), json!({}));
+    }
+    if strength(material) > 1.0 {
+        let strength = json!({ "emissiveStrength": f64::from(strength(material)) });
+        extensions.insert(EMISSIVE_STRENGTH.to_owned(), strength);
+    }
+    if !extensions.is_empty() {
+        json.insert("extensions".to_owned(), extensions.into());
     }
     Value::Object(json)
 }

@@ -2,9 +2,9 @@ use super::ExportError;
 use super::animation::is_unit;
 use super::buffer::{Buffer, Target};
 use super::plan::{Group, Plan};
-use crate::scene::{Scene, ScenePart};
+use crate::scene::{Scene, ScenePart, UvSet};
 use avatar_mesh::Skinning;
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use serde_json::{Map, Value, json};
 
 /// What glTF's validator grants the sum of weights, for each weight that counts.
@@ -44,17 +44,28 @@ fn primitive(scene: &Scene, number: usize, buffer: &mut Buffer) -> Result<Value,
         let tangents = mesh.tangents.iter().map(|tangent| with_handedness(*tangent).to_array());
         attribute("TANGENT", buffer.vectors(tangents, vertices, false));
     }
-    let textures = part.material.map_or(0, |material| scene.materials[material].textures().count());
-    let says_something =
-        textures > 0 || mesh.uvs.iter().any(|uv| uv.to_array().iter().any(|x| x.to_bits() != 0));
+    let textures = || part.material.into_iter().flat_map(|material| scene.materials[material].textures());
+    let needs_second = textures().any(|texture| texture.uvs == UvSet::Second) || !mesh.uvs_1.is_empty();
+    let is_zero = |uv: &Vec2| uv.to_array().iter().all(|x| x.to_bits() == 0);
+    let says_something = needs_second || textures().count() > 0 || !mesh.uvs.iter().all(is_zero);
     let uvs = mesh.uvs.iter().map(|uv| uv.to_array());
     if says_something {
         attribute("TEXCOORD_0", buffer.vectors(uvs, vertices, false));
     }
+    if needs_second {
+        // Without coordinates they are 0, as a reader takes them.
+        let uvs = (0..mesh.positions.len()).map(|vertex| mesh.uvs_1.get(vertex).copied().unwrap_or_default());
+        attribute("TEXCOORD_1", buffer.vectors(uvs.map(|uv| uv.to_array()), vertices, false));
+    }
+    if !mesh.colors.is_empty() {
+        let colors = mesh.colors.iter().map(|color| color.clamp(Vec4::ZERO, Vec4::ONE).to_array());
+        attribute("COLOR_0", buffer.vectors(colors, vertices, false));
+    }
     if let Some(skinning) = &mesh.skinning {
-        let (joints, weights) = influences(part, number, skinning)?;
-        attribute("JOINTS_0", buffer.joints(&joints));
-        attribute("WEIGHTS_0", buffer.vectors(weights.into_iter(), vertices, false));
+        for (set, (joints, weights)) in influences(part, number, skinning)?.into_iter().enumerate() {
+            attribute(&format!("JOINTS_{set}"), buffer.joints(&joints));
+            attribute(&format!("WEIGHTS_{set}"), buffer.vectors(weights.into_iter(), vertices, false));
+        }
     }
     let has_tangents = !mesh.tangents.is_empty();
     let mut json = Map::new();
@@ -97,32 +108,40 @@ fn with_handedness(tangent: Vec4) -> Vec4 {
     unit(tangent.truncate(), Vec3::X).extend(1f32.copysign(tangent.w))
 }
 
-type Influences = (Vec<[u16; 4]>, Vec<[f32; 4]>);
+/// Joints and weights of vertices: one of the sets of four that glTF knows.
+type Set = (Vec<[u16; 4]>, Vec<[f32; 4]>);
 
 /// Joints of the skin and weights, as the standard wants them: none twice, the first one where there is no
-/// weight.
-fn influences(part: &ScenePart, number: usize, skinning: &Skinning) -> Result<Influences, ExportError> {
-    let mut all = (Vec::with_capacity(skinning.bones.len()), Vec::with_capacity(skinning.weights.len()));
-    for (vertex, (bones, weights)) in skinning.bones.iter().zip(&skinning.weights).enumerate() {
-        if let Some(&found) = weights.iter().find(|weight| **weight < 0.0) {
-            let name = part.name.clone();
-            return Err(ExportError::NegativeWeight { part: number, name, vertex, found });
-        }
-        let (mut joints, mut shares) = ([0; 4], [0.0; 4]);
-        for slot in (0..4).filter(|slot| weights[*slot] > 0.0) {
-            let joint = bones[slot];
-            let earlier = (0..slot).find(|other| shares[*other] > 0.0 && joints[*other] == joint);
-            let place = earlier.unwrap_or(slot);
-            joints[place] = joint;
-            shares[place] += weights[slot];
+/// weight. One set, or two where vertices have more than four bones.
+fn influences(part: &ScenePart, number: usize, skinning: &Skinning) -> Result<Vec<Set>, ExportError> {
+    let count = if skinning.more_bones.is_empty() { 1 } else { 2 };
+    let room = || (Vec::with_capacity(skinning.bones.len()), Vec::with_capacity(skinning.weights.len()));
+    let mut sets: Vec<Set> = (0..count).map(|_| room()).collect();
+    for vertex in 0..skinning.bones.len() {
+        let (mut joints, mut shares) = ([0; 8], [0.0f32; 8]);
+        for (slot, (joint, weight)) in skinning.influences(vertex).take(4 * count).enumerate() {
+            if weight < 0.0 {
+                let name = part.name.clone();
+                return Err(ExportError::NegativeWeight { part: number, name, vertex, found: weight });
+            }
+            if weight > 0.0 {
+                let earlier = (0..slot).find(|other| shares[*other] > 0.0 && joints[*other] == joint);
+                let place = earlier.unwrap_or(slot);
+                joints[place] = joint;
+                shares[place] += weight;
+            }
         }
         let sum: f64 = shares.iter().map(|share| f64::from(*share)).sum();
         let counting = shares.iter().filter(|share| **share > 0.0).count();
         if (sum - 1.0).abs() > WEIGHT_SUM_TOLERANCE * counting as f64 && sum > 0.0 {
             shares = shares.map(|share| (f64::from(share) / sum) as f32);
         }
-        all.0.push(joints);
-        all.1.push(shares);
+        for (set, (joints, shares)) in
+            sets.iter_mut().zip(joints.as_chunks::<4>().0.iter().zip(shares.as_chunks::<4>().0))
+        {
+            set.0.push(*joints);
+            set.1.push(*shares);
+        }
     }
-    Ok(all)
+    Ok(sets)
 }

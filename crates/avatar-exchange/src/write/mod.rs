@@ -15,6 +15,7 @@ use buffer::Buffer;
 use glam::Affine3A;
 use plan::{Plan, PlannedNode};
 use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 
 const JSON_CHUNK: u32 = 0x4e4f_534a;
 const BIN_CHUNK: u32 = 0x004e_4942;
@@ -61,11 +62,13 @@ pub enum ExportError {
 /// * of channels for the same property the last stays; times that are equal move apart by the least step; a
 ///   clip that begins before 0 is moved to begin there; one whose channels move nothing that the file has is
 ///   left out;
-/// * numbers of materials outside of glTF's ranges are clamped; pictures without bytes are left out, with
-///   their uses;
-/// * media types follow the bytes where these are known. Other pictures than PNG and JPEG are embedded all
-///   the same, though not all programs show them;
-/// * notes, and the raw format's blend indices, are not written.
+/// * numbers of materials and colours of vertices outside of glTF's ranges are clamped; pictures without
+///   bytes are left out, with their uses; second texture coordinates that a material needs and a part lacks
+///   are 0;
+/// * media types follow the bytes where these are known. WebP, KTX2 and AVIF are those of the extensions for
+///   them, which the file then requires; other pictures than these, PNG and JPEG are embedded all the same,
+///   though not all programs show them;
+/// * notes, cartoon looks ([`crate::ToonMaterial`]), and the raw format's blend indices, are not written.
 ///
 /// A matrix with shear stays a matrix, as glTF's own tools write it, though the standard wants it
 /// decomposable.
@@ -84,6 +87,10 @@ pub fn write(scene: &Scene) -> Result<Vec<u8>, ExportError> {
         root.insert("scenes".to_owned(), json!([{ "nodes": roots }]));
     }
     let images = material::Images::of(scene);
+    let (mut used, mut required) = (BTreeSet::new(), BTreeSet::new());
+    material::extensions(scene, &mut used);
+    images.extensions(scene, &mut required);
+    used.extend(&required);
     let meshes = mesh::meshes(scene, &plan, &mut buffer)?;
     let skins = skins(scene, &plan, &mut buffer);
     let animations = animation::animations(scene, &plan, &mut buffer);
@@ -92,9 +99,11 @@ pub fn write(scene: &Scene) -> Result<Vec<u8>, ExportError> {
         ("meshes", meshes),
         ("skins", skins),
         ("materials", material::materials(scene, &images)),
-        ("textures", images.textures()),
+        ("textures", images.textures(scene)),
         ("images", images.images(scene, &mut buffer)),
         ("animations", animations),
+        ("extensionsUsed", used.into_iter().map(Value::from).collect()),
+        ("extensionsRequired", required.into_iter().map(Value::from).collect()),
     ];
     let (accessors, views, bytes) = buffer.finish();
     let length = bytes.len();

@@ -58,13 +58,8 @@ impl Measure {
         match (part.bone, &part.mesh.skinning) {
             (Some(bone), _) => f32::from(u8::from(is_head(bone))),
             (None, Some(skinning)) => {
-                let bones = skinning.bones.get(vertex).into_iter().flatten();
-                let weights = skinning.weights.get(vertex).into_iter().flatten();
-                bones
-                    .zip(weights)
-                    .filter(|(bone, _)| is_head(usize::from(**bone)))
-                    .map(|(_, weight)| weight)
-                    .sum()
+                let of_head = skinning.influences(vertex).filter(|(bone, _)| is_head(usize::from(*bone)));
+                of_head.map(|(_, weight)| weight).sum()
             }
             (None, None) => 0.0,
         }

@@ -81,7 +81,7 @@ fn to_palette(scene: &Scene, part: &ScenePart, mesh: &mut Mesh) -> Result<(), Im
     let (Some(skin), Some(skinning)) = (part.skin, &mut mesh.skinning) else { return Ok(()) };
     let palette = scene.palette();
     let first = palette.skins.get(skin).copied().unwrap_or(0);
-    for bone in skinning.bones.iter_mut().flatten() {
+    for bone in skinning.bones.iter_mut().chain(&mut skinning.more_bones).flatten() {
         let place = first + usize::from(*bone);
         *bone = u16::try_from(place).map_err(|_| ImportFailure::Joints { found: palette.entries.len() })?;
     }

@@ -77,10 +77,8 @@ fn used_joints(pack: &Pack) -> (Vec<bool>, Vec<bool>) {
         match (&part.bone, &part.mesh.skinning) {
             (Some(bone), _) => mark(&mut by_parts, *bone),
             (None, Some(skinning)) => {
-                for (bones, weights) in skinning.bones.iter().zip(&skinning.weights) {
-                    let moving = bones.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
-                    moving.for_each(|(bone, _)| mark(&mut by_vertices, usize::from(*bone)));
-                }
+                let used = skinning.used_bones();
+                used.into_iter().for_each(|bone| mark(&mut by_vertices, usize::from(bone)));
             }
             (None, None) => {}
         }

@@ -1,8 +1,8 @@
 use super::joints::Bones;
 use super::shapes::Places;
 use crate::{Pack, Part};
-use avatar_mesh::{FACE_SHAPES, Follows, Mesh, Shape, Skinning};
-use glam::{DAffine3, DVec3, Vec2, Vec3};
+use avatar_mesh::{FACE_SHAPES, Follows, Mesh, Shape, Skinning, normal_matrix, turns_evenly};
+use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec2, Vec3};
 
 /// How far the bones of a vertex may disagree about where it rests, as a share of its distance from their
 /// origins.
@@ -36,17 +36,25 @@ impl Merged {
         }
     }
 
-    /// Adds a part. Tells whether the bones of a vertex disagree about where it rests.
-    pub(super) fn append(&mut self, pack: &Pack, part: &Part, bones: &Bones, shapes: &Places<'_>) -> bool {
+    /// Adds a part.
+    pub(super) fn append(
+        &mut self,
+        pack: &Pack,
+        part: &Part,
+        bones: &Bones,
+        shapes: &Places<'_>,
+    ) -> Appended {
         let first = self.len() as u32;
         let from = &part.mesh;
         let names = pack.shapes().iter().skip(part.first_shape).zip(&from.shapes);
         let placed: Vec<(usize, &Shape)> =
             names.filter_map(|(name, shape)| Some((shapes.place(name)?, shape))).collect();
-        let mut unfit = false;
+        let mut appended = Appended::default();
+        let mut is_mirrored = vec![false; from.positions.len()];
         for (vertex, position) in from.positions.iter().enumerate() {
-            let (of_vertex, weights) = influences(part, vertex);
-            let at_rest = AtRest::of(bones, of_vertex, weights, *position, &mut unfit);
+            let at_rest = AtRest::of(bones, &influences(part, vertex), *position, &mut appended.is_unfit);
+            is_mirrored[vertex] = at_rest.is_mirrored();
+            let (of_vertex, weights) = four_influences(part, vertex, &mut appended.reduced);
             let normal = from.normals.get(vertex).copied().unwrap_or_default();
             let uv = from.uvs.get(vertex).copied().unwrap_or_default();
             let (normal, shorter) = at_rest.normal(normal);
@@ -54,8 +62,8 @@ impl Merged {
             for (place, shape) in &placed {
                 let Some((positions, normals)) = self.offsets.get_mut(*place) else { continue };
                 let of_normal = shape.normals.as_ref().and_then(|normals| normals.get(vertex));
-                add(positions, at_rest.offset(shape.positions.get(vertex), 1.0));
-                add(normals, at_rest.offset(of_normal, shorter));
+                add(positions, at_rest.offset(shape.positions.get(vertex)));
+                add(normals, at_rest.offset_of_normal(of_normal, shorter));
             }
             let place =
                 |bone: u16| bones.places.get(usize::from(bone)).copied().flatten().unwrap_or(0) as u16;
@@ -64,8 +72,15 @@ impl Merged {
             let unknown = from.skinning.as_ref().and_then(|skinning| skinning.blend_index.get(vertex));
             set_last(&mut self.skinning.blend_index, unknown.copied().unwrap_or_default());
         }
-        self.mesh.triangles.extend(from.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
-        unfit
+        let run = |[a, b, c]: [u32; 3]| {
+            let mirrored =
+                [a, b, c].into_iter().filter(|corner| is_mirrored.get(*corner as usize) == Some(&true));
+            if mirrored.count() > 1 { [a, c, b] } else { [a, b, c] }
+        };
+        self.mesh
+            .triangles
+            .extend(from.triangles.iter().map(|corners| run(*corners).map(|corner| corner + first)));
+        appended
     }
 
     /// The mesh; of a rigid part without bones and shapes.
@@ -97,62 +112,94 @@ fn add(offsets: &mut [Vec3], offset: Option<Vec3>) {
     }
 }
 
-fn influences(part: &Part, vertex: usize) -> ([u16; 4], [f32; 4]) {
-    const WHOLE: [f32; 4] = [1.0, 0.0, 0.0, 0.0];
+/// What adding a part tells.
+#[derive(Default)]
+pub(super) struct Appended {
+    /// Whether the bones of a vertex disagree about where it rests.
+    pub(super) is_unfit: bool,
+    /// Vertices of which the format does not hold all bones.
+    pub(super) reduced: usize,
+}
+
+/// The bones of a vertex and their weights.
+fn influences(part: &Part, vertex: usize) -> Vec<(u16, f32)> {
     match (&part.bone, &part.mesh.skinning) {
-        (Some(bone), _) => ([u16::try_from(*bone).unwrap_or(u16::MAX), 0, 0, 0], WHOLE),
-        (None, Some(skinning)) => {
-            let bones = skinning.bones.get(vertex).copied().unwrap_or_default();
-            (bones, skinning.weights.get(vertex).copied().unwrap_or(WHOLE))
-        }
-        (None, None) => ([0; 4], WHOLE),
+        (Some(bone), _) => vec![(u16::try_from(*bone).unwrap_or(u16::MAX), 1.0)],
+        (None, Some(skinning)) => skinning.influences(vertex).collect(),
+        (None, None) => vec![(0, 1.0)],
     }
 }
 
-/// `world_from_mesh` of one vertex at rest; `None` leaves it where it is.
-struct AtRest(Option<DAffine3>);
+/// The four that the format holds. Counts the vertices that have more.
+fn four_influences(part: &Part, vertex: usize, reduced: &mut usize) -> ([u16; 4], [f32; 4]) {
+    const WHOLE: [f32; 4] = [1.0, 0.0, 0.0, 0.0];
+    match (&part.bone, &part.mesh.skinning) {
+        (Some(bone), _) => ([u16::try_from(*bone).unwrap_or(u16::MAX), 0, 0, 0], WHOLE),
+        (None, Some(skinning)) if vertex < skinning.weights.len() => {
+            let four = skinning.largest_four(vertex);
+            let kept = four.1.iter().filter(|weight| **weight != 0.0).count();
+            let all = skinning.influences(vertex).filter(|(_, weight)| *weight != 0.0).count();
+            *reduced += usize::from(all > kept);
+            four
+        }
+        _ => ([0; 4], WHOLE),
+    }
+}
+
+/// `world_from_mesh` of one vertex at rest, and what turns its normals; `None` leaves it where it is.
+struct AtRest(Option<(DAffine3, DMat3)>);
 
 impl AtRest {
-    fn of(bones: &Bones, of_vertex: [u16; 4], weights: [f32; 4], position: Vec3, unfit: &mut bool) -> Self {
+    fn of(bones: &Bones, influences: &[(u16, f32)], position: Vec3, is_unfit: &mut bool) -> Self {
         let position = position.as_dvec3();
         let rest = |bone: u16| bones.rest.get(usize::from(bone)).copied().flatten();
-        let moving = || of_vertex.into_iter().zip(weights).filter(|(_, weight)| *weight != 0.0);
+        let moving = || influences.iter().copied().filter(|(_, weight)| *weight != 0.0);
         if moving().all(|(bone, _)| rest(bone).is_none()) {
             return Self(None);
         }
-        let mut sum: Option<DAffine3> = None;
+        let mut sum = DAffine3::ZERO;
         let mut first: Option<DVec3> = None;
+        let mut is_even = true;
         for (bone, weight) in moving() {
             let matrix = rest(bone).unwrap_or(DAffine3::IDENTITY);
             let place = matrix.transform_point3(position);
             let reference = *first.get_or_insert(place);
             let reach = reference.length() + matrix.translation.length();
-            *unfit |= (place - reference).length() > DISAGREEMENT * reach;
+            *is_unfit |= (place - reference).length() > DISAGREEMENT * reach;
+            is_even &= turns_evenly(&Affine3A::from_mat3(matrix.matrix3.as_mat3()));
             let weight = f64::from(weight);
-            let so_far = sum.unwrap_or(DAffine3::ZERO);
-            sum = Some(DAffine3 {
-                matrix3: so_far.matrix3 + matrix.matrix3 * weight,
-                translation: so_far.translation + matrix.translation * weight,
-            });
+            sum = DAffine3 {
+                matrix3: sum.matrix3 + matrix.matrix3 * weight,
+                translation: sum.translation + matrix.translation * weight,
+            };
         }
-        Self(sum)
+        Self(Some((sum, if is_even { sum.matrix3 } else { normal_matrix(&sum.matrix3) })))
+    }
+
+    fn is_mirrored(&self) -> bool {
+        self.0.is_some_and(|(matrix, _)| matrix.matrix3.determinant() < 0.0)
     }
 
     fn point(&self, point: Vec3) -> Vec3 {
-        self.0.map_or(point, |matrix| matrix.transform_point3(point.as_dvec3()).as_vec3())
+        self.0.map_or(point, |(matrix, _)| matrix.transform_point3(point.as_dvec3()).as_vec3())
     }
 
     /// The normal at rest with the length that it has in the mesh, and what offsets of normals are multiplied
     /// by.
     fn normal(&self, normal: Vec3) -> (Vec3, f64) {
-        let Some(matrix) = self.0 else { return (normal, 1.0) };
-        let moved = matrix.transform_vector3(normal.as_dvec3());
+        let Some((_, turn)) = self.0 else { return (normal, 1.0) };
+        let moved = turn * normal.as_dvec3();
         let shorter = f64::from(normal.length()) / moved.length();
         if shorter.is_finite() { ((moved * shorter).as_vec3(), shorter) } else { (normal, 1.0) }
     }
 
-    fn offset(&self, offset: Option<Vec3>, factor: f64) -> Option<Vec3> {
+    fn offset(&self, offset: Option<Vec3>) -> Option<Vec3> {
         let offset = offset?;
-        Some(self.0.map_or(offset, |m| (m.transform_vector3(offset.as_dvec3()) * factor).as_vec3()))
+        Some(self.0.map_or(offset, |(matrix, _)| matrix.transform_vector3(offset.as_dvec3()).as_vec3()))
+    }
+
+    fn offset_of_normal(&self, offset: Option<Vec3>, factor: f64) -> Option<Vec3> {
+        let offset = offset?;
+        Some(self.0.map_or(offset, |(_, turn)| (turn * offset.as_dvec3() * factor).as_vec3()))
     }
 }

@@ -32,7 +32,7 @@ impl Parts {
             for index in members {
                 let part = &pack.parts()[index];
                 let first = merged.len();
-                let unfit = merged.append(pack, part, bones, shapes);
+                let appended = merged.append(pack, part, bones, shapes);
                 if part.name != spec.name {
                     let with = if Some(index) == look { "" } else { ", with its looks" };
                     notes.push(format!(
@@ -40,7 +40,11 @@ impl Parts {
                         part.name, spec.name
                     ));
                 }
-                if unfit {
+                if appended.reduced > 0 {
+                    let text = "vertices have more than four bones: the four largest are kept";
+                    notes.push(format!("part {:?}: {} {text}", part.name, appended.reduced));
+                }
+                if appended.is_unfit {
                     let text = "rests in another pose than that of its binding: where joints share vertices it bends otherwise";
                     notes.push(format!("part {:?} {text}", part.name));
                 }
@@ -59,17 +63,15 @@ impl Parts {
 /// The one joint of the format that a whole part follows.
 fn only_bone(part: &Part, bones: &Bones) -> Option<&'static str> {
     let place = |bone: usize| bones.places.get(bone).copied().flatten();
-    let mut found = match (&part.bone, &part.mesh.skinning) {
-        (Some(bone), _) => return FACE_BONES.get(place(*bone)?).copied(),
+    let bone = match (part.bone, &part.mesh.skinning) {
+        (Some(bone), _) => bone,
         (None, None) => return None,
-        (None, Some(skinning)) => {
-            skinning.bones.iter().zip(&skinning.weights).flat_map(|(bones, weights)| {
-                bones.iter().zip(weights).filter(|(_, weight)| **weight != 0.0).map(|(bone, _)| *bone)
-            })
-        }
+        (None, Some(skinning)) => match skinning.used_bones()[..] {
+            [bone] => bone.into(),
+            _ => return None,
+        },
     };
-    let first = found.next()?;
-    found.all(|bone| bone == first).then(|| FACE_BONES.get(place(usize::from(first))?).copied())?
+    FACE_BONES.get(place(bone)?).copied()
 }
 
 /// Which of [`FACE_PARTS`] a part becomes.

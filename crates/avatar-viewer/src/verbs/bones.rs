@@ -1,5 +1,6 @@
 use crate::cli::BonesArgs;
-use crate::output;
+use crate::ending;
+use crate::output::{Contents, OutputFile};
 use anyhow::Result;
 use avatar_pack::FaceState;
 use clap::ArgMatches;
@@ -23,6 +24,8 @@ struct Joint<'a> {
 }
 
 pub(super) fn run(args: &BonesArgs, matches: &ArgMatches) -> Result<()> {
+    ending::format(&args.out, None, &[("json", ())], "")?;
+    let out = OutputFile::check(&args.out, Contents::Text)?;
     let pack = super::open(&args.pack)?.load_pack()?;
     let mut state = FaceState::new(&pack);
     args.face.resolve(&pack, matches)?.apply(&pack, &mut state)?;
@@ -37,7 +40,7 @@ pub(super) fn run(args: &BonesArgs, matches: &ArgMatches) -> Result<()> {
     });
     let weights = pack.shapes().iter().map(|shape| public_name(shape)).zip(state.weights().iter().copied());
     let report = Report { joints: joints.collect(), weights: weights.collect() };
-    output::print(&format!("{}\n", serde_json::to_string_pretty(&report)?))
+    out.write(format!("{}\n", serde_json::to_string_pretty(&report)?).as_bytes())
 }
 
 /// The raw format's shapes under the names of their controls.

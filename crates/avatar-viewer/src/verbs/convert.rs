@@ -1,6 +1,8 @@
 use crate::cli::ConvertArgs;
+use crate::ending;
 use crate::files::Files;
-use crate::output::{OutputFile, OutputFolder};
+use crate::output::{Contents, OutputFile, OutputFolder, is_nameless};
+use crate::standard;
 use crate::usage::usage;
 use anyhow::{Result, anyhow};
 use avatar_exchange::glb;
@@ -19,20 +21,14 @@ enum Target {
 }
 
 impl Target {
-    fn of(path: &Path) -> Result<Self> {
+    fn of(path: &Path, asked: Option<&str>) -> Result<Self> {
         let named_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
-        if named_as_folder || path.extension().is_none() || path.is_dir() {
+        let is_folder = named_as_folder || path.extension().is_none() || path.is_dir();
+        if is_folder && !is_nameless(path) && asked.is_none() {
             return Ok(Self::Folder);
         }
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        match extension.as_deref() {
-            Some("glb") => Ok(Self::Glb),
-            Some("obj") => Ok(Self::Obj),
-            _ => Err(usage(format!(
-                "expected a name that ends in .glb or .obj, or (with a separator at its end) that of a new folder, found {:?}",
-                path.display().to_string()
-            ))),
-        }
+        let endings = &[("glb", Self::Glb), ("obj", Self::Obj)];
+        ending::format(path, asked, endings, ", or (with a separator at its end) that of a new folder")
     }
 }
 
@@ -40,7 +36,7 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
     let Some(path) = args.out.as_ref().or(args.target.as_ref()) else {
         return Err(usage("expected the file to write, as a second name or after --out, found none"));
     };
-    match Target::of(path)? {
+    match Target::of(path, args.format.as_deref())? {
         Target::Folder => {
             at_rest(args)?;
             let out = OutputFolder::check(path)?;
@@ -48,18 +44,18 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
             let pack = files.load_pack()?;
             let raw = avatar_pack::raw_files(&pack, &files.load_textures());
             let raw = raw.map_err(|error| anyhow!("{}: {error}", files.name()))?;
-            raw.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+            raw.notes.iter().for_each(standard::warn);
             out.write(&raw.files)
         }
         Target::Glb => {
             at_rest(args)?;
-            let out = OutputFile::check(path)?;
+            let out = OutputFile::check(path, Contents::Binary("GLB"))?;
             let files = super::open(&args.pack)?;
             let pack = files.load_pack()?;
             out.write(&glb(&files, &pack)?)
         }
         Target::Obj => {
-            let out = OutputFile::check(path)?;
+            let out = OutputFile::check(path, Contents::Text)?;
             let pack = super::open(&args.pack)?.load_pack()?;
             let mut state = FaceState::new(&pack);
             args.face.resolve(&pack, matches)?.apply(&pack, &mut state)?;
@@ -83,20 +79,20 @@ fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
     let written = match files.read_scene()? {
         Some(scene) => {
             if !scene.drivers.is_empty() {
-                eprintln!(
-                    "warning: sliders of in-between and corrective shapes are left out, each shape is one of its own"
+                standard::warn(
+                    "sliders of in-between and corrective shapes are left out, each shape is one of its own",
                 );
             }
             if files.is_vrm() {
-                eprintln!("warning: roles of bones, expressions and look-at are left out");
+                standard::warn("roles of bones, expressions and look-at are left out");
             }
             glb::write(&avatar_pack::portable_pictures(&scene))
         }
         None => {
             let raw = avatar_pack::export(pack, &files.load_textures());
-            raw.notes.iter().for_each(|note| eprintln!("warning: {note}"));
+            raw.notes.iter().for_each(standard::warn);
             if !pack.clips().clips.is_empty() {
-                eprintln!("warning: clips of controls are left out: poses are the clips of the file");
+                standard::warn("clips of controls are left out: poses are the clips of the file");
             }
             glb::write_raw(&raw)
         }
@@ -111,13 +107,14 @@ pub(super) fn world_obj(pack: &Pack, state: &FaceState) -> Result<String> {
     }
     let deformed: Vec<_> =
         (0..pack.parts().len()).map(|part| Ok(state.deform(pack, part)?)).collect::<Result<_>>()?;
-    let parts: Vec<ObjPart<'_>> = (pack.parts().iter().zip(&deformed))
-        .map(|(part, deformed)| ObjPart {
+    let triangles: Vec<_> = (0..pack.parts().len()).map(|part| state.triangles(pack, part)).collect();
+    let parts: Vec<ObjPart<'_>> = (pack.parts().iter().zip(&deformed).zip(&triangles))
+        .map(|((part, deformed), triangles)| ObjPart {
             name: &part.name,
             positions: &deformed.positions,
             normals: &deformed.normals,
             uvs: &part.mesh.uvs,
-            triangles: &part.mesh.triangles,
+            triangles,
         })
         .collect();
     Ok(obj::write_parts(&parts))

@@ -1,7 +1,9 @@
 use crate::cli::DeformArgs;
+use crate::ending;
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
+use crate::standard;
 use crate::usage;
 use anyhow::Result;
 use avatar_mesh::Deformed;
@@ -10,28 +12,31 @@ use avatar_pack::{FaceState, Pack, Textures};
 use clap::ArgMatches;
 
 pub(super) fn run(args: &DeformArgs, matches: &ArgMatches) -> Result<()> {
-    let out = OutputFile::check(&args.out)?;
+    ending::format(&args.out, None, &[("obj", ())], "")?;
+    let out = OutputFile::check(&args.out, Contents::Text)?;
     let pack = super::open(&args.pack)?.load_pack()?;
     let parts = if args.world { (0..pack.parts().len()).collect() } else { vec![part(&pack, args)?] };
     let face = args.face.resolve(&pack, matches)?;
 
+    let mut state = FaceState::new(&pack);
+    face.apply(&pack, &mut state)?;
     let deformed: Vec<Deformed> = if args.gpu {
         let mut offscreen = Offscreen::open(&pack, &Textures::default(), 1, LookArgs::default())?;
-        eprintln!("adapter: {}", offscreen.adapter());
+        standard::tell(format_args!("adapter: {}", offscreen.adapter()));
         parts.iter().map(|part| offscreen.deform(&pack, &face, *part)).collect::<Result<_>>()?
     } else {
-        let mut state = FaceState::new(&pack);
-        face.apply(&pack, &mut state)?;
         parts.iter().map(|part| Ok(state.deform(&pack, *part)?)).collect::<Result<_>>()?
     };
+    let triangles: Vec<_> = parts.iter().map(|part| state.triangles(&pack, *part)).collect();
     let objects: Vec<ObjPart<'_>> = (parts.iter().map(|part| &pack.parts()[*part]).zip(&deformed))
-        .map(|(part, deformed)| ObjPart {
+        .zip(&triangles)
+        .map(|((part, deformed), triangles)| ObjPart {
             name: &part.name,
             positions: &deformed.positions,
             normals: &deformed.normals,
             // A single part is for comparing numbers.
             uvs: if args.world { &part.mesh.uvs } else { &[] },
-            triangles: &part.mesh.triangles,
+            triangles,
         })
         .collect();
     out.write(obj::write_parts(&objects).as_bytes())

@@ -1,5 +1,5 @@
 use crate::cli::InfoArgs;
-use crate::output;
+use crate::standard;
 use anyhow::Result;
 use avatar_pack::{ImportReport, Pack, Textures};
 use serde::Serialize;
@@ -74,9 +74,9 @@ pub(super) fn run(args: &InfoArgs) -> Result<()> {
     let textures = files.read_textures();
     let report = Report { import: files.report().map(import), ..report(&pack, &textures) };
     if args.json {
-        return output::print(&format!("{}\n", serde_json::to_string_pretty(&report)?));
+        return standard::print(&format!("{}\n", serde_json::to_string_pretty(&report)?));
     }
-    output::print(&text(&report))
+    standard::print(&text(&report))
 }
 
 fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {

@@ -1,5 +1,5 @@
 use crate::cli::KeysArgs;
-use crate::output;
+use crate::standard;
 use crate::window::keys::{Keys, MOUSE};
 use anyhow::Result;
 use std::fmt::Write;
@@ -23,5 +23,5 @@ pub(super) fn run(args: &KeysArgs) -> Result<()> {
     for (gesture, meaning) in MOUSE {
         let _ = writeln!(out, "{:<24} {meaning}", format!("mouse {gesture}"));
     }
-    output::print(&out)
+    standard::print(&out)
 }

@@ -1,20 +1,20 @@
 use crate::cli::RecordArgs;
 use crate::clips;
+use crate::drafts::Interrupts;
 use crate::face_args::FaceChoice;
 use crate::film::{FilmSink, FilmTarget, Take, through};
 use crate::offscreen::Offscreen;
 use crate::progress::Progress;
 use crate::script::Script;
 use crate::usage::usage;
-use anyhow::{Context, Result, bail};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use anyhow::{Result, bail};
 
 /// More frames than this are a slip of the keyboard, not a wish.
 const MAX_FRAMES: u64 = 1_000_000;
 
 pub(super) fn run(args: &RecordArgs) -> Result<()> {
-    let target = FilmTarget::check(&args.out, args.size, args.fps)?;
+    let target =
+        FilmTarget::check(&args.out, args.format.as_deref(), args.size, args.fps, args.picture.background.0)?;
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let view = args.picture.view(&pack)?;
@@ -35,7 +35,7 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
 
     let textures = files.load_textures();
     let mut offscreen = Offscreen::open(&pack, &textures, args.picture.samples, args.look)?;
-    let interrupted = watch_interrupts()?;
+    let interrupts = Interrupts::poll()?;
     let mut film = FilmSink::create(target, args.size, args.fps, frames)?;
     let mut motion = script.as_ref().map(|script| script.motion(&pack));
     let mut progress = Progress::new("frame", frames);
@@ -50,7 +50,7 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
         Ok((face, view))
     };
     take.shoot(&mut offscreen, &mut film, at, |done| {
-        if interrupted.load(Ordering::Relaxed) {
+        if interrupts.came() {
             bail!("interrupted after {done} of {frames} frames: nothing was written");
         }
         progress.step(done);
@@ -58,12 +58,4 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
     })?;
     drop(progress);
     film.finish()
-}
-
-/// Whether the program was asked to end: unfinished files are removed first.
-fn watch_interrupts() -> Result<Arc<AtomicBool>> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&interrupted);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).context("watching for interrupts")?;
-    Ok(interrupted)
 }

@@ -1,12 +1,15 @@
 use crate::cli::RenderArgs;
-use crate::film;
+use crate::ending;
 use crate::offscreen::Offscreen;
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
+use crate::picture_file::{self, PictureFormat};
 use anyhow::Result;
 use clap::ArgMatches;
 
 pub(super) fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<()> {
-    let out = OutputFile::check(&args.out)?;
+    let format = ending::format(&args.out, args.format.as_deref(), PictureFormat::ENDINGS, "")?;
+    format.check([args.size.width, args.size.height], args.picture.background.0)?;
+    let out = OutputFile::check(&args.out, Contents::Binary("a picture"))?;
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
@@ -14,5 +17,5 @@ pub(super) fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<()> {
     let textures = files.load_textures();
     let mut offscreen = Offscreen::open(&pack, &textures, args.picture.samples, args.look)?;
     let picture = offscreen.picture(&pack, &face, view, args.size, args.picture.background.0)?;
-    film::still(&out, &picture, &face.describe(&pack))
+    picture_file::still(&out, format, &picture, &face.describe(&pack))
 }

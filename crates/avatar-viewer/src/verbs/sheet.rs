@@ -1,9 +1,12 @@
 use crate::cli::{SheetArgs, Size};
+use crate::ending;
 use crate::face_args::FaceChoice;
-use crate::film;
 use crate::label;
 use crate::offscreen::Offscreen;
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
+use crate::picture_file::{self, PictureFormat};
+use crate::progress::Progress;
+use crate::standard;
 use anyhow::Result;
 use avatar_stage::{BACKGROUND, Framing, NamedView, SAMPLES, View};
 use image::{Rgba, RgbaImage, imageops};
@@ -17,19 +20,22 @@ const SHEET_COLOR: [u8; 4] = [0x16, 0x18, 0x1c, 255];
 const LABEL_COLOR: [u8; 3] = [0xe6, 0xe2, 0xda];
 
 pub(super) fn run(args: &SheetArgs) -> Result<()> {
-    let out = OutputFile::check(&args.out)?;
+    let format = ending::format(&args.out, args.format.as_deref(), PictureFormat::ENDINGS, "")?;
+    let out = OutputFile::check(&args.out, Contents::Binary("a picture"))?;
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
-    let textures = files.load_textures();
-    let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, args.look)?;
-
     let poses: Vec<_> = pack.poses().iter().collect();
     if poses.is_empty() {
-        eprintln!("warning: expected poses to draw, found none: the sheet is empty");
+        standard::warn("expected poses to draw, found none: the sheet is empty");
     }
     let rows = (poses.len() as u32).div_ceil(COLUMNS).max(1);
     let (cell_width, cell_height) = (FACE.width * 2, FACE.height + LABEL_HEIGHT);
     let (width, height) = (GAP + COLUMNS * (cell_width + GAP), GAP + rows * (cell_height + GAP));
+    format.check([width, height], SHEET_COLOR)?;
+
+    let textures = files.load_textures();
+    let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, args.look)?;
+    let mut progress = Progress::new("pose", poses.len() as u64);
     let mut sheet = RgbaImage::from_pixel(width, height, Rgba(SHEET_COLOR));
     for (index, pose) in poses.into_iter().enumerate() {
         let index = index as u32;
@@ -51,6 +57,8 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
         let baseline = top + FACE.height + LABEL_HEIGHT * 2 / 3;
         let center = left + cell_width / 2;
         label::draw(&mut sheet, &pose.name, center as f32, baseline as f32, 22.0, LABEL_COLOR)?;
+        progress.step(u64::from(index) + 1);
     }
-    out.write(&film::png(&sheet, "")?)
+    drop(progress);
+    picture_file::still(&out, format, &sheet, "")
 }

@@ -1,14 +1,17 @@
 use crate::cli::StrandsArgs;
+use crate::ending;
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
+use crate::standard;
 use anyhow::Result;
 use avatar_groom::PlantedStrand;
 use clap::ArgMatches;
 use serde_json::json;
 
 pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
-    let out = OutputFile::check(&args.out)?;
+    ending::format(&args.out, None, &[("json", ())], "")?;
+    let out = OutputFile::check(&args.out, Contents::Text)?;
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
@@ -20,8 +23,8 @@ pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
     let groom = hair.and_then(|hair| pack.groom(&textures, &hair));
     let planted = groom.as_ref().map_or(&[][..], |(_, groom)| groom.strands());
     if strands.is_empty() {
-        eprintln!(
-            "warning: expected hair to grow, found none: --hair is off, density is 0, or the pack has no HairMap"
+        standard::warn(
+            "expected hair to grow, found none: --hair is off, density is 0, or the pack has no HairMap",
         );
     }
     let strands: Vec<_> = (planted.iter().zip(&strands))

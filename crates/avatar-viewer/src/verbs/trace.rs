@@ -1,5 +1,6 @@
 use crate::cli::TraceArgs;
-use crate::output;
+use crate::ending;
+use crate::output::{Contents, OutputFile};
 use crate::script::Script;
 use crate::usage::usage;
 use anyhow::Result;
@@ -11,6 +12,8 @@ use std::io::Write;
 const MAX_ROWS: f64 = 10_000_000.0;
 
 pub(super) fn run(args: &TraceArgs) -> Result<()> {
+    ending::format(&args.out, None, &[("csv", ())], "")?;
+    let out = OutputFile::check(&args.out, Contents::Text)?;
     let pack = super::open(&args.pack)?.load_pack()?;
     let script = Script::parse(&args.script, &pack)?;
     // The product may lie a rounding error below a whole number of ticks.
@@ -19,7 +22,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<()> {
         return Err(usage(format!("expected at most {MAX_ROWS} rows, found --hz × --duration = {last_row}")));
     }
     let rows = Rows { hz: args.hz, last: last_row as u64, derivatives: args.derivatives };
-    output::stream(|out| trace(&pack, &script, &rows, out))
+    out.stream(|out| trace(&pack, &script, &rows, out))
 }
 
 /// Which rows and columns to print.
@@ -29,7 +32,7 @@ struct Rows {
     derivatives: bool,
 }
 
-fn trace(pack: &Pack, script: &Script, rows: &Rows, out: &mut impl Write) -> Result<()> {
+fn trace(pack: &Pack, script: &Script, rows: &Rows, out: &mut dyn Write) -> Result<()> {
     let mut motion = script.motion(pack);
     write!(out, "t")?;
     let suffixes: &[&str] = if rows.derivatives { &["", "'", "''"] } else { &[""] };

@@ -79,7 +79,7 @@ pub(super) fn formats() -> Vec<(&'static str, &'static str)> {
 impl Filming {
     pub(super) fn start(subject: Subject, path: PathBuf, window: EventLoopProxy<Wake>) -> Result<Self> {
         let rate = Rate::new(FPS, 1)?;
-        let target = FilmTarget::check(&path, subject.size, rate)?;
+        let target = FilmTarget::check(&path, None, subject.size, rate, subject.background)?;
         let frames = match &subject.clip {
             Some(clip) => length(clip, &subject.pack, rate),
             None => rate.frames_before(TURN_SECS),

@@ -1,3 +1,4 @@
+use crate::standard;
 use avatar_panel::{Message, Severity};
 use std::time::{Duration, Instant};
 
@@ -43,7 +44,7 @@ impl Messages {
     /// Tells of an error, also where the program was started from.
     pub(super) fn error(&mut self, about: About, title: impl Into<String>, error: &anyhow::Error) {
         let (title, text) = (title.into(), format!("{error:#}"));
-        eprintln!("error: {text}: {}", as_clause(&title));
+        standard::tell(format_args!("error: {text}: {}", as_clause(&title)));
         self.tell(about, Severity::Error, title, text);
     }
 
@@ -57,7 +58,7 @@ impl Messages {
 
     pub(super) fn warn(&mut self, about: About, title: impl Into<String>, text: impl Into<String>) {
         let (title, text) = (title.into(), text.into());
-        eprintln!("warning: {text}");
+        standard::warn(&text);
         self.tell(about, Severity::Warning, title, text);
     }
 

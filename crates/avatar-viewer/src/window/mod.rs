@@ -35,6 +35,7 @@ mod open;
 use crate::cli::WindowArgs;
 use crate::config::Config;
 use crate::files::Files;
+use crate::standard;
 use anyhow::{Context, Result, anyhow};
 use clap::ArgMatches;
 use input::Input;
@@ -73,7 +74,7 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         messages.error(About::Keys, "The usual keys are used.", &error);
         Keys::default()
     });
-    keys.dead(pack.poses()).iter().for_each(|warning| eprintln!("warning: {warning}"));
+    keys.dead(pack.poses()).iter().for_each(standard::warn);
     if let Some(path) = args.pack.pack.as_deref().filter(|_| !args.no_panel) {
         config.opened(path);
     }

@@ -11,7 +11,8 @@ use crate::cli::Size;
 use crate::clips::FoundClip;
 use crate::film;
 use crate::look_args::LookArgs;
-use crate::output::OutputFile;
+use crate::output::{Contents, OutputFile};
+use crate::picture_file::{PictureFormat, still};
 use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
 use avatar_panel::{PanelState, Theme};
@@ -177,7 +178,8 @@ impl Presenter {
         let face = &session.face;
         let stem = face.active_pose.and_then(|pose| session.books.poses().poses.get(pose));
         let path = film::free_name(stem.map_or("face", |pose| pose.name.as_str()), "png")?;
-        film::still(&OutputFile::check(&path)?, &picture, &face.choice().describe(face.pack()))?;
+        let out = OutputFile::check(&path, Contents::Binary("a picture"))?;
+        still(&out, PictureFormat::Png, &picture, &face.choice().describe(face.pack()))?;
         Ok(path)
     }
 

@@ -1,5 +1,6 @@
 use super::overlay::{Overlay, Painted};
 use super::shot::{Kept, Shot, kept};
+use crate::adapter;
 use crate::look_args::LookArgs;
 use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
@@ -66,7 +67,8 @@ impl Stage {
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
         let surface =
             instance.create_surface(window.clone()).context("expected a surface to draw on, found none")?;
-        let gpu = open_for_surface_blocking(instance, &surface, GpuOptions::default())?;
+        let gpu = open_for_surface_blocking(instance, &surface, GpuOptions::default());
+        let gpu = gpu.map_err(adapter::explained)?;
 
         let size = window.inner_size();
         let mut config = surface

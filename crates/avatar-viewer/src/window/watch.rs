@@ -1,4 +1,5 @@
 use crate::files::Files;
+use crate::standard;
 use crate::store::Store;
 use avatar_pack::files;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
@@ -103,7 +104,9 @@ pub(super) fn watch(files: &Files, store: &Store, window: EventLoopProxy<Wake>) 
         .inspect_err(|error| {
             let folders =
                 folders.iter().map(|folder| folder.display().to_string()).collect::<Vec<_>>().join(" and ");
-            eprintln!("warning: {folders}: expected to be told of changes of files, found: {error}");
+            standard::warn(format_args!(
+                "{folders}: expected to be told of changes of files, found: {error}"
+            ));
         })
         .ok();
     Watching { _watcher: watcher, missing }

@@ -20,12 +20,12 @@ fn refuses(damage: impl FnOnce(&Path), parts: &[&str]) {
     let pack = copy_of_golden_pack();
     damage(pack.path());
     let out = tempfile::tempdir().expect("a temporary folder");
-    let file = out.path().join("out");
+    let (mesh, picture) = (out.path().join("out.obj"), out.path().join("out.png"));
     run(&["info".as_ref(), pack.path().as_os_str()]).fails(1, parts);
     run(&["bones".as_ref(), pack.path().as_os_str()]).fails(1, parts);
-    finish(viewer().arg("deform").arg(pack.path()).arg("--out").arg(&file)).fails(1, parts);
+    finish(viewer().arg("deform").arg(pack.path()).arg("--out").arg(&mesh)).fails(1, parts);
     // A pack is judged before the adapter is looked for.
-    finish(without_adapter().arg("render").arg(pack.path()).arg("--out").arg(&file)).fails(1, parts);
+    finish(without_adapter().arg("render").arg(pack.path()).arg("--out").arg(&picture)).fails(1, parts);
     finish(without_display().arg(pack.path())).fails(1, parts);
     assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 0, "a file was left behind");
 }
@@ -287,11 +287,18 @@ fn textures_that_do_not_decode() {
 #[test]
 fn no_adapter() {
     let out = tempfile::tempdir().expect("a temporary folder");
-    let file = out.path().join("out");
-    let wanted = ["adapter"];
-    finish(without_adapter().args(["render", "--out"]).arg(&file)).fails(1, &wanted);
-    finish(without_adapter().args(["sheet", "--out"]).arg(&file)).fails(1, &wanted);
-    finish(without_adapter().args(["deform", "--gpu", "--out"]).arg(&file)).fails(1, &wanted);
+    let at = |name: &str| out.path().join(name);
+    // Variables that name drivers which are not there have the Vulkan loader find none.
+    let mut wanted = vec!["expected a GPU adapter"];
+    if cfg!(target_os = "linux") {
+        wanted.extend(["VK_DRIVER_FILES=/nonexistent.json names the only Vulkan drivers", "unset it"]);
+        wanted.extend(["Debian, Ubuntu, Mint   apt install mesa-vulkan-drivers", "Fedora", "Arch", "Alpine"]);
+    }
+    finish(without_adapter().args(["render", "--out"]).arg(at("out.png"))).fails(1, &wanted);
+    finish(without_adapter().args(["sheet", "--out"]).arg(at("out.jpg"))).fails(1, &wanted);
+    finish(without_adapter().args(["deform", "--gpu", "--out"]).arg(at("out.obj"))).fails(1, &wanted);
+    let script = ["record", "--script", "0 smile", "--out"];
+    finish(without_adapter().args(script).arg(at("out.gif"))).fails(1, &wanted);
     assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 0, "a file was left behind");
 }
 
@@ -303,10 +310,11 @@ fn no_display() {
 #[test]
 fn outputs_that_cannot_be_written() {
     let out = tempfile::tempdir().expect("a temporary folder");
-    finish(viewer().args(["deform", "--out"]).arg(out.path())).fails(1, &["found a folder"]);
-    finish(viewer().args(["deform", "--out"]).arg(out.path().join("no/where.obj")))
-        .fails(1, &["no", "folder"]);
-    assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 0, "a file was left behind");
+    fs::create_dir(out.path().join("folder.obj")).expect("made");
+    let deform = |name: &str| finish(viewer().args(["deform", "--out"]).arg(out.path().join(name)));
+    deform("folder.obj").fails(1, &["found a folder"]);
+    deform("no/where.obj").fails(1, &["no", "folder"]);
+    assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 1, "a file was left behind");
 }
 
 #[test]

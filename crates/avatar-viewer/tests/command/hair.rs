@@ -85,7 +85,7 @@ fn more_strands_than_a_device_binds_are_told_by_the_key_that_asks_for_them() {
 fn wrong_values_are_wrong_usage() {
     let out = tempfile::tempdir().expect("a temporary folder");
     for (option, message) in [
-        ("--hair=wig", "[possible values: short, bob, long, curly, mohawk, bald, off]"),
+        ("--hair=wig", "expected one of short, bob, long, curly, mohawk, bald, off, found \"wig\""),
         ("--hair-density=7.1", "expected a number from 0 to 7"),
         ("--hair-density=nan", "expected a number from 0 to 7"),
         ("--hair-seed=-1", "--hair-seed"),

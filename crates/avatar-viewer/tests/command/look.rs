@@ -83,10 +83,14 @@ fn wrong_values_are_wrong_usage() {
     let out = tempfile::tempdir().expect("a temporary folder");
     let file = out.path().join("out.png");
     let cases = [
-        ("--quality", &["ultra", "", "Low", "3"][..], "[possible values: auto, plain, low, medium, high]"),
-        ("--style", &["cartoon"], "[possible values: natural, toon]"),
-        ("--light", &["moon", "studio,flat"], "[possible values: studio, daylight, dramatic, flat]"),
-        ("--tone-map", &["linear", "aces"], "[possible values: neutral, agx]"),
+        (
+            "--quality",
+            &["ultra", "", "Low", "3"][..],
+            "expected one of auto, plain, low, medium, high, found",
+        ),
+        ("--style", &["cartoon"], "expected one of natural, toon, found"),
+        ("--light", &["moon", "studio,flat"], "expected one of studio, daylight, dramatic, flat, found"),
+        ("--tone-map", &["linear", "aces"], "expected one of neutral, agx, found"),
         (
             "--exposure",
             &["bright", "nan", "inf", "-inf", "10.01", "-11", ""],

@@ -16,6 +16,10 @@ mod expected_data;
 mod hair;
 mod import;
 mod look;
+mod outputs;
 mod record;
+#[cfg(unix)]
+mod safety;
 mod snapshots;
 mod stage;
+mod words;

@@ -4,10 +4,11 @@
 
 use serde_json::Value;
 use std::fs;
-use std::io::Write;
+use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, ExitStatus, Output, Stdio};
 use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// The program under test.
@@ -33,10 +34,49 @@ pub fn run<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Run {
 
 /// Runs a prepared command to its end.
 pub fn finish(command: &mut Command) -> Run {
+    let (bytes, mut run) = finish_bytes(command);
+    run.stdout = String::from_utf8(bytes).expect("standard output is text");
+    run
+}
+
+/// The same, for what writes more than text to standard output: that, and the run without it.
+pub fn finish_bytes(command: &mut Command) -> (Vec<u8>, Run) {
     let Output { status, stdout, stderr } = command.output().expect("the program starts");
+    (stdout, judged(status, stderr))
+}
+
+/// Runs a prepared command, which must not take so long: what waits for ever would stop the tests.
+pub fn finish_soon(command: &mut Command) -> Run {
+    let (out, errors) = (tempfile::tempfile().expect("a file"), tempfile::tempfile().expect("a file"));
+    let copy = |file: &fs::File| Stdio::from(file.try_clone().expect("another handle"));
+    let mut child = command.stdout(copy(&out)).stderr(copy(&errors)).spawn().expect("the program starts");
+    let start = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().expect("a state") {
+            break status;
+        }
+        if start.elapsed() > SOON {
+            let _ = child.kill();
+            panic!("{command:?} did not end within {SOON:?}");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    };
+    let read = |mut file: fs::File| {
+        let mut bytes = Vec::new();
+        file.rewind().and_then(|()| file.read_to_end(&mut bytes)).expect("read");
+        bytes
+    };
+    let run = judged(status, read(errors));
+    Run { stdout: String::from_utf8(read(out)).expect("standard output is text"), ..run }
+}
+
+/// Long enough for a busy machine, far too short for a file that never ends.
+const SOON: Duration = Duration::from_secs(60);
+
+fn judged(status: ExitStatus, stderr: Vec<u8>) -> Run {
     let run = Run {
         status: status.code().expect("no signal ended the program"),
-        stdout: String::from_utf8(stdout).expect("standard output is text"),
+        stdout: String::new(),
         stderr: String::from_utf8(stderr).expect("standard error is text"),
     };
     for inner in ["panicked", ".rs:"] {

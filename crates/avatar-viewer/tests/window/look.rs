@@ -4,10 +4,10 @@
 
 use crate::common;
 use crate::common::copy_of_golden_pack;
-use crate::desk::{A_WHILE, Desk, can_run, difference, errors, render, save_as_editors_do};
+use crate::desk::{A_WHILE, Desk, PATIENCE, can_run, difference, errors, render, save_as_editors_do};
+use notify::event::AccessKind;
+use notify::{EventKind, RecursiveMode, Watcher};
 use std::fs;
-use std::io::Write;
-use std::process::Command;
 
 const GREEN: &str = "[skin]\ncolor = [0.1, 0.5, 0.2]\n";
 const BLUE: &str = "[skin]\ncolor = [0.1, 0.2, 0.6]\n\n[left-eyeball]\ncolor = [0.9, 0.1, 0.1]\n";
@@ -94,27 +94,35 @@ fn materials_that_change_while_the_window_opens_are_not_missed() {
         return;
     }
     let pack = copy_of_golden_pack();
-    // A texture that arrives when the test says so: by then the materials have been read, and nobody watches
-    // yet.
+    // A texture that takes a while to be decoded. When it is opened, the materials have been read, and nobody
+    // watches them yet.
     let slow = pack.path().join("SkinTex_Decal.png");
-    if !Command::new("mkfifo").arg(&slow).status().is_ok_and(|status| status.success()) {
-        common::tell("mkfifo does not work here");
-        return;
-    }
+    let noise = image::RgbImage::from_fn(4096, 4096, |x, y| {
+        image::Rgb(
+            (x.wrapping_mul(2_654_435_761) ^ y.wrapping_mul(2_246_822_519)).to_le_bytes()[1..]
+                .try_into()
+                .expect("three"),
+        )
+    });
+    noise.save(&slow).expect("written");
     let file = pack.path().join("materials.toml");
-    let writer = std::thread::spawn({
-        let (slow, file) = (slow.clone(), file.clone());
-        move || {
-            // Opens once the viewer reads.
-            let mut pipe = fs::OpenOptions::new().write(true).open(slow).expect("a pipe");
-            fs::write(file, GREEN).expect("written");
-            pipe.write_all(b"no picture").expect("written");
+    let (opened, is_opened) = std::sync::mpsc::channel();
+    let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+        let event = event.expect("an event");
+        if matches!(event.kind, EventKind::Access(AccessKind::Open(_))) && event.paths.contains(&slow) {
+            let _ = opened.send(());
         }
+    })
+    .expect("a watcher");
+    watcher.watch(pack.path(), RecursiveMode::NonRecursive).expect("watched");
+    let writer = std::thread::spawn(move || {
+        is_opened.recv_timeout(PATIENCE).expect("the texture is opened");
+        fs::write(file, GREEN).expect("written");
     });
     let options = [pack.path().to_str().expect("a plain path"), "--size", "160x120", "--quality", "plain"];
     let mut desk = Desk::open(&options);
     writer.join().expect("the texture was read");
-    fs::remove_file(slow).expect("removed");
+    drop(watcher);
     desk.shows(&render(&options), "changed while the textures were loaded");
     desk.close_button();
     desk.closes();

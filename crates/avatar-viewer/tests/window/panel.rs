@@ -6,6 +6,7 @@ use crate::desk::{Desk, PATIENCE, can_run, difference, errors, render, save_as_e
 use image::RgbImage;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -304,6 +305,18 @@ fn what_is_dropped_is_opened_and_what_is_broken_leaves_the_face() {
     assert!(told[0].contains("broken.glb") && told[0].contains("was not opened"), "{}", told[0]);
     desk.changes_from(&before, "a banner");
     assert_eq!(desk.name(), name);
+
+    // What waits for ever, or never ends, is not read.
+    let (pipe, device) = (settings.path().join("pipe.glb"), settings.path().join("endless.obj"));
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo starts").success());
+    std::os::unix::fs::symlink("/dev/zero", &device).expect("a link");
+    for (count, file, found) in [(2, pipe, "a pipe"), (3, device, "a device")] {
+        desk.drop_file(&file);
+        let told = errors(&desk, count);
+        let found = format!("expected the folder or file of an avatar, found {found}");
+        assert!(told[count - 1].contains(&found), "{}", told[count - 1]);
+        assert_eq!(desk.name(), name);
+    }
 
     let (other, _) = self::pack();
     desk.drop_file(other.path());

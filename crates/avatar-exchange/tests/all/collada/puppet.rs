@@ -97,13 +97,26 @@ fn skins_bind_shapes_and_joints() {
 }
 
 #[test]
-fn five_bones_become_four() {
-    let five = "<vcount>5 1 0</vcount><v>0 0 1 1 0 1 1 1 0 1 1 1</v>";
-    let scene = load(&puppet("NORMALIZED", five));
-    let skinning = scene.parts[0].mesh.skinning.as_ref().unwrap();
-    // 1, ½, ½, ½ of 2½ are left.
-    close(&skinning.weights[0], &[0.4, 0.2, 0.2, 0.2]);
-    note(&scene, "1 points had more than 4 bones");
+fn nine_bones_become_eight() {
+    let of = |count: usize| {
+        // The first has a weight of 1, the others of ½.
+        let v = "0 0".to_owned() + &" 1 1".repeat(count - 1);
+        let weights = format!("<vcount>{count} 1 0</vcount><v>{v} 1 1</v>");
+        load(&puppet("NORMALIZED", &weights))
+    };
+    let five = of(5);
+    let skinning = five.parts[0].mesh.skinning.as_ref().unwrap();
+    // Of 1 + 4 · ½.
+    close(&skinning.weights[0], &[1.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0]);
+    close(&skinning.more_weights[0], &[1.0 / 6.0, 0.0, 0.0, 0.0]);
+    assert!(!five.notes.iter().any(|note| note.finding.to_string().contains("eight bones")));
+    let nine = of(9);
+    let skinning = nine.parts[0].mesh.skinning.as_ref().unwrap();
+    // 1 and seven times ½ of 5 are left.
+    close(&skinning.weights[0], &[1.0 / 4.5, 0.5 / 4.5, 0.5 / 4.5, 0.5 / 4.5]);
+    close(&skinning.more_weights[0], &[0.5 / 4.5; 4]);
+    note(&nine, "1 points have more than eight bones");
+    assert!(of(4).parts[0].mesh.skinning.as_ref().unwrap().more_bones.is_empty());
 }
 
 #[test]

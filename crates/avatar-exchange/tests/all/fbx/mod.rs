@@ -1,6 +1,7 @@
 //! FBX: values computed by hand, other people's files, damaged files.
 
 mod others;
+mod reference;
 
 use crate::support::damage::read_any;
 use avatar_exchange::{ImportError, Scene, Transform, fbx};
@@ -114,6 +115,53 @@ fn takes_move_nodes_and_shapes() {
         let Transform::Trs(trs) = pose.locals[knee] else { panic!("a matrix") };
         close(&trs.translation.to_array(), &[(0.5 * time) as f32, 1.0, 0.0]);
     }
+}
+
+/// The face with so many more clusters at the point of the knee, all of its weight.
+fn with_clusters(more: usize) -> Scene {
+    let cluster = |k: usize| {
+        format!(
+            r#"	Deformer: {}, "SubDeformer::more", "Cluster" {{
+		Version: 100
+		Indexes: *1 {{ a: 2 }}
+		Weights: *1 {{ a: {} }}
+		Transform: *16 {{ a: 1,0,0,0,0,1,0,0,0,0,1,0,0,-100,0,1 }}
+		TransformLink: *16 {{ a: 1,0,0,0,0,1,0,0,0,0,1,0,0,100,0,1 }}
+	}}
+"#,
+            400 + k,
+            0.25 + 0.125 * k as f32
+        )
+    };
+    let connection = |k: usize| format!("\tC: \"OO\",{0},40\n\tC: \"OO\",15,{0}\n", 400 + k);
+    let clusters: String = (0..more).map(cluster).collect();
+    let connections: String = (0..more).map(connection).collect();
+    let before = "\tAnimationStack: 50,";
+    let text = FACE.replace(before, &(clusters + before));
+    let text = text.replace("\tC: \"OO\",51,50\n", &(connections + "\tC: \"OO\",51,50\n"));
+    read("face.fbx", text.as_bytes()).unwrap()
+}
+
+#[test]
+fn eight_clusters_move_a_point_and_the_ninth_is_noted() {
+    let skinning = |scene: &Scene| scene.parts[0].mesh.skinning.clone().unwrap();
+    assert!(skinning(&with_clusters(3)).more_bones.is_empty());
+    let eight = with_clusters(7);
+    let of_point = |scene: &Scene| {
+        let skinning = skinning(scene);
+        let vertex = skinning.more_weights.iter().position(|weights| *weights != [0.0; 4]).unwrap();
+        [skinning.weights[vertex], skinning.more_weights[vertex]].concat()
+    };
+    // ½ and ¼, ⅜ … 1, the largest first, of a sum of 4.875.
+    let all = [1.0, 0.875, 0.75, 0.625, 0.5, 0.5, 0.375, 0.25];
+    close(&of_point(&eight), &all.map(|weight| weight / 4.875));
+    let noted =
+        |scene: &Scene| scene.notes.iter().any(|note| note.finding.to_string().contains("eight bones"));
+    assert!(!noted(&eight));
+    let nine = with_clusters(8);
+    let all = [1.125, 1.0, 0.875, 0.75, 0.625, 0.5, 0.5, 0.375];
+    close(&of_point(&nine), &all.map(|weight| weight / 5.75));
+    assert!(noted(&nine));
 }
 
 #[test]

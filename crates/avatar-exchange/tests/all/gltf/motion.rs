@@ -1,7 +1,8 @@
 //! Small files made here: hierarchies, matrices, interpolation, normals under uneven scale.
 
 use crate::support::gltf::{Builder, U8, one_primitive};
-use avatar_exchange::{Scene, Transform, deform_unevenly};
+use avatar_exchange::{Scene, Transform};
+use avatar_mesh::deform;
 use glam::{DVec3, Quat, Vec3};
 
 /// A scene in which one channel of one clip moves node 0.
@@ -177,7 +178,7 @@ fn normals_stay_upright_under_uneven_scale() {
         let scene = file.scene(&rest);
         let (mesh, bones) = (&scene.parts[0].mesh, scene.bones(&scene.rest()));
         let mut deformed = mesh.deformed();
-        deform_unevenly(mesh, scene.bones_of(0, &bones), &[], &mut deformed).expect("it fits");
+        deform(mesh, scene.bones_of(0, &bones), &[], &mut deformed).expect("it fits");
         let [a, b, c] = [0, 1, 2].map(|corner| deformed.positions[corner]);
         for normal in deformed.normals {
             assert!(normal.dot(b - a).abs() < 1e-6 && normal.dot(c - a).abs() < 1e-6, "{normal}");

@@ -5,7 +5,7 @@ use crate::support::gltf::{read, read_file};
 use crate::support::random;
 use avatar_exchange::{
     Channel, ChannelTarget, Clip, Interpolation, Material, Node, RawScene, Scene, SceneImage, ScenePart,
-    Skin,
+    Skin, UvSet,
     glb::{self, ExportError},
     gltf,
 };
@@ -60,6 +60,15 @@ fn random_scenes_are_rich() {
         .flat_map(|c| &c.channels)
         .any(|c| c.target == ChannelTarget::Weights)));
     assert!(any(&|scene| scene.materials.iter().any(|m| m.textures().count() > 1)));
+    assert!(any(&|scene| scene.materials.iter().any(|m| m.is_unlit)));
+    assert!(any(&|scene| scene
+        .materials
+        .iter()
+        .flat_map(Material::textures)
+        .any(|t| t.uvs == UvSet::Second)));
+    assert!(any(&|scene| scene.images.iter().any(|image| image.mime == "image/webp")));
+    assert!(any(&|scene| scene.parts.iter().any(|part| !part.mesh.uvs_1.is_empty())));
+    assert!(any(&|scene| scene.parts.iter().any(|part| !part.mesh.colors.is_empty())));
     let parts = |part: &ScenePart| part.mesh.shapes.iter().any(|shape| shape.tangents.is_some());
     assert!(any(&|scene| scene.parts.iter().any(parts)));
 }
@@ -160,6 +169,34 @@ fn node(name: &str, parent: Option<usize>) -> Node {
     Node { name: name.to_owned(), parent, ..Node::default() }
 }
 
+#[test]
+fn eight_bones_are_written_in_two_sets() {
+    let mut scene = RawScene { nodes: vec![node("a", None)], ..RawScene::default() };
+    scene.nodes.extend((1..8).map(|_| node("b", Some(0))));
+    scene.skins.push(Skin {
+        name: String::new(),
+        joints: (0..8).collect(),
+        inverse_binds: vec![Affine3A::IDENTITY; 8],
+    });
+    let mut mesh = skinned([0, 1, 2, 3], [0.25, 0.125, 0.125, 0.125]);
+    let more = mesh.skinning.as_mut().expect("bones");
+    // The sixth and the seventh are one bone, the eighth has no weight.
+    (more.more_bones, more.more_weights) = (vec![[4, 5, 5, 7]], vec![[0.125, 0.125, 0.125, 0.0]]);
+    scene.parts.push(ScenePart::skinned("eight", 0, mesh, 0));
+    let bytes = glb::write_raw(&scene).expect("a good scene");
+    let again = read(&bytes).expect("what was written");
+    let skinning = again.parts[0].mesh.skinning.as_ref().expect("bones");
+    let json = String::from_utf8_lossy(&bytes).into_owned();
+    assert!(json.contains("JOINTS_1") && json.contains("WEIGHTS_1"), "{json}");
+    // Read, the largest are first.
+    assert_eq!((skinning.bones[0], skinning.weights[0]), ([0, 5, 1, 2], [0.25, 0.25, 0.125, 0.125]));
+    assert_eq!((skinning.more_bones[0], skinning.more_weights[0]), ([3, 4, 0, 0], [0.125, 0.125, 0.0, 0.0]));
+    let four = skinned([0, 1, 2, 3], [0.25; 4]);
+    scene.parts[0].mesh = four;
+    let bytes = glb::write_raw(&scene).expect("a good scene");
+    assert!(!String::from_utf8_lossy(&bytes).contains("JOINTS_1"));
+}
+
 /// What glTF has no word for becomes what deforms alike.
 #[test]
 fn awkward_scenes_deform_as_before() {
@@ -246,6 +283,39 @@ fn a_clip_before_zero_begins_at_zero() {
     scene.clips.push(Clip { name: String::new(), channels: vec![channel] });
     let again = read_raw(&glb::write_raw(&scene).expect("a valid scene"));
     assert_eq!(again.clips[0].channels[0].times, [0.0, 2.0]);
+}
+
+/// What plain glTF has no word for is an extension, which the file lists.
+#[test]
+fn extensions_are_used_where_they_are_needed() {
+    let mut scene = RawScene::default();
+    let json = |scene: &RawScene| -> serde_json::Value {
+        let bytes = glb::write_raw(scene).expect("a valid scene");
+        serde_json::from_slice(gltf::split(&bytes).expect("GLB").json).expect("JSON")
+    };
+    assert_eq!(json(&scene).get("extensionsUsed"), None);
+    let webp = SceneImage {
+        mime: "image/webp".to_owned(),
+        bytes: b"RIFF\x04\0\0\0WEBP".to_vec(),
+        ..SceneImage::default()
+    };
+    scene.images = vec![webp];
+    let bright = Material { emissive: [8.0, 2.0, 0.0], ..Material::default() };
+    let textured = Material { base_color_texture: Some(0.into()), is_unlit: true, ..Material::default() };
+    scene.materials = vec![bright, textured];
+    let found = json(&scene);
+    let used =
+        serde_json::json!(["EXT_texture_webp", "KHR_materials_emissive_strength", "KHR_materials_unlit"]);
+    assert_eq!(
+        (&found["extensionsUsed"], &found["extensionsRequired"]),
+        (&used, &serde_json::json!(["EXT_texture_webp"]))
+    );
+    assert_eq!(
+        found["textures"],
+        serde_json::json!([{ "extensions": { "EXT_texture_webp": { "source": 0 } } }])
+    );
+    assert_eq!(found["materials"][0]["emissiveFactor"], serde_json::json!([1.0, 0.25, 0.0]));
+    assert_eq!(read_raw(&glb::write_raw(&scene).expect("a valid scene")), scene);
 }
 
 #[test]

@@ -10,6 +10,11 @@ pub fn shared_data(path: &str) -> Option<PathBuf> {
     there(path, std::env::var_os("MIMIK_REQUIRE_DATA").is_some_and(|value| value == "1"))
 }
 
+/// A file of the small cases beside the workspace (`../shared/cases`); asked for as the data are.
+pub fn shared_case(path: &str) -> Option<PathBuf> {
+    shared_data("../cases").map(|folder| folder.join(path))
+}
+
 /// A folder of the Open Asset Import Library's test models, as Debian packages them: `assimp-testmodels`. Who
 /// names a folder in `MIMIK_ASSIMP_MODELS` wants it read.
 pub fn models(folder: &str) -> Option<PathBuf> {

@@ -50,6 +50,8 @@ pub struct Builder {
     bin: Vec<u8>,
     views: Vec<String>,
     accessors: Vec<String>,
+    /// Further buffers, as JSON.
+    buffers: String,
 }
 
 pub const I8: u32 = 5120;
@@ -60,6 +62,32 @@ pub const U32: u32 = 5125;
 pub const F32: u32 = 5126;
 
 impl Builder {
+    /// A file whose second buffer has no data, as a compressed one's.
+    pub fn with_fallback(extension: &str) -> Self {
+        let buffers =
+            format!(r#", {{"byteLength": 4096, "extensions": {{"{extension}": {{"fallback": true}}}}}}"#);
+        Self { buffers, ..Self::default() }
+    }
+
+    /// A bufferView as JSON text.
+    pub fn raw_view(&mut self, json: String) -> usize {
+        self.views.push(json);
+        self.views.len() - 1
+    }
+
+    /// Where the bytes of a view are, and how many there are.
+    pub fn range(&self, view: usize) -> (usize, usize) {
+        let json: serde_json::Value = serde_json::from_str(&self.views[view]).expect("JSON");
+        let number = |key: &str| json[key].as_u64().expect("a number") as usize;
+        (number("byteOffset"), number("byteLength"))
+    }
+
+    /// Changes the JSON of the view that was added last.
+    pub fn change_last_view(&mut self, change: impl Fn(String) -> String) {
+        let view = self.views.pop().expect("a view");
+        self.views.push(change(view));
+    }
+
     /// A bufferView of these bytes; `more` is JSON such as `, "byteStride": 8`.
     pub fn view(&mut self, bytes: &[u8], more: &str) -> usize {
         let (offset, length) = (self.bin.len(), bytes.len());
@@ -114,8 +142,9 @@ impl Builder {
     /// The file; `rest` are further members of its JSON.
     pub fn glb(&self, rest: &str) -> Vec<u8> {
         let json = format!(
-            r#"{{"asset": {{"version": "2.0"}}, "buffers": [{{"byteLength": {}}}], "bufferViews": [{}], "accessors": [{}], {rest}}}"#,
+            r#"{{"asset": {{"version": "2.0"}}, "buffers": [{{"byteLength": {}}}{}], "bufferViews": [{}], "accessors": [{}], {rest}}}"#,
             self.bin.len(),
+            self.buffers,
             self.views.join(", "),
             self.accessors.join(", ")
         );

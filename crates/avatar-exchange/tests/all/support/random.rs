@@ -2,7 +2,7 @@
 
 use avatar_exchange::{
     AlphaMode, Channel, ChannelTarget, Clip, Interpolation, Material, Node, RawScene, SceneImage, ScenePart,
-    Skin, TextureRef, Transform, Trs,
+    Skin, TextureRef, Transform, Trs, UvSet,
 };
 use avatar_mesh::{Mesh, Shape, Skinning};
 use glam::{Affine3A, Mat3A, Quat, Vec2, Vec3, Vec3A, Vec4};
@@ -63,7 +63,7 @@ impl Random {
 pub fn scene(seed: u64) -> RawScene {
     let mut r = Random(seed);
     let mut scene = RawScene::default();
-    for number in 0..r.below(8) {
+    for number in 0..r.below(12) {
         let local = if r.chance(5) { sheared(&mut r) } else { Transform::Trs(trs(&mut r)) };
         // Below the first node, so that the joints of skins share a root.
         let parent = (number > 0).then(|| r.below(number));
@@ -81,9 +81,13 @@ pub fn scene(seed: u64) -> RawScene {
         scene.skins.push(Skin { name: r.text(), joints, inverse_binds });
     }
     for number in 0..r.below(3) {
-        let bytes = [b"\x89PNG\r\n\x1a\n".to_vec(), vec![0xff, 0xd8, 0xff, number as u8]];
-        let which = r.below(2);
-        let mime = ["image/png", "image/jpeg"][which].to_owned();
+        let bytes = [
+            b"\x89PNG\r\n\x1a\n".to_vec(),
+            vec![0xff, 0xd8, 0xff, number as u8],
+            b"RIFF\x04\0\0\0WEBP".to_vec(),
+        ];
+        let which = r.below(3);
+        let mime = ["image/png", "image/jpeg", "image/webp"][which].to_owned();
         scene.images.push(SceneImage { name: r.text(), mime, bytes: bytes[which].clone() });
     }
     for _ in 0..r.below(4) {
@@ -110,14 +114,17 @@ pub fn scene(seed: u64) -> RawScene {
                     .zip(moved)
                     .for_each(|(shape, moved)| shape.tangents = Some(moved.into()));
             }
-            scene.parts.push(ScenePart {
-                name: scene.nodes[node].name.clone(),
-                node,
-                primitive,
-                mesh,
-                material: r.some(scene.materials.len()),
-                skin,
-            });
+            let material = r.some(scene.materials.len());
+            let mut textures = material.into_iter().flat_map(|material| scene.materials[material].textures());
+            if textures.any(|texture| texture.uvs == UvSet::Second) || r.chance(4) {
+                mesh.uvs_1 = mesh.positions.iter().map(|_| Vec2::new(r.float(), r.float()) * 4.0).collect();
+            }
+            if r.chance(3) {
+                let color = |r: &mut Random| Vec4::new(r.share(), r.share(), r.share(), r.share());
+                mesh.colors = mesh.positions.iter().map(|_| color(&mut r)).collect();
+            }
+            let name = scene.nodes[node].name.clone();
+            scene.parts.push(ScenePart { name, node, primitive, mesh, material, skin });
         }
     }
     for _ in 0..r.below(3) {
@@ -187,11 +194,32 @@ fn skinning(r: &mut Random, vertices: usize, joints: usize) -> Skinning {
         skinning.bones.push(bones);
         skinning.weights.push(weights);
     }
+    // Some meshes have more than four bones a vertex; there a reader puts the largest first.
+    if joints >= 8 && r.chance(2) {
+        for vertex in 0..vertices {
+            let first = r.below(joints);
+            let eight: [u16; 8] = std::array::from_fn(|slot| ((first + slot) % joints) as u16);
+            let is_one = vertex > 0 && r.chance(2);
+            let (bones, further) =
+                if is_one { ([eight[0], 0, 0, 0], [0; 4]) } else { (of(&eight[..4]), of(&eight[4..])) };
+            (skinning.bones[vertex], skinning.weights[vertex]) =
+                (bones, if is_one { [1.0, 0.0, 0.0, 0.0] } else { [0.25, 0.25, 0.125, 0.125] });
+            skinning.more_bones.push(further);
+            skinning.more_weights.push(if is_one { [0.0; 4] } else { [0.125, 0.0625, 0.03125, 0.03125] });
+        }
+    }
     skinning
 }
 
+fn of(four: &[u16]) -> [u16; 4] {
+    std::array::from_fn(|slot| four[slot])
+}
+
 fn material(r: &mut Random, images: usize) -> Material {
-    let texture = |r: &mut Random| r.some(images).map(TextureRef::from);
+    let texture = |r: &mut Random| {
+        let uvs = if r.chance(3) { UvSet::Second } else { UvSet::First };
+        r.some(images).map(|image| TextureRef { image, uvs })
+    };
     let (normal_texture, occlusion_texture) = (texture(r), texture(r));
     Material {
         name: r.text(),
@@ -210,6 +238,7 @@ fn material(r: &mut Random, images: usize) -> Material {
         alpha_mode: [AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend][r.below(3)],
         alpha_cutoff: if r.chance(2) { 0.5 } else { r.share() },
         double_sided: r.chance(2),
+        is_unlit: r.chance(4),
         ..Material::default()
     }
 }
@@ -285,7 +314,7 @@ pub fn awkward(seed: u64) -> RawScene {
         {
             if r.chance(2) {
                 bones[3] = bones[0];
-                (weights[0], weights[3]) = (weights[0] / 2.0, weights[0] / 2.0 + 4e-7);
+                (weights[0], weights[3]) = (weights[0] / 2.0, weights[3] + weights[0] / 2.0 + 4e-7);
             }
         }
         if r.chance(4) && !part.mesh.shapes.is_empty() {
@@ -302,6 +331,7 @@ pub fn awkward(seed: u64) -> RawScene {
     for material in &mut scene.materials {
         material.metallic = 3.0 * r.float();
         material.emissive[0] = -1.0;
+        material.emissive[1] = 4.0;
     }
     scene.images.iter_mut().filter(|_| r.chance(3)).for_each(|image| image.bytes.clear());
     scene

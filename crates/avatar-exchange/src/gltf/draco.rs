@@ -1,0 +1,174 @@
+//! `KHR_draco_mesh_compression`: primitives whose vertices and triangles are compressed.
+
+use super::document::{Document, in_range};
+use crate::scene::ImportError;
+use draco_core::{DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder, PointAttribute, PointIndex};
+use gltf::json::accessor::{ComponentType, GenericComponentType, Type};
+use gltf::json::mesh::Mode;
+use gltf::json::validation::{Checked, USize64};
+use gltf::json::{Accessor, Index, buffer};
+use serde_json::Value;
+
+const NAME: &str = "KHR_draco_mesh_compression";
+/// What a triangle and a vertex take while they are decoded, without the values of their attributes.
+const TRIANGLE_COST: u64 = 64;
+const VERTEX_COST: u64 = 16;
+
+impl Document<'_> {
+    /// Decompresses all primitives that are compressed: they get accessors of their own in the place of the
+    /// file's, so that what reads them need not know.
+    pub(super) fn unpack_primitives(&mut self) -> Result<(), ImportError> {
+        for mesh in 0..self.root.meshes.len() {
+            for primitive in 0..self.root.meshes[mesh].primitives.len() {
+                let extensions = &self.root.meshes[mesh].primitives[primitive].extensions;
+                let Some(json) = extensions.as_ref().and_then(|all| all.others.get(NAME)).cloned() else {
+                    continue;
+                };
+                let place = format!("mesh {mesh}, primitive {primitive}, {NAME}");
+                self.unpack_primitive(&place, mesh, primitive, &json)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn unpack_primitive(
+        &mut self,
+        place: &str,
+        mesh: usize,
+        primitive: usize,
+        json: &Value,
+    ) -> Result<(), ImportError> {
+        let view = json.get("bufferView").and_then(Value::as_u64).and_then(|view| u32::try_from(view).ok());
+        let Some(view) = view else { return Err(ImportError::new(place, "a bufferView", "none")) };
+        let left = self.budget.left();
+        let limits = DecodeLimits::default()
+            .with_max_decoded_bytes(left)
+            .with_max_faces(left / TRIANGLE_COST)
+            .with_max_points(left / VERTEX_COST);
+        let mut packed = DecoderBuffer::new(self.view(Index::new(view))?.bytes).with_limits(limits);
+        let mut found = Mesh::new();
+        MeshDecoder::new()
+            .decode(&mut packed, &mut found)
+            .map_err(|error| ImportError::new(place, "a mesh that Draco can decode", error.to_string()))?;
+        let vertices = found.num_points();
+        self.take(place, found.num_faces(), TRIANGLE_COST as usize)?;
+        self.take(place, vertices, VERTEX_COST as usize)?;
+
+        let attributes = json.get("attributes").and_then(Value::as_object);
+        let of_primitive = &self.root.meshes[mesh].primitives[primitive];
+        let mut given = Vec::new();
+        for (semantic, accessor) in &of_primitive.attributes {
+            let Checked::Valid(valid) = semantic else { continue };
+            let id = attributes.and_then(|all| all.get(&valid.to_string())).and_then(Value::as_u64);
+            let Some(id) = id.and_then(|id| u32::try_from(id).ok()) else { continue };
+            given.push((valid.clone(), *accessor, id));
+        }
+        let mut indices = Vec::with_capacity(3 * found.num_faces());
+        for corner in found.faces().iter().flatten() {
+            indices.extend(corner.0.to_le_bytes());
+        }
+        // Of the template, only what is not said here stays.
+        let template = of_primitive.indices.or(given.first().map(|(_, accessor, _)| *accessor));
+        for (semantic, accessor, id) in given {
+            let attribute = found.attribute_by_unique_id(id).ok_or_else(|| {
+                ImportError::new(place, format!("an attribute {id} for {}", semantic.to_string()), "none")
+            })?;
+            let (kind, type_) = kind_of(attribute).ok_or_else(|| {
+                let found = format!("{} of {:?}", attribute.num_components(), attribute.data_type());
+                ImportError::new(place, "one to four numbers of at most 32 bits", found)
+            })?;
+            let size = kind.size() * type_.multiplicity();
+            self.take(place, vertices, size)?;
+            let bytes = values(attribute, vertices, size);
+            let new = self.add_accessor(accessor, bytes, kind, type_, vertices)?;
+            self.root.meshes[mesh].primitives[primitive].attributes.insert(Checked::Valid(semantic), new);
+        }
+        if let Some(template) = template {
+            let corners = indices.len() / size_of::<u32>();
+            let new = self.add_accessor(template, indices, ComponentType::U32, Type::Scalar, corners)?;
+            let of_primitive = &mut self.root.meshes[mesh].primitives[primitive];
+            of_primitive.indices = Some(new);
+            of_primitive.mode = Checked::Valid(Mode::Triangles);
+            if let Some(indices) = self.root.accessors.get_mut(new.value()) {
+                indices.normalized = false;
+            }
+        }
+        Ok(())
+    }
+
+    /// A copy of an accessor with other data.
+    fn add_accessor(
+        &mut self,
+        template: Index<Accessor>,
+        bytes: Vec<u8>,
+        kind: ComponentType,
+        type_: Type,
+        count: usize,
+    ) -> Result<Index<Accessor>, ImportError> {
+        let mut accessor = in_range("accessors", &self.root.accessors, template.value())?.clone();
+        let view = buffer::View {
+            buffer: Index::new(0),
+            byte_length: USize64::from(bytes.len()),
+            byte_offset: None,
+            byte_stride: None,
+            name: None,
+            target: None,
+            extensions: None,
+            extras: None,
+        };
+        let store = self.store(bytes);
+        self.unpacked.insert(self.root.buffer_views.len(), store);
+        accessor.buffer_view = Some(position(self.root.buffer_views.len())?);
+        self.root.buffer_views.push(view);
+        accessor.byte_offset = None;
+        accessor.component_type = Checked::Valid(GenericComponentType(kind));
+        accessor.type_ = Checked::Valid(type_);
+        accessor.count = USize64::from(count);
+        accessor.sparse = None;
+        let number = position(self.root.accessors.len())?;
+        self.root.accessors.push(accessor);
+        Ok(number)
+    }
+}
+
+fn position<T>(number: usize) -> Result<Index<T>, ImportError> {
+    let number = u32::try_from(number)
+        .map_err(|_| ImportError::new("accessors", "positions of 32 bits", number.to_string()))?;
+    Ok(Index::new(number))
+}
+
+/// How the values of an attribute are stored, in the words of glTF.
+fn kind_of(attribute: &PointAttribute) -> Option<(ComponentType, Type)> {
+    let kind = match attribute.data_type() {
+        DataType::Int8 => ComponentType::I8,
+        DataType::Uint8 => ComponentType::U8,
+        DataType::Int16 => ComponentType::I16,
+        DataType::Uint16 => ComponentType::U16,
+        DataType::Uint32 => ComponentType::U32,
+        DataType::Float32 => ComponentType::F32,
+        _ => return None,
+    };
+    let type_ = match attribute.num_components() {
+        1 => Type::Scalar,
+        2 => Type::Vec2,
+        3 => Type::Vec3,
+        4 => Type::Vec4,
+        _ => return None,
+    };
+    Some((kind, type_))
+}
+
+/// The value of each vertex, one after the other; zeros where the data lack it.
+fn values(attribute: &PointAttribute, vertices: usize, size: usize) -> Vec<u8> {
+    let data = attribute.buffer().data();
+    let stride = usize::try_from(attribute.byte_stride()).unwrap_or(size);
+    let mut values = Vec::with_capacity(vertices * size);
+    for vertex in 0..u32::try_from(vertices).unwrap_or(u32::MAX) {
+        let value = attribute.mapped_index(PointIndex(vertex)).0 as usize;
+        match value.checked_mul(stride).and_then(|from| data.get(from..from.checked_add(size)?)) {
+            Some(bytes) => values.extend_from_slice(bytes),
+            None => values.resize(values.len() + size, 0),
+        }
+    }
+    values
+}
