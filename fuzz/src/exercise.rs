@@ -1,6 +1,7 @@
 //! Uses all that a scene says.
 
-use avatar_exchange::{Scene, deform_unevenly, glb, gltf};
+use avatar_exchange::{Scene, glb, gltf};
+use avatar_mesh::deform;
 use avatar_pack::{FaceState, Import, Pack, Textures, export};
 
 /// Clips that are looked at: one reader makes all of a scene's clips, so a few stand for the others.
@@ -49,7 +50,7 @@ fn pose(scene: &Scene) {
         for (number, part) in scene.parts.iter().enumerate() {
             let mut out = part.mesh.deformed();
             let (bones, weights) = (scene.bones_of(number, &bones), scene.weights_of(number, pose));
-            if let Err(error) = deform_unevenly(&part.mesh, bones, weights, &mut out) {
+            if let Err(error) = deform(&part.mesh, bones, weights, &mut out) {
                 panic!("a checked part cannot be deformed: {error}");
             }
         }
