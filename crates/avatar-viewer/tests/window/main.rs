@@ -15,3 +15,4 @@ mod look;
 mod hair;
 mod panel;
 mod files;
+mod vrm;
