@@ -49,8 +49,8 @@ impl Expression {
 
 /// Weights of shapes from values of expressions by name, by the formula of [`avatar_mesh::expressions`].
 ///
-/// Names that the avatar lacks are ignored, expressions without value have 0, and of two values for a name the
-/// later one counts.
+/// Names that the avatar lacks are ignored, expressions without value have 0, and of two values for a name
+/// the later one counts.
 ///
 /// ```
 /// use avatar_exchange::vrm::{Expression, MorphBind, Override, Vrm, expression_weights};

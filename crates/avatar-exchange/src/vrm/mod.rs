@@ -3,7 +3,8 @@
 //!
 //! ```text
 //!  bytes ──gltf──▶ scene ◀── mtoon / mtoon_v0: materials as cartoons
-//!        └─JSON──▶ v1 / v0 ──▶ Vrm { meta, humanoid, expressions, look_at, first_person, springs, constraints }
+//!        └─JSON──▶ v1 / v0 ──▶ Vrm { meta, humanoid, expressions, look_at, first_person, springs,
+//!                                    constraints }
 //!
 //!  values of expressions ──expression_weights──▶ weights of shapes at nodes
 //!  head, target ──LookAt::gaze──▶ angles ──eyes──▶ turns of eye bones
@@ -140,6 +141,16 @@ const REQUIRED_BONES: [&str; 15] = [
     "rightHand",
 ];
 
+/// The extensions of VRM 1.0. What a scene does not hold of the fifth is noted with the collider.
+const REPRESENTED: [&str; 6] = [
+    "VRMC_vrm",
+    "VRMC_springBone",
+    constraint::EXTENSION,
+    mtoon::EXTENSION,
+    "VRMC_springBone_extended_collider",
+    mtoon::EMISSION,
+];
+
 /// Reads a VRM. `file` is its name for messages.
 ///
 /// Bones that the standard asks for and the file lacks, colours and textures that expressions change, and
@@ -168,7 +179,7 @@ fn read_vrm(raw: &mut RawScene, extras: gltf::Extras) -> Result<Vrm, ImportError
             vrm.springs = springs.unwrap_or_default();
             vrm.constraints = constraint::read(&extras.nodes, raw)?;
             mtoon::read(&extras.materials, &extras.textures, raw)?;
-            (vrm, &["VRMC_vrm", "VRMC_springBone", constraint::EXTENSION, mtoon::EXTENSION][..])
+            (vrm, &REPRESENTED[..])
         }
         (None, Some(vrm)) => (v0::read(&vrm, &extras.nodes_of_meshes, &extras.textures, raw)?, &["VRM"][..]),
         (None, None) => {

@@ -9,6 +9,9 @@ use serde_json::{Map, Value};
 /// The name of the extension.
 pub(super) const EXTENSION: &str = "VRMC_materials_mtoon";
 
+/// An extension of betas of VRM 1.0: a factor on the light that a surface gives off.
+pub(super) const EMISSION: &str = "VRMC_materials_hdr_emissiveMultiplier";
+
 /// What the extension can say and [`ToonMaterial`] does not hold, each with the value at which it changes
 /// nothing.
 const OTHERS: [(&str, &str); 13] = [
@@ -35,6 +38,15 @@ pub(super) fn read(
     raw: &mut RawScene,
 ) -> Result<(), ImportError> {
     for (material, extension) in extensions.iter().enumerate().take(raw.materials.len()) {
+        if let Some(value) = extension.get(EMISSION) {
+            let place = Place::new(value, &format!("material {material}, {EMISSION}"));
+            let factor = place.clamped("emissiveMultiplier", 1.0, 0.0..=f32::MAX, raw)?;
+            let brighter = raw.materials[material].emissive.map(|light| light * factor);
+            if !brighter.iter().all(|light| light.is_finite()) {
+                return Err(place.wrong("a factor that leaves a finite light"));
+            }
+            raw.materials[material].emissive = brighter;
+        }
         let Some(value) = extension.get(EXTENSION) else { continue };
         let place = Place::new(value, &format!("material {material}, {EXTENSION}"));
         let toon = toon(&place, textures, raw)?;

@@ -5,11 +5,11 @@ use pose_anim::{ControlTable, Drive, Pose};
 use std::collections::HashMap;
 
 impl Import {
-    /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word. Each
-    /// expression has a control, `expression.happy` and so on, whose values make the weights of shapes as
-    /// [`avatar_exchange::vrm::expression_weights`] does, with what expressions take from each other; and a
-    /// pose of its own name, in which all other expressions and shapes rest. Eyes look by the file's ranges,
-    /// by bones or by expressions ([`crate::Gaze`]).
+    /// Makes an avatar of a VRM: as [`Import::from_scene`], with head, jaw and eyes by the file's own word.
+    /// Each expression has a control, `expression.happy` and so on, whose values make the weights of shapes
+    /// as [`avatar_exchange::vrm::expression_weights`] does, with what expressions take from each other; and
+    /// a pose of its own name, in which all other expressions and shapes rest. Eyes look by the file's
+    /// ranges, by bones or by expressions ([`crate::Gaze`]).
     ///
     /// # Errors
     /// As [`Import::from_scene`].
@@ -41,7 +41,7 @@ impl Import {
             .map(|expression| controls.index(&format!("{EXPRESSION}{}", expression.name)))
             .collect();
         let mut poses = self.pack.poses().clone();
-        // Each control of a shape has a pose of its name; those of expressions get the expressions' own names.
+        // Each control of a shape has a pose of its name; those of expressions get the expressions' names.
         let is_of_expression =
             |name: &str| controls.index(name).is_some_and(|control| of_expressions.contains(&Some(control)));
         poses.poses.retain(|pose| !is_of_expression(&pose.name));

@@ -7,8 +7,8 @@ use std::path::Path;
 
 const SHAPES: [&str; 5] = ["mouthSmileLeft", "mouthSmileRight", "lids", "side", "up"];
 
-/// A square whose corners are moved by shapes, below a head that turns nothing: only expressions look, and that
-/// to the full from one degree on.
+/// A square whose corners are moved by shapes, below a head that turns nothing: only expressions look, and
+/// that to the full from one degree on.
 fn write_vrm(path: &Path) {
     let bind = |shape: usize| format!(r#"{{"node": 2, "index": {shape}, "weight": 1.0}}"#);
     let range = |scale: f32| format!(r#"{{"inputMaxValue": 1.0, "outputScale": {scale}}}"#);
