@@ -8,7 +8,8 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 // Node has no decoder of pictures; that they are PNG or JPEG is what the validator checks.
 globalThis.self = globalThis;
 const noPictures = parser => {
-    parser.loadTexture = async () => new Texture();
+    // The second one is called for pictures of extensions.
+    parser.loadTexture = parser.loadTextureImage = async () => new Texture();
     return { name: 'no pictures' };
 };
 

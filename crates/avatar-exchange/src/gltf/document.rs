@@ -15,6 +15,9 @@ use std::ops::Range;
 /// The place of notes on extensions of the file as a whole.
 pub(super) const EXTENSIONS_USED: &str = "extensionsUsed";
 
+/// How many extensions an error names.
+const MOST_NAMES: usize = 8;
+
 /// A file while it is read: its structures, the bytes behind them, and the notes so far.
 pub(super) struct Document<'a> {
     pub(super) root: Root,
@@ -242,6 +245,10 @@ fn check_versions(root: &Root) -> Result<(), ImportError> {
     if unread.is_empty() {
         return Ok(());
     }
+    let mut found = unread[..unread.len().min(MOST_NAMES)].join(", ");
+    if unread.len() > MOST_NAMES {
+        found += &format!(" and {} more", unread.len() - MOST_NAMES);
+    }
     let expected = "none of what concerns geometry or motion and is not read here (docs/formats.md)";
-    Err(ImportError::new("extensionsRequired", expected, unread.join(", ")))
+    Err(ImportError::new("extensionsRequired", expected, found))
 }

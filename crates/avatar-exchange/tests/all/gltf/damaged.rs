@@ -254,6 +254,9 @@ fn versions_and_extensions_that_are_not_read() {
         (error.place.as_str(), error.found.as_str()),
         ("extensionsRequired", "'KHR_gaussian_splatting', 'ACME_anvil'")
     );
+    let many = vec![r#""ACME_anvil""#; 1000].join(", ");
+    let error = wrong(&format!(r#"{{"asset": {{"version": "2.0"}}, "extensionsRequired": [{many}]}}"#));
+    assert!(error.found.ends_with(" and 992 more") && error.found.len() < 200, "{error}");
 }
 
 #[test]
