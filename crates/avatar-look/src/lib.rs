@@ -15,6 +15,7 @@
 //!
 //! This crate knows no GPU, no files and no clock.
 
+mod standard;
 mod material;
 mod materials;
 
@@ -38,3 +39,4 @@ pub use placed_toml::TomlError as LookError;
 pub use reflections::{CUBE_FACES, cube_direction};
 pub use scatter::scatter_table;
 pub use split_sum::{directional_albedo, split_sum};
+pub use standard::{Alpha, Cartoon, Lighting, SecondUvs, Standard};

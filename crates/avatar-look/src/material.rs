@@ -1,10 +1,11 @@
+use crate::Standard;
 use avatar_mesh::PartKind;
 
 /// The looks of a part: plain data, with defaults per kind. Colours are linear, lengths are fractions of the
 /// height of the skin (0.01 is about 2.5 mm on a grown-up).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Colour where no texture covers it.
+    /// Colour where no texture covers it; `standard` has another one.
     pub color: [f32; 3],
     /// 1 hides what lies behind; read for corneas only.
     pub opacity: f32,
@@ -42,6 +43,9 @@ pub struct Material {
     pub back_light: f32,
     /// Iris and pupil; read for eyeballs only.
     pub iris: Iris,
+    /// What a file of an interchange format says of the surface; `None` for parts of faces as packs have
+    /// them, whose textures lie over the material's own colour. No key of `materials.toml`.
+    pub standard: Option<Standard>,
 }
 
 /// What makes an eye of a ball. The iris lies behind the cornea, in its middle.
@@ -99,6 +103,7 @@ impl Material {
             film_roughness: 0.15,
             back_light: 1.0,
             iris: Iris::DEFAULT,
+            standard: None,
         };
         match kind {
             // Reflectance: E. d'Eon and D. Luebke, "Advanced Techniques for Realistic Real-Time Skin

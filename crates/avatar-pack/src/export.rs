@@ -1,11 +1,12 @@
 //! An avatar as a scene, for files of interchange formats: the way back from `import`.
 
 use crate::textures::decode;
-use crate::{Pack, Part, Textures};
+use crate::{Pack, Part, PartImages, Textures};
 use avatar_exchange::{
     AlphaMode, Channel, ChannelTarget, Clip, Finding, Interpolation, Material, Node, Note, RawScene, Scene,
-    SceneImage, ScenePart, Skin, TextureRef, Transform, Trs,
+    SceneImage, ScenePart, Skin, TextureRef, ToonMaterial, Transform, Trs, UvSet,
 };
+use avatar_look::{Alpha, Lighting, Standard};
 use avatar_mesh::{Mesh, PartKind, Skinning, Winding};
 use glam::{Affine3A, DAffine3, DQuat, Vec3};
 use image::{ImageFormat, Rgba, RgbaImage};
@@ -238,6 +239,11 @@ fn material<'a>(
         let name = format!("{} {what}", part.name);
         images.take(picture?, &name, change, notes)
     };
+    if let Some(standard) = from.standard {
+        return of_standard(&part.name, &from, &standard, pictures, |picture, what| {
+            take(picture, what, None)
+        });
+    }
     let color = take(pictures.color, "color", None);
     let roughness = Change::Roughness { matte: from.roughness_matte, glossy: from.roughness_glossy };
     let rough = take(pictures.gloss, "roughness", Some(roughness));
@@ -255,6 +261,61 @@ fn material<'a>(
         occlusion_texture: take(pictures.occlusion, "occlusion", None).map(TextureRef::from),
         alpha_mode: if is_clear { AlphaMode::Blend } else { AlphaMode::Opaque },
         ..Material::default()
+    }
+}
+
+/// The way back from an interchange file.
+fn of_standard<'a>(
+    name: &str,
+    from: &avatar_look::Material,
+    standard: &Standard,
+    pictures: PartImages<'a>,
+    mut take: impl FnMut(Option<&'a RgbaImage>, &str) -> Option<usize>,
+) -> Material {
+    let mut texture = |picture, what, is_second| {
+        let uvs = if is_second { UvSet::Second } else { UvSet::First };
+        take(picture, what).map(|image| TextureRef { image, uvs })
+    };
+    let second = standard.second_uvs;
+    let base_color_texture = texture(pictures.color, "color", second.color);
+    let shade_texture = texture(pictures.shade, "shade", second.shade);
+    let (alpha_mode, alpha_cutoff) = match standard.alpha {
+        Alpha::Opaque => (AlphaMode::Opaque, 0.5),
+        Alpha::Mask(cutoff) => (AlphaMode::Mask, cutoff),
+        Alpha::Blend => (AlphaMode::Blend, 0.5),
+    };
+    Material {
+        name: name.to_owned(),
+        base_color: standard.base_color,
+        base_color_texture,
+        metallic: standard.metallic,
+        roughness: standard.roughness,
+        metallic_roughness_texture: texture(
+            pictures.metallic_roughness,
+            "roughness",
+            second.metallic_roughness,
+        ),
+        normal_texture: texture(pictures.normal, "normals", second.normal),
+        normal_scale: if pictures.normal.is_some() { from.normal_strength } else { 1.0 },
+        occlusion_texture: texture(pictures.occlusion, "occlusion", second.occlusion),
+        occlusion_strength: standard.occlusion_strength,
+        emissive: standard.emissive,
+        emissive_texture: texture(pictures.emissive, "emission", second.emissive),
+        alpha_mode,
+        alpha_cutoff,
+        double_sided: standard.is_double_sided,
+        is_unlit: standard.lighting == Lighting::Unlit,
+        toon: match standard.lighting {
+            Lighting::Lit | Lighting::Unlit => None,
+            Lighting::Cartoon(cartoon) => Some(ToonMaterial {
+                shade_color: cartoon.shade_color,
+                shade_texture,
+                shading_shift: cartoon.shading_shift,
+                shading_toony: cartoon.shading_toony,
+                outline_width: cartoon.outline_width,
+                outline_color: cartoon.outline_color,
+            }),
+        },
     }
 }
 

@@ -66,6 +66,7 @@ mod error;
 mod pack;
 mod load;
 mod textures;
+mod pictures;
 mod face;
 pub mod gaze;
 mod reach;

@@ -1,6 +1,6 @@
 use crate::{Source, Warning};
 use avatar_mesh::PartKind;
-use image::{ImageFormat, ImageReader, Limits, RgbaImage};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
 /// A texture of the pack. The names are those of the original's files, without extension.
@@ -73,6 +73,12 @@ pub struct PartImages<'a> {
     pub normal: Option<&'a RgbaImage>,
     /// How thick it is, linear.
     pub thickness: Option<&'a RgbaImage>,
+    /// Roughness in green and metalness in blue, linear.
+    pub metallic_roughness: Option<&'a RgbaImage>,
+    /// Light that it gives off, sRGB.
+    pub emissive: Option<&'a RgbaImage>,
+    /// Colour of a cartoon in the shade, sRGB.
+    pub shade: Option<&'a RgbaImage>,
 }
 
 /// The decoded textures of a pack.
@@ -93,6 +99,9 @@ pub(crate) struct OwnImages {
     pub(crate) color: Vec<Option<usize>>,
     pub(crate) normal: Vec<Option<usize>>,
     pub(crate) occlusion: Vec<Option<usize>>,
+    pub(crate) metallic_roughness: Vec<Option<usize>>,
+    pub(crate) emissive: Vec<Option<usize>>,
+    pub(crate) shade: Vec<Option<usize>>,
 }
 
 /// Larger pictures than this on a side are refused before they are decoded.
@@ -125,6 +134,9 @@ impl Textures {
                 color: get(&own.color),
                 normal: get(&own.normal),
                 occlusion: get(&own.occlusion),
+                metallic_roughness: get(&own.metallic_roughness),
+                emissive: get(&own.emissive),
+                shade: get(&own.shade),
                 ..PartImages::default()
             };
         }
@@ -135,6 +147,7 @@ impl Textures {
                 gloss: self.get(Texture::SkinGloss),
                 normal: self.get(Texture::SkinNormal),
                 thickness: self.get(Texture::SkinThickness),
+                ..PartImages::default()
             },
             PartKind::Surface => PartImages { color: self.get(Texture::Teeth), ..PartImages::default() },
             PartKind::Eyeball => PartImages { color: self.get(Texture::Eye(0)), ..PartImages::default() },
@@ -167,6 +180,11 @@ impl Textures {
 }
 
 pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<RgbaImage, image::ImageError> {
+    rgba(decoder(name, bytes)?)
+}
+
+/// What decodes a picture: knows its size already.
+pub(crate) fn decoder<'a>(name: &str, bytes: &'a [u8]) -> Result<impl ImageDecoder + 'a, image::ImageError> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     // TGA does not begin with anything of its own: the name has to say it.
     if reader.format().is_none()
@@ -178,5 +196,11 @@ pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<RgbaImage, image::Image
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     reader.limits(limits);
-    Ok(reader.decode()?.into_rgba8())
+    let decoder = reader.into_decoder()?;
+    Limits::default().reserve(decoder.total_bytes())?;
+    Ok(decoder)
+}
+
+pub(crate) fn rgba(decoder: impl ImageDecoder) -> Result<RgbaImage, image::ImageError> {
+    Ok(DynamicImage::from_decoder(decoder)?.into_rgba8())
 }

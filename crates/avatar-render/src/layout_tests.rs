@@ -169,6 +169,17 @@ fn layouts() -> Vec<Layout> {
             front_z,
             per_depth,
             textures,
+            second_uvs,
+            shade_color,
+            alpha_cutoff,
+            emissive,
+            metallic,
+            outline_color,
+            outline_width,
+            occlusion_strength,
+            shading_shift,
+            shading_toony,
+            shadow_cutoff,
             iris
         ),
     ]

@@ -94,7 +94,9 @@ pub use avatar::read_back::{DeformerError, GrowerError};
 pub use avatar::state::AvatarState;
 /// The crate whose [`Groom`](avatar_groom::Groom)s [`AvatarModel::set_hair`] plants.
 pub use avatar_groom;
-pub use avatar_look::{Environment, Iris, Lamp, Light, Material, Panel, ToneMap};
+pub use avatar_look::{
+    Alpha, Cartoon, Environment, Iris, Lamp, Light, Lighting, Material, Panel, SecondUvs, Standard, ToneMap,
+};
 /// The crate whose meshes are drawn.
 pub use avatar_mesh;
 pub use deform::deformer::Deformer;

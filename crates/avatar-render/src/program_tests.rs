@@ -3,8 +3,8 @@
 use crate::deform::deformer::{Ability, DEFORM_PASS};
 use crate::deform::reversed::REVERSE_PASS;
 use crate::frame::programs::{
-    NATURAL, OCCLUSION_PASS, OUTLINE, PLAIN, PREPASS, Programs, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS,
-    TOON,
+    NATURAL, NATURAL_STANDARDS, OCCLUSION_PASS, OUTLINE, PLAIN, PLAIN_STANDARDS, PREPASS, Programs,
+    SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS, Standards, TOON, TOON_STANDARDS,
 };
 use crate::gpu::program::{Constant, Program};
 use crate::hair::programs::{
@@ -37,7 +37,8 @@ pub(crate) fn all() -> Vec<Program> {
         COMPOSE_HAIR,
         COMPOSE_HAIR_DEPTH,
     ];
-    styles.into_iter().flat_map(of_style).chain(passes).collect()
+    let standards = [PLAIN_STANDARDS, NATURAL_STANDARDS, TOON_STANDARDS].into_iter().flat_map(Standards::all);
+    styles.into_iter().flat_map(of_style).chain(passes).chain(standards).collect()
 }
 
 /// What a renderer of this shading and number of samples chooses.

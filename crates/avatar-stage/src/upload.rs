@@ -1,3 +1,4 @@
+use avatar_look::Alpha;
 use avatar_pack::{Pack, PartImages, Textures};
 use avatar_render::avatar_groom::Hair;
 use avatar_render::avatar_mesh::PartKind;
@@ -56,41 +57,42 @@ pub fn upload_with_hair(
     textures: &Textures,
     hair: Option<&Hair>,
 ) -> Result<AvatarModel, UploadError> {
-    let of_parts: Vec<_> = (pack.parts().iter().enumerate())
+    // Several parts may share a picture, which is copied once; twice where some of them ignore its alpha.
+    let mut images = Images::default();
+    let of_parts: Vec<[Option<usize>; 8]> = (pack.parts().iter().enumerate())
         .map(|(index, part)| {
-            let PartImages { color, occlusion, gloss, normal, thickness } =
-                textures.of_part(index, part.kind);
-            [color, occlusion, gloss, normal, thickness]
-        })
-        .collect();
-    // Several parts may share a picture, which is copied once.
-    let mut distinct: Vec<&RgbaImage> = Vec::new();
-    for picture in of_parts.iter().flatten().copied().flatten() {
-        if !distinct.iter().any(|other| std::ptr::eq(*other, picture)) {
-            distinct.push(picture);
-        }
-    }
-    let images: Vec<Image> = distinct
-        .iter()
-        .map(|picture| Image {
-            width: picture.width(),
-            height: picture.height(),
-            rgba: picture.as_raw().clone(),
+            let pictures = textures.of_part(index, part.kind);
+            let is_opaque = pack.material(index).standard.is_some_and(|look| look.alpha == Alpha::Opaque);
+            let color = pictures.color.map(|picture| images.take(picture, is_opaque));
+            let PartImages {
+                occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade, ..
+            } = pictures;
+            let others = [occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade];
+            let [occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade] =
+                others.map(|picture| picture.map(|picture| images.take(picture, false)));
+            [color, occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade]
         })
         .collect();
     let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&of_parts))
         .map(|(part, pictures)| {
-            let [color, occlusion, gloss, normal, thickness] = pictures.map(|picture| {
-                let picture = picture?;
-                images.get(distinct.iter().position(|other| std::ptr::eq(*other, picture))?)
-            });
+            let [color, occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade] =
+                pictures.map(|place| place.and_then(|place| images.copies.get(place)));
             PartDesc {
                 label: &part.name,
                 mesh: &part.mesh,
                 first_weight: part.first_shape,
                 kind: part.kind,
                 bones: part.bone.map_or(PartBones::PerVertex, PartBones::Rigid),
-                textures: PartTextures { color, occlusion, gloss, normal, thickness },
+                textures: PartTextures {
+                    color,
+                    occlusion,
+                    gloss,
+                    normal,
+                    thickness,
+                    metallic_roughness,
+                    emissive,
+                    shade,
+                },
             }
         })
         .collect();
@@ -98,6 +100,33 @@ pub fn upload_with_hair(
     set_hair(device, queue, pack, textures, &mut model, hair)?;
     set_materials(queue, pack, &model)?;
     Ok(model)
+}
+
+/// Pictures as the renderer takes them.
+#[derive(Default)]
+struct Images<'a> {
+    /// Of each copy the picture, and whether its alpha was taken away.
+    sources: Vec<(&'a RgbaImage, bool)>,
+    copies: Vec<Image>,
+}
+
+impl<'a> Images<'a> {
+    /// The place of a picture's copy. `is_opaque` takes away its alpha: what is ignored there must not weight
+    /// colours either where the picture is seen from far away.
+    fn take(&mut self, picture: &'a RgbaImage, is_opaque: bool) -> usize {
+        let is_changed = is_opaque && picture.pixels().any(|pixel| pixel.0[3] < 255);
+        let same = |source: &(&RgbaImage, bool)| std::ptr::eq(source.0, picture) && source.1 == is_changed;
+        if let Some(known) = self.sources.iter().position(same) {
+            return known;
+        }
+        let mut rgba = picture.as_raw().clone();
+        if is_changed {
+            rgba.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = 255);
+        }
+        self.sources.push((picture, is_changed));
+        self.copies.push(Image { width: picture.width(), height: picture.height(), rgba });
+        self.copies.len() - 1
+    }
 }
 
 /// Plants this hair, or takes it away. An [`avatar_render::AvatarState`] that was made before does not fit

@@ -13,7 +13,12 @@ impl<'a> Reader<'a> {
         let mut images = HashMap::new();
         for at in self.tree.root().all("library_materials").flat_map(|library| library.all("material")) {
             numbers.insert(at.number, self.scene.materials.len());
-            let mut material = Material { name: at.label().to_owned(), metallic: 0.0, ..Material::default() };
+            let mut material = Material {
+                name: at.label().to_owned(),
+                metallic: 0.0,
+                double_sided: true,
+                ..Material::default()
+            };
             let effect = at.child("instance_effect").map(|instance| instance.target("url"));
             match effect {
                 Some(Ok(effect)) => self.effect(effect, &mut material, &mut images, resolve),

@@ -34,7 +34,9 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
             emissive: color(&pbr.emission_color, number(&pbr.emission_factor, 1.0), 0.0),
             emissive_texture: images.of(&pbr.emission_color, scene).map(TextureRef::from),
             alpha_mode: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
-            double_sided: material.features.double_sided.enabled,
+            // Most materials of FBX do not say it, and are seen from both sides.
+            double_sided: material.features.double_sided.enabled
+                || !material.features.double_sided.is_explicit,
             ..Material::default()
         };
         scene.materials.push(read);

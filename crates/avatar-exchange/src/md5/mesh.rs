@@ -159,7 +159,12 @@ fn read_mesh(words: &mut Words<'_>, model: &mut Model) -> Result<Part, ImportErr
     let mesh = assemble(model, first_line, &vertices, triangles, &weights)?;
     let Model { shaders, materials, .. } = model;
     let material = *shaders.entry(name.clone()).or_insert_with(|| {
-        materials.push(Material { name: name.clone(), metallic: 0.0, ..Material::default() });
+        materials.push(Material {
+            name: name.clone(),
+            metallic: 0.0,
+            double_sided: true,
+            ..Material::default()
+        });
         materials.len() - 1
     });
     Ok(Part { name, material, mesh })

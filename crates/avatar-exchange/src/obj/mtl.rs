@@ -74,7 +74,7 @@ pub(super) fn attach(
             None => {
                 let text = "is in no library: it gets default values";
                 obj.notes.push(Note::new(format!("material {name:?}"), Finding::missing(text)));
-                Material { name: name.clone(), metallic: 0.0, ..Material::default() }
+                Material { name: name.clone(), metallic: 0.0, double_sided: true, ..Material::default() }
             }
         };
         obj.materials.push(material);
@@ -124,7 +124,8 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
         }
         if keyword == "newmtl" {
             library.found.entry(rest.to_owned()).or_insert(library.materials.len());
-            let material = Material { name: rest.to_owned(), metallic: 0.0, ..Material::default() };
+            let material =
+                Material { name: rest.to_owned(), metallic: 0.0, double_sided: true, ..Material::default() };
             library.materials.push(Draft { material, ..Draft::default() });
             current = library.materials.last_mut();
             continue;

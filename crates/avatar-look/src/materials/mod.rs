@@ -94,11 +94,11 @@ impl Materials {
         }
     }
 
-    /// Gives one of [`FACE_PARTS`] looks of its own, with numbers taken into the ranges of `materials.toml`;
-    /// other names change nothing. The skin's are also those of its kind.
+    /// Gives one of [`FACE_PARTS`] looks of its own, with numbers taken into the ranges of `materials.toml`
+    /// and without [`Material::standard`]; other names change nothing. The skin's are also those of its kind.
     pub fn set(&mut self, part_name: &str, material: Material) {
         let Some(index) = FACE_PARTS.iter().position(|part| part.name == part_name) else { return };
-        let material = fields::in_range(material);
+        let material = Material { standard: None, ..fields::in_range(material) };
         self.parts[index] = material;
         if let Some(kind) = KINDS.iter().position(|(name, _)| *name == part_name) {
             self.kinds[kind] = material;

@@ -4,6 +4,7 @@
 mod controls;
 mod face;
 mod known;
+mod looks;
 mod names;
 mod parts;
 mod poses;

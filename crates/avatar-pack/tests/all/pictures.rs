@@ -45,7 +45,7 @@ fn a_picture_that_does_not_say_what_it_is_goes_by_its_name() {
     assert!(import.textures.warnings.is_empty(), "{:?}", import.textures.warnings);
     let import = with_picture("duck", &TGA);
     let told = import.textures.warnings[0].to_string();
-    assert!(told.contains("duck: expected a picture (PNG, JPEG, TGA or BMP)"), "{told}");
+    assert!(told.contains("duck: expected a picture (PNG, JPEG, WebP, TGA or BMP)"), "{told}");
 }
 
 #[test]

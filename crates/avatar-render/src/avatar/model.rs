@@ -1,6 +1,7 @@
 //! What many avatars share.
 
 use crate::gpu::identity::Identity;
+use crate::gpu::texture::Textures;
 use crate::hair::error::HairError;
 use crate::hair::model::HairModel;
 use crate::model::bone::GpuBone;
@@ -9,7 +10,6 @@ use crate::model::error::{ModelError, NoSuchPart};
 use crate::model::part::{ModelPart, PartLayouts, height};
 use avatar_groom::Groom;
 use avatar_look::Material;
-use avatar_mesh::PartKind;
 
 /// What many avatars share: vertices, triangles, shapes, textures and materials.
 #[derive(Debug)]
@@ -44,6 +44,7 @@ impl AvatarModel {
         }
         let layouts = PartLayouts::new(device);
         let height = height(parts);
+        let mut textures = Textures::default();
         let last_shapes = parts.iter().filter(|desc| !desc.mesh.shapes.is_empty());
         let shape_count = last_shapes
             .map(|desc| desc.first_weight.saturating_add(desc.mesh.shapes.len()))
@@ -52,7 +53,7 @@ impl AvatarModel {
         let parts: Result<Vec<_>, _> = parts
             .iter()
             .map(|desc| {
-                ModelPart::new(device, queue, &layouts, desc, parts, palette_len, height)
+                ModelPart::new(device, queue, &layouts, &mut textures, desc, parts, palette_len, height)
                     .map_err(|problem| ModelError::Part { label: desc.label.to_owned(), problem })
             })
             .collect();
@@ -74,10 +75,9 @@ impl AvatarModel {
         self.parts.iter().map(|part| part.label.as_str())
     }
 
-    /// The parts of a kind that have triangles, with their places.
-    pub(crate) fn parts_of(&self, kind: PartKind) -> impl Iterator<Item = (usize, &ModelPart)> {
-        let seen = move |part: &ModelPart| part.kind == kind && part.geometry.index_count > 0;
-        self.parts.iter().enumerate().filter(move |(_, part)| seen(part))
+    /// The parts that have triangles, with their places.
+    pub(crate) fn parts_with_triangles(&self) -> impl Iterator<Item = (usize, &ModelPart)> {
+        self.parts.iter().enumerate().filter(|(_, part)| part.geometry.index_count > 0)
     }
 
     /// Plants hair on a part, or removes it (`None`). `groom` must have been made from the part's mesh.

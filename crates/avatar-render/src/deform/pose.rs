@@ -195,6 +195,7 @@ fn widened(union: Bounds, excess: [f32; 2]) -> Bounds {
 mod tests {
     use super::*;
     use crate::gpu::device::gpu_for_tests;
+    use crate::gpu::texture::Textures;
     use crate::model::desc::{PartBones, PartDesc, PartTextures};
     use crate::model::part::PartLayouts;
     use avatar_mesh::{Mesh, PartKind, Skinning};
@@ -225,7 +226,16 @@ mod tests {
                 textures: PartTextures::default(),
             };
             let layouts = PartLayouts::new(&gpu.device);
-            let part = ModelPart::new(&gpu.device, &gpu.queue, &layouts, &desc, &[desc], 2, 1.0);
+            let part = ModelPart::new(
+                &gpu.device,
+                &gpu.queue,
+                &layouts,
+                &mut Textures::default(),
+                &desc,
+                &[desc],
+                2,
+                1.0,
+            );
             let parts = [part.expect("a part")];
             let mut pose = Pose::new(&gpu.device, &parts, 2, 0);
             pose.set(&gpu.queue, &bones, &[]).expect("lengths fit");

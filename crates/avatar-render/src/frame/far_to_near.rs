@@ -2,7 +2,6 @@
 
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
-use avatar_mesh::PartKind;
 use glam::Vec3;
 
 /// Sorts parts of avatars by their distance. Keeps its list from frame to frame, so that a frame allocates
@@ -22,16 +21,15 @@ struct FarPart {
 }
 
 impl FarToNear {
-    /// The parts of this kind that have triangles, from far to near, as the indices of avatar and part.
+    /// The parts that are blended, from far to near, as the indices of avatar and part.
     pub(crate) fn sort(
         &mut self,
         avatars: &[(&AvatarModel, &AvatarState)],
-        kind: PartKind,
         eye: Vec3,
     ) -> impl Iterator<Item = (usize, usize)> {
         self.parts.clear();
         for (avatar, (model, state)) in avatars.iter().enumerate() {
-            for (part, of_model) in model.parts_of(kind) {
+            for (part, of_model) in model.parts_with_triangles().filter(|(_, part)| part.is_blended()) {
                 let distance_squared = state.pose.center_of(&of_model.geometry).distance_squared(eye);
                 self.parts.push(FarPart { distance_squared, avatar, part, found: self.parts.len() });
             }

@@ -1,5 +1,6 @@
 //! One frame: its passes in their order, what they draw into, and the renderer that records them.
 
+pub(crate) mod standard;
 pub(crate) mod check_view;
 pub(crate) mod draw;
 pub(crate) mod drawables;

@@ -3,10 +3,11 @@
 use crate::deform::posed::GpuDeformedVertex;
 use crate::frame::drawables::Drawable;
 use crate::frame::programs::{OCCLUSION_PASS, PREPASS, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS};
-use crate::gpu::bindings::dynamic_uniform_entry;
+use crate::gpu::bindings::{dynamic_uniform_entry, sampler_entry};
 use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
 use crate::gpu::ring::Ring;
 use crate::model::bone::GpuBone;
+use crate::model::extras::GpuExtra;
 use crate::model::geometry::GpuVertex;
 use crate::model::part::look_layout;
 use crate::view::config::RendererConfig;
@@ -30,6 +31,9 @@ pub(crate) const CURVATURE_SLOT: u32 = 2;
 /// The bone of a rigid part, for all vertices alike.
 pub(crate) const BONE_SLOT: u32 = 3;
 
+/// [`GpuExtra`] per vertex, of surfaces of interchange files that have some.
+pub(crate) const EXTRA_SLOT: u32 = 4;
+
 /// The layouts of passes that draw parts.
 #[derive(Debug)]
 pub(crate) struct Layouts {
@@ -37,10 +41,12 @@ pub(crate) struct Layouts {
     pub(crate) view: wgpu::BindGroupLayout,
     /// Group 0 of the shadow pass.
     pub(crate) shadow: wgpu::BindGroupLayout,
-    pipeline: wgpu::PipelineLayout,
+    pub(crate) pipeline: wgpu::PipelineLayout,
     /// Passes over the whole picture know no parts.
     whole_picture: wgpu::PipelineLayout,
     shadow_pipeline: wgpu::PipelineLayout,
+    /// Shadows of surfaces with holes, which depend on their looks.
+    pub(crate) cut_shadow_pipeline: wgpu::PipelineLayout,
 }
 
 impl Layouts {
@@ -49,12 +55,21 @@ impl Layouts {
         let view = view_layout(device);
         let shadow = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("shadow view"),
-            entries: &[dynamic_uniform_entry(wgpu::ShaderStages::VERTEX, Ring::<GpuShadowView>::BYTES)],
+            entries: &[
+                dynamic_uniform_entry(wgpu::ShaderStages::VERTEX, Ring::<GpuShadowView>::BYTES),
+                sampler_entry(1, wgpu::ShaderStages::FRAGMENT, wgpu::SamplerBindingType::Filtering),
+            ],
         });
+        let looks = look_layout(device);
         Self {
-            pipeline: pipeline_layout(device, "parts of avatars", &[frame, &view, &look_layout(device)]),
+            pipeline: pipeline_layout(device, "parts of avatars", &[frame, &view, &looks]),
             whole_picture: pipeline_layout(device, "whole picture", &[frame, &view]),
             shadow_pipeline: pipeline_layout(device, "shadow", &[&shadow]),
+            cut_shadow_pipeline: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("shadow of what has holes"),
+                bind_group_layouts: &[Some(&shadow), None, Some(&looks)],
+                immediate_size: 0,
+            }),
             view,
             shadow,
         }
@@ -178,7 +193,7 @@ const fn attribute(format: wgpu::VertexFormat, offset: usize, shader_location: u
     wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
 }
 
-fn bind_attributes() -> [wgpu::VertexAttribute; 2] {
+const fn bind_attributes() -> [wgpu::VertexAttribute; 2] {
     use wgpu::VertexFormat::Float32x4;
     [
         attribute(Float32x4, offset_of!(GpuVertex, position), 0),
@@ -186,7 +201,7 @@ fn bind_attributes() -> [wgpu::VertexAttribute; 2] {
     ]
 }
 
-fn posed_attributes() -> [wgpu::VertexAttribute; 2] {
+const fn posed_attributes() -> [wgpu::VertexAttribute; 2] {
     use wgpu::VertexFormat::Float32x3;
     [
         attribute(Float32x3, offset_of!(GpuDeformedVertex, position), 2),
@@ -194,7 +209,7 @@ fn posed_attributes() -> [wgpu::VertexAttribute; 2] {
     ]
 }
 
-fn curvature_attributes() -> [wgpu::VertexAttribute; 1] {
+const fn curvature_attributes() -> [wgpu::VertexAttribute; 1] {
     [attribute(wgpu::VertexFormat::Float32, 0, 4)]
 }
 
@@ -228,4 +243,37 @@ fn part_buffers<'a>(
         bone.map(|bone| Some(buffer_layout(size_of::<GpuBone>(), wgpu::VertexStepMode::Instance, bone))),
     );
     buffers
+}
+
+static BIND: [wgpu::VertexAttribute; 2] = bind_attributes();
+static POSED: [wgpu::VertexAttribute; 2] = posed_attributes();
+static CURVATURE: [wgpu::VertexAttribute; 1] = curvature_attributes();
+static EXTRA: [wgpu::VertexAttribute; 2] = [
+    attribute(wgpu::VertexFormat::Float32x2, offset_of!(GpuExtra, uv_1), 8),
+    attribute(wgpu::VertexFormat::Float16x4, offset_of!(GpuExtra, color), 9),
+];
+
+/// The vertex buffers of surfaces of interchange files by their slots.
+pub(crate) fn standard_buffers(has_extras: bool) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+    let mut buffers = part_buffers(&BIND, &POSED, &CURVATURE, None);
+    buffers.extend(extra_slot(has_extras));
+    buffers
+}
+
+/// The same for shadows of what has holes.
+pub(crate) fn cut_shadow_buffers(has_extras: bool) -> Vec<Option<wgpu::VertexBufferLayout<'static>>> {
+    let vertex = wgpu::VertexStepMode::Vertex;
+    let mut buffers = vec![
+        Some(buffer_layout(size_of::<GpuVertex>(), vertex, &BIND)),
+        Some(buffer_layout(size_of::<GpuDeformedVertex>(), vertex, &POSED[..1])),
+        None,
+    ];
+    buffers.extend(extra_slot(has_extras));
+    buffers
+}
+
+/// Bones are no input of these programs: their slot is empty.
+fn extra_slot(has_extras: bool) -> impl Iterator<Item = Option<wgpu::VertexBufferLayout<'static>>> {
+    let extra = || buffer_layout(size_of::<GpuExtra>(), wgpu::VertexStepMode::Vertex, &EXTRA);
+    has_extras.then(|| [None, Some(extra())]).into_iter().flatten()
 }

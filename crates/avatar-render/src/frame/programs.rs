@@ -3,6 +3,7 @@
 use crate::gpu::program::{Module, Program};
 use crate::model::material::LOOK;
 use crate::view::shaders::{AMBIENT, BRDF, FRAME, HAIR_SHADOW, OUTPUT, SHADOW, SHADOW_MAPS, VIEW};
+use crate::view::shading::Shading;
 
 macro_rules! module {
     ($file:literal) => {
@@ -125,6 +126,89 @@ pub(crate) const TOON: Programs = Programs {
     ),
     ..NATURAL
 };
+
+const STANDARD_VERTEX: Module = module!("standard/vertex");
+const STANDARD_SURFACE: Module = module!("standard/surface");
+const NATURAL_STANDARD: Module = module!("standard/natural");
+const PLAIN_STANDARD: Module = module!("standard/plain");
+const TOON_STANDARD: Module = module!("standard/toon");
+const STANDARD_OUTLINE: Module = module!("standard/outline");
+const STANDARD_PREPASS: Module = module!("standard/prepass");
+const STANDARD_PICTURE: Module = module!("standard/picture");
+const STANDARD_SHADOW: Module = module!("standard/shadow");
+/// For programs that draw into the picture, whose pixels may have several samples.
+const SAMPLED: Module = Module::of("const SAMPLED: bool = true;");
+/// For passes before the picture.
+const ONE_SAMPLE: Module = Module::of("const SAMPLED: bool = false;");
+
+/// The programs of surfaces of interchange files in one style, each without and with second texture
+/// coordinates and colours of vertices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standards {
+    pub(crate) opaque: [Program; 2],
+    pub(crate) cut: [Program; 2],
+    pub(crate) blended: [Program; 2],
+    pub(crate) outline: [Program; 2],
+    pub(crate) cut_prepass: [Program; 2],
+    pub(crate) cut_shadow: [Program; 2],
+}
+
+impl Standards {
+    /// Every program.
+    #[cfg(test)]
+    pub(crate) fn all(self) -> impl Iterator<Item = Program> {
+        let Self { opaque, cut, blended, outline, cut_prepass, cut_shadow } = self;
+        [opaque, cut, blended, outline, cut_prepass, cut_shadow].into_iter().flatten()
+    }
+}
+
+/// Programs with these two vertex stages.
+macro_rules! standard_programs {
+    ($label:literal, [$($vertex:literal),*], $fragment:literal, $modules:expr) => {
+        [$(Program { label: $label, entry: $vertex, fragment: Some($fragment), modules: $modules }),*]
+    };
+}
+
+macro_rules! standards {
+    ([$($light:expr),*]) => {{
+        const MODULES: &[Module] = &[
+            FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, SURFACE, BRDF, OUTPUT, $($light,)*
+            SAMPLED, STANDARD_VERTEX, STANDARD_SURFACE, STANDARD_PICTURE,
+        ];
+        const VERTICES: &[Module] = &[FRAME, LOOK, VERTEX, OUTPUT, SAMPLED, STANDARD_VERTEX, STANDARD_OUTLINE];
+        const NORMALS: &[Module] = &[FRAME, LOOK, VERTEX, ONE_SAMPLE, STANDARD_VERTEX, STANDARD_PREPASS];
+        const SHADOWS: &[Module] = &[LOOK, STANDARD_SHADOW];
+        Standards {
+            opaque: standard_programs!(
+                "opaque surface", ["standard_main", "standard_extra_main"], "opaque_main", MODULES),
+            cut: standard_programs!(
+                "surface with holes", ["standard_main", "standard_extra_main"], "cut_main", MODULES),
+            blended: standard_programs!(
+                "blended surface", ["standard_main", "standard_extra_main"], "blended_main", MODULES),
+            outline: standard_programs!(
+                "line around a part", ["part_outline_main", "part_outline_extra_main"], "line_main", VERTICES),
+            cut_prepass: standard_programs!(
+                "depth and normals of holes", ["standard_main", "standard_extra_main"], "cut_prepass_main",
+                NORMALS),
+            cut_shadow: standard_programs!(
+                "shadow of holes", ["cut_shadow_main", "cut_shadow_extra_main"], "cut_caster_main", SHADOWS),
+        }
+    }};
+}
+
+pub(crate) const PLAIN_STANDARDS: Standards = standards!([PLAIN_LIGHT, PLAIN_STANDARD]);
+pub(crate) const NATURAL_STANDARDS: Standards = standards!([SHADOW, HAIR_SHADOW, AMBIENT, NATURAL_STANDARD]);
+pub(crate) const TOON_STANDARDS: Standards =
+    standards!([SHADOW, HAIR_SHADOW, AMBIENT, TOON_LIGHT, TOON_STANDARD]);
+
+/// The programs of a style.
+pub(crate) fn standards(shading: Shading) -> Standards {
+    match shading {
+        Shading::Plain => PLAIN_STANDARDS,
+        Shading::Natural(_) => NATURAL_STANDARDS,
+        Shading::Toon => TOON_STANDARDS,
+    }
+}
 
 pub(crate) const OUTLINE: Program = Program {
     label: "outline",

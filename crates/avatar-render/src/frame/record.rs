@@ -3,13 +3,14 @@
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::deform::posed::PosedPart;
-use crate::frame::drawables::Drawable;
-use crate::frame::part_pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, POSED_SLOT};
+use crate::frame::part_pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, EXTRA_SLOT, POSED_SLOT};
 use crate::frame::passes::Pass;
 use crate::frame::renderer::Renderer;
+use crate::frame::standard::{Sides, Step};
 use crate::frame::targets::Targets;
 use crate::frame::timer::{PassTimer, Span};
 use crate::model::bone::GpuBone;
+use crate::model::finish::{Finish, Opacity};
 use crate::model::part::ModelPart;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::scene::Scene;
@@ -77,6 +78,16 @@ impl<'a> Recording<'a> {
                     pass.set_pipeline(pipeline);
                     self.draw_kind(&mut pass, kind);
                 }
+                for (sides, pipeline) in [(Sides::Front, front), (Sides::Both, both)] {
+                    pass.set_pipeline(pipeline);
+                    self.draw_items(&mut pass, move |part| {
+                        let finish = part.finish.get();
+                        finish.is_some_and(|finish| {
+                            finish.opacity == Opacity::Opaque && Sides::of(finish.is_double_sided) == sides
+                        })
+                    });
+                }
+                self.draw_standard(&mut pass, Step::CutPrepass, Finish::is_cut);
             }
             Pass::Occlusion => {
                 let Some(pipeline) = &pipelines.occlusion else { return };
@@ -146,12 +157,17 @@ impl<'a> Recording<'a> {
             pass.set_bind_group(0, &renderer.shadow_group, &[offset]);
             // Corneas are clear.
             for kind in [PartKind::Skin, PartKind::Surface, PartKind::Eyeball] {
-                for (part, posed, _) in self.items(kind) {
+                let is_whole = move |part: &ModelPart| {
+                    part.kind == kind
+                        && part.finish.get().is_none_or(|finish| finish.opacity == Opacity::Opaque)
+                };
+                for (part, posed, _) in self.items(is_whole) {
                     pass.set_index_buffer(part.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
                     pass.set_vertex_buffer(0, posed.vertices.slice(..));
                     pass.draw_indexed(0..part.geometry.index_count, 0, 0..1);
                 }
             }
+            self.draw_standard(&mut pass, Step::CutShadow, |finish| finish.opacity != Opacity::Opaque);
         }
     }
 
@@ -159,29 +175,63 @@ impl<'a> Recording<'a> {
         // One pass where it is enough: the picture is not stored and loaded in between.
         let step = if self.has_hair { PictureStep::First } else { PictureStep::Only };
         let mut pass = self.begin_picture(encoder, Pass::Picture, step, self.times(Pass::Picture));
-        self.draw_picture(&mut pass, |drawable| !(self.has_hair && drawable.is_transparent));
+        self.draw_opaque(&mut pass);
+        if !self.has_hair {
+            self.draw_blended(&mut pass);
+        }
     }
 
     fn clear_parts(&self, encoder: &mut wgpu::CommandEncoder) {
         let times = self.times(Pass::Clear);
         let mut pass = self.begin_picture(encoder, Pass::Clear, PictureStep::Last, times);
-        self.draw_picture(&mut pass, |drawable| drawable.is_transparent);
+        self.draw_blended(&mut pass);
     }
 
     fn times(&self, pass: Pass) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
         self.timer.and_then(|timer| timer.render_pass(pass, Span::Whole))
     }
 
-    fn draw_picture(&self, pass: &mut wgpu::RenderPass<'_>, is_drawn: impl Fn(&Drawable) -> bool) {
-        for (drawable, pipeline) in self.renderer.picture.iter().filter(|(drawable, _)| is_drawn(drawable)) {
+    fn draw_opaque(&self, pass: &mut wgpu::RenderPass<'_>) {
+        for (drawable, pipeline) in self.renderer.picture.iter().filter(|(d, _)| !d.is_transparent) {
             pass.push_debug_group(drawable.label);
             pass.set_pipeline(pipeline);
-            match drawable.is_transparent {
-                false => self.draw_kind(pass, drawable.kind),
-                true => self.draw_far_to_near(pass, drawable),
-            }
+            self.draw_kind(pass, drawable.kind);
             pass.pop_debug_group();
         }
+        self.draw_standard(pass, Step::Opaque, |finish| finish.opacity == Opacity::Opaque);
+        self.draw_standard(pass, Step::Cut, Finish::is_cut);
+        self.draw_standard(pass, Step::Outline, |finish| finish.has_outline && !finish.is_blended());
+    }
+
+    /// Corneas and what else is blended, from far to near.
+    fn draw_blended(&self, pass: &mut wgpu::RenderPass<'_>) {
+        let eye = self.scene.camera.eye();
+        let corneas = self.renderer.picture.iter().find(|(drawable, _)| drawable.is_transparent);
+        let Some((drawable, corneas)) = corneas else { return };
+        pass.push_debug_group(drawable.label);
+        let mut far = self.renderer.far_to_near.lock().unwrap_or_else(PoisonError::into_inner);
+        for (avatar, part) in far.sort(self.avatars, eye) {
+            let Some((model, state)) = self.avatars.get(avatar) else { continue };
+            let (Some(part), Some(posed)) = (model.parts.get(part), state.pose.parts.get(part)) else {
+                continue;
+            };
+            bind_part(pass, part);
+            // Of what has two sides, the back lies behind.
+            let sides: &[Sides] = match part.finish.get() {
+                None => &[],
+                Some(finish) if finish.is_double_sided => &[Sides::Back, Sides::Front],
+                Some(_) => &[Sides::Front],
+            };
+            for sides in sides {
+                pass.set_pipeline(self.standard(Step::Blended, *sides, part));
+                draw_part(pass, part, posed, state);
+            }
+            if sides.is_empty() {
+                pass.set_pipeline(corneas);
+                draw_part(pass, part, posed, state);
+            }
+        }
+        pass.pop_debug_group();
     }
 
     /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's
@@ -254,20 +304,30 @@ impl<'a> Recording<'a> {
         pass.set_bind_group(1, view, &[]);
     }
 
-    /// The parts of a kind, those of one model together.
-    fn items(&self, kind: PartKind) -> impl Iterator<Item = Item<'a>> {
+    /// The parts that are wanted, those of one model together.
+    fn items<F: Fn(&ModelPart) -> bool + Copy + 'a>(&self, is_wanted: F) -> impl Iterator<Item = Item<'a>> {
         let of_group = move |group: &'a [(&'a AvatarModel, &'a AvatarState)]| {
-            let parts = group.first().into_iter().flat_map(move |(model, _)| model.parts_of(kind));
-            parts.flat_map(move |(index, part)| {
+            let parts = group.first().into_iter().flat_map(|(model, _)| model.parts_with_triangles());
+            let wanted = parts.filter(move |(_, part)| is_wanted(part));
+            wanted.flat_map(move |(index, part)| {
                 group.iter().filter_map(move |(_, state)| Some((part, state.pose.parts.get(index)?, *state)))
             })
         };
         self.avatars.chunk_by(|(a, _), (b, _)| std::ptr::eq(*a, *b)).flat_map(of_group)
     }
 
+    /// The parts of a face of this kind.
     fn draw_kind(&self, pass: &mut wgpu::RenderPass<'_>, kind: PartKind) {
+        self.draw_items(pass, move |part| part.kind == kind && part.finish.get().is_none());
+    }
+
+    fn draw_items<F: Fn(&ModelPart) -> bool + Copy + 'a>(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        is_wanted: F,
+    ) {
         let mut bound: Option<&ModelPart> = None;
-        for (part, posed, state) in self.items(kind) {
+        for (part, posed, state) in self.items(is_wanted) {
             if !bound.is_some_and(|bound| std::ptr::eq(bound, part)) {
                 bind_part(pass, part);
                 bound = Some(part);
@@ -276,16 +336,29 @@ impl<'a> Recording<'a> {
         }
     }
 
-    fn draw_far_to_near(&self, pass: &mut wgpu::RenderPass<'_>, drawable: &Drawable) {
-        let eye = self.scene.camera.eye();
-        let mut far = self.renderer.far_to_near.lock().unwrap_or_else(PoisonError::into_inner);
-        for (avatar, part) in far.sort(self.avatars, drawable.kind, eye) {
-            let Some((model, state)) = self.avatars.get(avatar) else { continue };
-            if let (Some(part), Some(posed)) = (model.parts.get(part), state.pose.parts.get(part)) {
+    /// Surfaces of interchange files that are wanted.
+    fn draw_standard(&self, pass: &mut wgpu::RenderPass<'_>, step: Step, is_wanted: fn(Finish) -> bool) {
+        let mut bound: Option<&ModelPart> = None;
+        for (part, posed, state) in self.items(move |part| part.finish.get().is_some_and(is_wanted)) {
+            if !bound.is_some_and(|bound| std::ptr::eq(bound, part)) {
+                let sides = match step {
+                    // Open sheets cast shadows, too.
+                    Step::CutShadow => Sides::Both,
+                    // Back sides that show beyond the front.
+                    Step::Outline => Sides::Back,
+                    _ => Sides::of(part.finish.get().is_some_and(|finish| finish.is_double_sided)),
+                };
+                pass.set_pipeline(self.standard(step, sides, part));
                 bind_part(pass, part);
-                draw_part(pass, part, posed, state);
+                bound = Some(part);
             }
+            draw_part(pass, part, posed, state);
         }
+    }
+
+    fn standard(&self, step: Step, sides: Sides, part: &ModelPart) -> &'a wgpu::RenderPipeline {
+        let renderer = self.renderer;
+        renderer.standard.get(&renderer.layouts, renderer.config(), step, sides, part)
     }
 }
 
@@ -303,6 +376,9 @@ fn bind_part(pass: &mut wgpu::RenderPass<'_>, part: &ModelPart) {
     pass.set_bind_group(2, &part.look, &[]);
     pass.set_vertex_buffer(BIND_SLOT, geometry.vertices.slice(..));
     pass.set_vertex_buffer(CURVATURE_SLOT, geometry.curvatures.slice(..));
+    if let Some(extras) = &geometry.extras {
+        pass.set_vertex_buffer(EXTRA_SLOT, extras.slice(..));
+    }
     pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
 }
 

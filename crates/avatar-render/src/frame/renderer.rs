@@ -4,6 +4,7 @@ use crate::deform::deformer::Deformer;
 use crate::frame::drawables::{Drawable, draw_order};
 use crate::frame::far_to_near::FarToNear;
 use crate::frame::part_pipelines::{Layouts, PassPipelines, picture_pipeline};
+use crate::frame::standard::StandardPipelines;
 use crate::gpu::identity::Identity;
 use crate::gpu::ring::Ring;
 use crate::hair::grower::Grower;
@@ -47,6 +48,8 @@ pub struct Renderer {
     pub(crate) passes: PassPipelines,
     /// In the order of drawing.
     pub(crate) picture: Vec<(Drawable, wgpu::RenderPipeline)>,
+    /// Of surfaces of interchange files.
+    pub(crate) standard: StandardPipelines,
     pub(crate) grower: Grower,
     pub(crate) hair: HairPipelines,
     pub(crate) hair_views: HairViews,
@@ -73,7 +76,13 @@ impl Renderer {
         let shadow_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("shadow view"),
             layout: &layouts.shadow,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: shadow_views.binding() }],
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: shadow_views.binding() },
+                wgpu::BindGroupEntry {
+                    binding: 1,
+                    resource: wgpu::BindingResource::Sampler(&resources.repeat_sampler),
+                },
+            ],
         });
         Ok(Self {
             id: Identity::new(),
@@ -86,6 +95,7 @@ impl Renderer {
             picture: (draw_order(config.shading).into_iter())
                 .map(|drawable| (drawable, picture_pipeline(device, &layouts, &drawable, config)))
                 .collect(),
+            standard: StandardPipelines::new(device),
             resources,
             layouts,
             shadow_views,

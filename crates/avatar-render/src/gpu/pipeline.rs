@@ -26,7 +26,7 @@ impl Recipe<'_> {
     pub(crate) fn build(&self, device: &wgpu::Device, choices: &[Constant]) -> wgpu::RenderPipeline {
         let module = self.program.compiled(device, choices);
         let targets = [self.target.clone(), self.beside.clone()];
-        let count = if self.beside.is_some() { 2 } else { 1 };
+        let count = targets.iter().take_while(|target| target.is_some()).count();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.program.label),
             layout: Some(self.layout),

@@ -2,9 +2,10 @@
 
 use crate::gpu::image::{Image, ImageSizeError};
 use crate::gpu::mips::{Encoding, half};
+use std::collections::HashMap;
 
 /// What a texture is read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum TextureUse {
     /// sRGB colour with alpha.
     Color,
@@ -31,8 +32,39 @@ impl TextureUse {
     }
 }
 
+/// The textures of one model: parts that share a picture share its texture.
+#[derive(Debug, Default)]
+pub(crate) struct Textures {
+    /// By the place of the picture in memory.
+    known: HashMap<(usize, TextureUse), wgpu::TextureView>,
+}
+
+impl Textures {
+    /// The texture of a picture, which is uploaded once. All pictures have to stay where they are while
+    /// `self` lives, but for those of one pixel.
+    pub(crate) fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        label: &str,
+        image: &Image,
+        usage: TextureUse,
+    ) -> Result<wgpu::TextureView, ImageSizeError> {
+        let key = (std::ptr::from_ref(image).addr(), usage);
+        if image.rgba.len() <= 4 {
+            return upload(device, queue, label, image, usage);
+        }
+        if let Some(view) = self.known.get(&key) {
+            return Ok(view.clone());
+        }
+        let view = upload(device, queue, label, image, usage)?;
+        self.known.insert(key, view.clone());
+        Ok(view)
+    }
+}
+
 /// Uploads a picture and its mip levels. One that is larger than the device allows is halved until it fits.
-pub(crate) fn upload(
+fn upload(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     label: &str,

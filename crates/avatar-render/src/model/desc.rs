@@ -31,9 +31,11 @@ pub enum PartBones {
 }
 
 /// The pictures of a part; each may have its own size. Without one, the default of the part's kind shows.
+/// The last three are read where the material has [`Material::standard`](avatar_look::Material::standard).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PartTextures<'a> {
-    /// Colour in sRGB; where it is transparent, the material's own colour shows.
+    /// Colour in sRGB; where it is transparent, the material's own colour shows. With
+    /// [`Material::standard`](avatar_look::Material::standard), base colour and opacity.
     pub color: Option<&'a Image>,
     /// Share of the ambient light that arrives: the red channel, linear.
     pub occlusion: Option<&'a Image>,
@@ -44,4 +46,10 @@ pub struct PartTextures<'a> {
     /// Thickness of the part behind each point, from 0 (black) to that of the material (white): the red
     /// channel, linear.
     pub thickness: Option<&'a Image>,
+    /// Roughness in green and metalness in blue, linear; in the place of `gloss`.
+    pub metallic_roughness: Option<&'a Image>,
+    /// Light that the surface gives off, sRGB; in the place of `thickness`.
+    pub emissive: Option<&'a Image>,
+    /// Colour of a cartoon in the shade, sRGB; in the place of `gloss` and `metallic_roughness`.
+    pub shade: Option<&'a Image>,
 }

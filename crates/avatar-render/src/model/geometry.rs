@@ -5,8 +5,9 @@ use crate::model::active_shapes::{GpuActiveShape, GpuActiveShapesHead};
 use crate::model::curvature::curvatures;
 use crate::model::desc::{PartBones, PartDesc};
 use crate::model::error::{PartProblem, fits};
+use crate::model::extras::extras;
 use crate::model::shape_blocks::{SHAPE_BLOCK, ShapeBlocks};
-use avatar_mesh::{DeformBounds, Mesh, Offsets, Skinning, Winding};
+use avatar_mesh::{Bounds, DeformBounds, Mesh, Offsets, Skinning, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use std::sync::Arc;
@@ -52,6 +53,8 @@ pub(crate) struct Geometry {
     pub(crate) vertices: wgpu::Buffer,
     /// 1 / radius of the surface, one f32 per vertex.
     pub(crate) curvatures: wgpu::Buffer,
+    /// [`GpuExtra`](crate::model::extras::GpuExtra) per vertex, where the mesh has second texture coordinates or colours.
+    pub(crate) extras: Option<wgpu::Buffer>,
     /// For the deform pass.
     pub(crate) bind_group: wgpu::BindGroup,
     /// The bone that a rigid part follows; 0 for others.
@@ -156,6 +159,7 @@ impl Geometry {
             }),
             vertices,
             curvatures,
+            extras: extras(mesh).map(|all| buffer(device, &all, label, "extras", wgpu::BufferUsages::VERTEX)),
             rigid_bone: head.rigid_bone,
             used_bones: match skinning {
                 Some(skinning) => skinning.used_bones().into_iter().map(u32::from).collect(),
@@ -170,7 +174,7 @@ impl Geometry {
                 PartBones::Rigid(bone) => DeformBounds::rigid(mesh, bone),
             },
             first_weight,
-            center: bounds.map_or(Vec3::ZERO, |bounds| bounds.center()),
+            center: middle(mesh),
             center_bone,
         })
     }
@@ -199,6 +203,13 @@ fn vertex_bones(skinning: &Skinning) -> Vec<GpuVertexBones> {
     }
     let further = skinning.more_bones.iter().zip(&skinning.more_weights).map(set);
     first.zip(further).flat_map(<[GpuVertexBones; 2]>::from).collect()
+}
+
+/// The middle of what is seen: parts of one node may share vertices that only some of them use.
+fn middle(mesh: &Mesh) -> Vec3 {
+    let corners = mesh.triangles.iter().flatten().filter_map(|corner| mesh.positions.get(*corner as usize));
+    let boxes = corners.map(|at| Bounds { min: *at, max: *at });
+    boxes.reduce(Bounds::union).map_or(Vec3::ZERO, |bounds| bounds.center())
 }
 
 /// The square root of the part's area divided by the area of its texture coordinates.
@@ -277,6 +288,11 @@ fn check(
     };
     count("normals", mesh.normals.len())?;
     count("uvs", mesh.uvs.len())?;
+    for (what, found) in [("second uvs", mesh.uvs_1.len()), ("colours", mesh.colors.len())] {
+        if found > 0 {
+            count(what, found)?;
+        }
+    }
     for shape in &mesh.shapes {
         count("position offsets of a shape", shape.positions.len())?;
         let normals = shape.normals.as_ref().map_or(expected, Offsets::len);

@@ -2,9 +2,11 @@
 
 use crate::gpu::program::{Constant, Module, Value};
 use crate::model::eye::{EyeShape, PROFILE_LEN};
+use crate::model::finish::cutoffs;
 use crate::model::geometry::Geometry;
 use avatar_look::optics::diffusion_distance;
-use avatar_look::{Iris, Material};
+use avatar_look::{Cartoon, Iris, Lighting, Material, SecondUvs};
+use avatar_mesh::PartKind;
 
 /// The albedo with which the mean free path of skin is converted to the width of its scattering profile. One
 /// for all skin: the width must not change from freckle to freckle.
@@ -20,6 +22,18 @@ pub(crate) const GLOSS_TEXTURE: u32 = 4;
 pub(crate) const NORMAL_TEXTURE: u32 = 8;
 /// Bit of `GpuMaterial::textures`.
 pub(crate) const THICKNESS_TEXTURE: u32 = 16;
+/// Bit of `GpuMaterial::textures`: in the slot of gloss.
+pub(crate) const METALLIC_ROUGHNESS_TEXTURE: u32 = 32;
+/// Bit of `GpuMaterial::textures`: in the slot of thickness.
+pub(crate) const EMISSIVE_TEXTURE: u32 = 64;
+/// Bit of `GpuMaterial::textures`: in the slot of gloss.
+pub(crate) const SHADE_TEXTURE: u32 = 128;
+/// Bit of `GpuMaterial::textures`: the colour is a factor on its texture instead of lying below it.
+pub(crate) const TINTED: u32 = 256;
+/// Bit of `GpuMaterial::textures`: the base colour is seen as it is.
+pub(crate) const UNLIT: u32 = 512;
+/// Bit of `GpuMaterial::textures`: drawn as a cartoon.
+pub(crate) const CARTOON: u32 = 1024;
 
 /// WGSL of the material and textures of a part.
 pub(crate) const LOOK: Module = Module { text: include_str!("shaders/look.wgsl"), constants };
@@ -31,6 +45,12 @@ fn constants() -> Vec<Constant> {
         ("GLOSS_TEXTURE", Value::Count(GLOSS_TEXTURE)),
         ("NORMAL_TEXTURE", Value::Count(NORMAL_TEXTURE)),
         ("THICKNESS_TEXTURE", Value::Count(THICKNESS_TEXTURE)),
+        ("METALLIC_ROUGHNESS_TEXTURE", Value::Count(METALLIC_ROUGHNESS_TEXTURE)),
+        ("EMISSIVE_TEXTURE", Value::Count(EMISSIVE_TEXTURE)),
+        ("SHADE_TEXTURE", Value::Count(SHADE_TEXTURE)),
+        ("TINTED", Value::Count(TINTED)),
+        ("UNLIT", Value::Count(UNLIT)),
+        ("CARTOON", Value::Count(CARTOON)),
         ("PROFILE_ROWS", Value::Count(PROFILE_LEN as u32 / 4)),
         ("PATH_PER_DISTANCE", Value::Float(1.0 / diffusion_distance(1.0, SKIN_ALBEDO))),
     ]
@@ -82,7 +102,17 @@ pub(crate) struct GpuMaterial {
     pub(crate) front_z: f32,
     pub(crate) per_depth: f32,
     pub(crate) textures: u32,
-    pub(crate) pad: u32,
+    pub(crate) second_uvs: u32,
+    pub(crate) shade_color: [f32; 3],
+    pub(crate) alpha_cutoff: f32,
+    pub(crate) emissive: [f32; 3],
+    pub(crate) metallic: f32,
+    pub(crate) outline_color: [f32; 3],
+    pub(crate) outline_width: f32,
+    pub(crate) occlusion_strength: f32,
+    pub(crate) shading_shift: f32,
+    pub(crate) shading_toony: f32,
+    pub(crate) shadow_cutoff: f32,
     pub(crate) iris: GpuIris,
 }
 
@@ -90,18 +120,46 @@ impl GpuMaterial {
     /// `height` is that of the skin, the unit of lengths in materials.
     pub(crate) fn new(
         material: &Material,
+        kind: PartKind,
         geometry: &Geometry,
         eye: Option<&EyeShape>,
         height: f32,
         textures: u32,
     ) -> Self {
+        let standard = material.standard.unwrap_or_default();
+        let ([r, g, b], opacity, roughness) = match material.standard {
+            Some(standard) => {
+                let [r, g, b, opacity] = standard.base_color;
+                // Parts of a face keep the roughness of their kinds.
+                let roughness = (kind == PartKind::Surface).then_some(standard.roughness);
+                ([r, g, b], opacity, roughness)
+            }
+            None => (material.color, material.opacity, None),
+        };
+        let [alpha_cutoff, shadow_cutoff] = cutoffs(&standard);
+        let cartoon = match standard.lighting {
+            Lighting::Cartoon(cartoon) => cartoon,
+            Lighting::Lit | Lighting::Unlit => Cartoon {
+                shade_color: [0.0; 3],
+                shading_shift: 0.0,
+                shading_toony: 0.0,
+                outline_width: 0.0,
+                outline_color: [0.0; 3],
+            },
+        };
+        let lighting = match standard.lighting {
+            Lighting::Lit => 0,
+            Lighting::Unlit => UNLIT,
+            Lighting::Cartoon(_) => CARTOON,
+        };
+        let tinted = if material.standard.is_some() { TINTED } else { 0 };
         Self {
-            color: material.color,
-            opacity: material.opacity,
+            color: [r, g, b],
+            opacity,
             wrap: material.wrap,
             reflectance: material.reflectance,
             scatter: material.scatter.map(|path| diffusion_distance(path * height, SKIN_ALBEDO)),
-            roughness_matte: material.roughness_matte,
+            roughness_matte: roughness.unwrap_or(material.roughness_matte),
             roughness_glossy: material.roughness_glossy,
             normal_strength: material.normal_strength,
             sharp_share: material.sharp_share,
@@ -116,11 +174,34 @@ impl GpuMaterial {
             back_light: material.back_light,
             front_z: geometry.front_z,
             per_depth: geometry.per_depth,
-            textures,
-            pad: 0,
+            textures: textures | lighting | tinted,
+            second_uvs: second_uvs(standard.second_uvs),
+            shade_color: cartoon.shade_color,
+            alpha_cutoff,
+            emissive: standard.emissive,
+            metallic: standard.metallic,
+            outline_color: cartoon.outline_color,
+            outline_width: cartoon.outline_width,
+            occlusion_strength: standard.occlusion_strength,
+            shading_shift: cartoon.shading_shift,
+            shading_toony: cartoon.shading_toony,
+            shadow_cutoff,
             iris: eye.map_or_else(bytemuck::Zeroable::zeroed, |eye| GpuIris::new(&material.iris, eye)),
         }
     }
+}
+
+/// The bits of the textures that lie by the second texture coordinates.
+fn second_uvs(second: SecondUvs) -> u32 {
+    let bits = [
+        (second.color, COLOR_TEXTURE),
+        (second.occlusion, OCCLUSION_TEXTURE),
+        (second.metallic_roughness, METALLIC_ROUGHNESS_TEXTURE),
+        (second.normal, NORMAL_TEXTURE),
+        (second.emissive, EMISSIVE_TEXTURE),
+        (second.shade, SHADE_TEXTURE),
+    ];
+    bits.iter().filter(|(is_second, _)| *is_second).map(|(_, bit)| bit).sum()
 }
 
 impl GpuIris {

@@ -2,13 +2,15 @@
 
 use crate::gpu::bindings::{texture_entry, uniform_entry};
 use crate::gpu::image::Image;
-use crate::gpu::texture::{TextureUse, upload};
+use crate::gpu::texture::{TextureUse, Textures};
 use crate::model::desc::{PartBones, PartDesc};
 use crate::model::error::PartProblem;
 use crate::model::eye::{EyeShape, eye_shape};
+use crate::model::finish::{Finish, FinishCell};
 use crate::model::geometry::Geometry;
 use crate::model::material::{
-    COLOR_TEXTURE, GLOSS_TEXTURE, GpuMaterial, NORMAL_TEXTURE, OCCLUSION_TEXTURE, THICKNESS_TEXTURE,
+    COLOR_TEXTURE, EMISSIVE_TEXTURE, GLOSS_TEXTURE, GpuMaterial, METALLIC_ROUGHNESS_TEXTURE, NORMAL_TEXTURE,
+    OCCLUSION_TEXTURE, SHADE_TEXTURE, THICKNESS_TEXTURE,
 };
 use avatar_look::Material;
 use avatar_mesh::{Bounds, PartKind};
@@ -21,6 +23,8 @@ pub(crate) struct ModelPart {
     pub(crate) kind: PartKind,
     pub(crate) geometry: Geometry,
     pub(crate) look: wgpu::BindGroup,
+    /// How it is drawn if it looks as an interchange file says.
+    pub(crate) finish: FinishCell,
     material: wgpu::Buffer,
     textures: u32,
     eye: Option<EyeShape>,
@@ -89,11 +93,12 @@ pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 }
 
 impl ModelPart {
-    /// Uploads one of `parts`. `height` is that of the skin.
+    /// Uploads one of `parts`. `height` is that of the skin; `known` are the textures of parts before.
     pub(crate) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         layouts: &PartLayouts,
+        known: &mut Textures,
         desc: &PartDesc<'_>,
         parts: &[PartDesc<'_>],
         palette_len: usize,
@@ -108,18 +113,32 @@ impl ModelPart {
         let mut view = |bit: u32, which: &'static str, image: Option<&Image>, usage: TextureUse| {
             textures |= if image.is_some() { bit } else { 0 };
             let label = format!("{label}: {which}");
-            upload(device, queue, &label, image.unwrap_or(&blank), usage)
+            known
+                .upload(device, queue, &label, image.unwrap_or(&blank), usage)
                 .map_err(|error| PartProblem::Texture { which, error })
+        };
+        let pictures = &desc.textures;
+        let gloss = match (pictures.shade, pictures.metallic_roughness) {
+            (Some(_), _) => view(SHADE_TEXTURE, "shade", pictures.shade, TextureUse::Color)?,
+            (None, Some(_)) => {
+                let picture = pictures.metallic_roughness;
+                view(METALLIC_ROUGHNESS_TEXTURE, "metallic roughness", picture, TextureUse::Normal)?
+            }
+            (None, None) => view(GLOSS_TEXTURE, "gloss", pictures.gloss, TextureUse::Value)?,
+        };
+        let thickness = match pictures.emissive {
+            Some(_) => view(EMISSIVE_TEXTURE, "emissive", pictures.emissive, TextureUse::Color)?,
+            None => view(THICKNESS_TEXTURE, "thickness", pictures.thickness, TextureUse::Value)?,
         };
         let views = [
             view(COLOR_TEXTURE, "color", desc.textures.color, TextureUse::Color)?,
             view(OCCLUSION_TEXTURE, "occlusion", desc.textures.occlusion, TextureUse::Value)?,
-            view(GLOSS_TEXTURE, "gloss", desc.textures.gloss, TextureUse::Value)?,
+            gloss,
             view(NORMAL_TEXTURE, "normal", desc.textures.normal, TextureUse::Normal)?,
-            view(THICKNESS_TEXTURE, "thickness", desc.textures.thickness, TextureUse::Value)?,
+            thickness,
         ];
         let gpu_material =
-            GpuMaterial::new(&Material::of(desc.kind), &geometry, eye.as_ref(), height, textures);
+            GpuMaterial::new(&Material::of(desc.kind), desc.kind, &geometry, eye.as_ref(), height, textures);
         let material = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some(&format!("{label}: material")),
             contents: bytemuck::bytes_of(&gpu_material),
@@ -141,12 +160,20 @@ impl ModelPart {
                 texture(5, &views[4]),
             ],
         });
-        Ok(Self { label: label.to_owned(), kind: desc.kind, geometry, look, material, textures, eye })
+        let (label, kind, finish) = (label.to_owned(), desc.kind, FinishCell::default());
+        Ok(Self { label, kind, geometry, look, finish, material, textures, eye })
+    }
+
+    /// Whether it is blended over what is behind.
+    pub(crate) fn is_blended(&self) -> bool {
+        self.kind == PartKind::Cornea || self.finish.get().is_some_and(Finish::is_blended)
     }
 
     /// Replaces the looks, from the next submission on.
     pub(crate) fn set_material(&self, queue: &wgpu::Queue, material: &Material, height: f32) {
-        let gpu = GpuMaterial::new(material, &self.geometry, self.eye.as_ref(), height, self.textures);
+        let gpu =
+            GpuMaterial::new(material, self.kind, &self.geometry, self.eye.as_ref(), height, self.textures);
         queue.write_buffer(&self.material, 0, bytemuck::bytes_of(&gpu));
+        self.finish.set(Finish::of(self.kind, material));
     }
 }

@@ -30,6 +30,8 @@ pub(crate) struct Resources {
     /// The same maps one by one, for drawing into.
     pub(crate) shadow_layers: Vec<wgpu::TextureView>,
     pub(crate) shadow_sampler: wgpu::Sampler,
+    /// For textures of parts.
+    pub(crate) repeat_sampler: wgpu::Sampler,
     /// How much of the key lamp's light hair blocks; a single texel if no lamp casts shadows.
     pub(crate) hair_map: wgpu::TextureView,
     pub(crate) environment: EnvironmentMap,
@@ -69,6 +71,7 @@ impl Resources {
         let environment = EnvironmentMap::new(device);
         let samplers =
             [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge].map(|m| sampler(device, m));
+        let repeat_sampler = samplers[0].clone();
         let texture = |binding, view| wgpu::BindGroupEntry {
             binding,
             resource: wgpu::BindingResource::TextureView(view),
@@ -105,6 +108,7 @@ impl Resources {
             shadow_map,
             shadow_layers,
             shadow_sampler,
+            repeat_sampler,
             hair_map: hair_map(device, terms),
             environment,
         }

@@ -17,6 +17,8 @@ mod targets;
 mod frames;
 mod limits;
 mod pixels;
+mod opacity;
+mod standard;
 mod crowds;
 mod views;
 mod mirror;

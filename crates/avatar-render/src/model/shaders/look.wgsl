@@ -48,8 +48,22 @@ struct Material {
     // Largest z at bind pose (the face looks along +Z), and 1 / (largest - smallest).
     front_z: f32,
     per_depth: f32,
-    // Which textures are there; the others are not sampled.
+    // Which textures are there, the others are not sampled; and how colours are made.
     textures: u32,
+    // Of surfaces of interchange files from here to `iris`. Which textures lie by the second coordinates.
+    second_uvs: u32,
+    shade_color: vec3f,
+    // Below this opacity nothing is drawn.
+    alpha_cutoff: f32,
+    emissive: vec3f,
+    metallic: f32,
+    outline_color: vec3f,
+    outline_width: f32,
+    occlusion_strength: f32,
+    shading_shift: f32,
+    shading_toony: f32,
+    // Below this opacity no shadow is cast.
+    shadow_cutoff: f32,
     iris: Iris,
 }
 

@@ -79,12 +79,20 @@ fn surface_at(in: VertexOut, uv: vec2f, is_front: bool) -> Surface {
     surface.opacity = material.opacity;
     if (material.textures & COLOR_TEXTURE) != 0u {
         let texel = textureSample(color_texture, repeat_sampler, uv);
-        surface.color = mix(surface.color, texel.rgb, texel.a);
-        surface.opacity = mix(surface.opacity, 1.0, texel.a);
+        if (material.textures & TINTED) != 0u {
+            surface.color *= texel.rgb;
+            surface.opacity *= texel.a;
+        } else {
+            surface.color = mix(surface.color, texel.rgb, texel.a);
+            surface.opacity = mix(surface.opacity, 1.0, texel.a);
+        }
     }
     surface.occlusion = 1.0;
     if (material.textures & OCCLUSION_TEXTURE) != 0u {
         surface.occlusion = textureSample(occlusion_texture, repeat_sampler, uv).r;
+        if (material.textures & TINTED) != 0u {
+            surface.occlusion = mix(1.0, surface.occlusion, material.occlusion_strength);
+        }
     }
     var gloss = 0.5;
     if (material.textures & GLOSS_TEXTURE) != 0u {
