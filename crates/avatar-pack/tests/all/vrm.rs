@@ -308,3 +308,47 @@ fn an_expression_takes_from_others_in_a_mixture_of_poses() {
     state.pose(&pack, &values).expect("a pose");
     assert_eq!(state.weights(), [0.75, 0.375, 0.25, 0.0]);
 }
+
+/// Exporters of VRM 0.x write the names of shapes into the primitives, others into the mesh.
+#[test]
+fn names_of_shapes_in_primitives_are_as_good_as_those_of_the_mesh() {
+    let names = [
+        "eyeBlinkLeft",
+        "eyeBlinkRight",
+        "eyeSquintLeft",
+        "eyeSquintRight",
+        "jawOpen",
+        "mouthSmileLeft",
+        "mouthSmileRight",
+    ];
+    let named = format!(r#""extras": {{"targetNames": {names:?}}}"#);
+    let import = |in_primitive: bool| {
+        let (of_primitive, of_mesh) = match in_primitive {
+            true => (format!(", {named}"), String::new()),
+            false => (String::new(), format!(", {named}")),
+        };
+        let target = r#"{"POSITION": 0}"#;
+        let json = format!(
+            r#"{{"asset": {{"version": "2.0"}}, "extensionsUsed": ["VRM"],
+            "extensions": {{"VRM": {{"specVersion": "0.0", "meta": {{"title": "N"}},
+                "humanoid": {{"humanBones": [{{"bone": "head", "node": 0}}]}},
+                "blendShapeMaster": {{"blendShapeGroups": [{{"name": "A", "presetName": "a",
+                    "binds": [{{"mesh": 0, "index": 4, "weight": 50}}]}}]}}}}}},
+            "nodes": [{{"name": "a", "mesh": 0}}],
+            "accessors": [{{"componentType": 5126, "type": "VEC3", "count": 3}}],
+            "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "targets": [{}]{of_primitive}}}]{of_mesh}}}]}}"#,
+            [target; 7].join(", ")
+        );
+        let model = read("n.vrm", &glb(&json), &mut |_| Err(String::new())).expect("a VRM");
+        Import::from_vrm(model).expect("an avatar")
+    };
+    let (in_primitive, in_mesh) = (import(true), import(false));
+    assert_eq!(in_primitive.pack.shapes(), names);
+    assert_eq!(in_primitive.report, in_mesh.report);
+    assert_eq!(in_primitive.report.shape_sets, [(avatar_pack::ShapeSet::ArKit, 7)]);
+    let poses = |import: &Import| import.pack.poses().iter().cloned().collect::<Vec<_>>();
+    assert_eq!(poses(&in_primitive), poses(&in_mesh));
+    for pose in ["smile", "laugh", "wink-left", "wink-right", "sleep", "yawn", "aa"] {
+        assert!(in_primitive.pack.poses().get(pose).is_some(), "{pose}");
+    }
+}

@@ -158,6 +158,17 @@ fn springs_of_version_0_become_chains_along_first_children() {
     assert!(notes.iter().any(|note| note == again), "{notes:?}");
 }
 
+/// A file may require what it uses: it is read here.
+#[test]
+fn extensions_of_the_format_may_be_required() {
+    let mut json = v1();
+    json["extensionsRequired"] = json!(["VRMC_vrm", "VRMC_springBone", "VRMC_node_constraint"]);
+    assert_eq!(read(&json).expect("a VRM"), read(&v1()).expect("a VRM"));
+    let mut json = v0();
+    json["extensionsRequired"] = json!(["VRM"]);
+    assert_eq!(read(&json).expect("a VRM"), read(&v0()).expect("a VRM"));
+}
+
 #[test]
 fn constraints_are_read() {
     let model = read(&v1()).expect("a VRM");
