@@ -51,6 +51,9 @@ struct ClipReport {
 /// What was recognised in a file of an interchange format.
 #[derive(Serialize)]
 struct ImportedReport {
+    /// Name, authors, licence and terms of use.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    about: BTreeMap<String, String>,
     joints: BTreeMap<String, String>,
     shape_sets: BTreeMap<String, usize>,
     shapes_by_own_name: Vec<String>,
@@ -60,6 +63,7 @@ struct ImportedReport {
 fn import(report: &ImportReport) -> ImportedReport {
     let named = report.joints.iter().map(|(role, joint)| (role.to_string(), joint.clone()));
     ImportedReport {
+        about: report.about.iter().cloned().collect(),
         joints: named.collect(),
         shape_sets: report.shape_sets.iter().map(|(set, count)| (set.to_string(), *count)).collect(),
         shapes_by_own_name: report.other_shapes.clone(),
@@ -147,6 +151,9 @@ fn text(report: &Report<'_>) -> String {
     }
     if let Some(import) = &report.import {
         out.push('\n');
+        for (what, text) in &import.about {
+            let _ = writeln!(out, "{what}: {text}");
+        }
         for (role, joint) in &import.joints {
             let _ = writeln!(out, "joint {joint:?} is the {role}");
         }
