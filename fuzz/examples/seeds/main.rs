@@ -52,6 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("grey.png", ImageFormat::Png, DynamicImage::ImageLuma16(picture.to_luma16())),
         ("jpeg", ImageFormat::Jpeg, DynamicImage::ImageRgb8(picture.to_rgb8())),
         ("bmp", ImageFormat::Bmp, picture.clone()),
+        ("webp", ImageFormat::WebP, picture.clone()),
         ("tga", ImageFormat::Tga, picture),
     ] {
         let mut bytes = Cursor::new(Vec::new());
