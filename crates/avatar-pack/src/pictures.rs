@@ -1,7 +1,7 @@
 //! The pictures of a scene, decoded once and within a budget.
 
 use crate::Warning;
-use crate::textures::{decoder, rgba};
+use crate::textures::{bytes_while_decoding, decoder, kept_bytes, rgba};
 use avatar_exchange::{Scene, SceneImage, TextureRef};
 use image::{ImageDecoder, RgbaImage};
 use std::collections::BTreeSet;
@@ -75,11 +75,8 @@ fn decoded(image: &SceneImage, room: &mut u64) -> Result<RgbaImage, String> {
     }
     let not_read = |error: image::ImageError| format!("{expected}, found: {error}; its plain colour shows");
     let decoder = decoder(&image.name, &image.bytes).map_err(not_read)?;
-    let (width, height) = decoder.dimensions();
-    let kept = u64::from(width) * u64::from(height) * 4;
-    // While a picture is decoded, its samples are there, and as much again of what the decoder needs.
-    let while_decoding = kept.saturating_add(decoder.total_bytes().saturating_mul(2));
-    if while_decoding > *room {
+    let ((width, height), kept) = (decoder.dimensions(), kept_bytes(&decoder));
+    if bytes_while_decoding(&decoder) > *room {
         return Err(format!(
             "expected pictures of at most {FREE_BYTES} bytes and {PER_ENCODED_BYTE} for each byte of the file, found one of {width}×{height} pixels beyond that; its plain colour shows"
         ));

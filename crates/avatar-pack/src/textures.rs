@@ -1,6 +1,7 @@
 use crate::{Source, Warning};
 use avatar_mesh::PartKind;
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, RgbaImage};
+use image::error::{LimitError, LimitErrorKind};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
 /// A texture of the pack. The names are those of the original's files, without extension.
@@ -107,12 +108,18 @@ pub(crate) struct OwnImages {
 /// Larger pictures than this on a side are refused before they are decoded.
 const MAX_SIDE: u32 = 16_384;
 
+/// Bytes that the pictures of any pack may take.
+const FREE_BYTES: u64 = 256 << 20;
+/// Bytes that they may take in addition for each byte that they have in their files.
+const PER_ENCODED_BYTE: u64 = 64;
+
 impl Textures {
     /// Loads all textures that the source has. Nothing fails here: what does not decode is reported.
     pub fn load(source: &impl Source) -> Self {
         let mut textures = Self::default();
+        let mut room = FREE_BYTES;
         for texture in Texture::ALL {
-            textures.load_one(source, texture);
+            textures.load_one(source, texture, &mut room);
         }
         textures
     }
@@ -155,12 +162,13 @@ impl Textures {
         }
     }
 
-    fn load_one(&mut self, source: &impl Source, texture: Texture) {
+    /// `room` is what is left for pictures.
+    fn load_one(&mut self, source: &impl Source, texture: Texture, room: &mut u64) {
         let names = ["png", "jpg", "jpeg"].map(|extension| format!("{}.{extension}", texture.stem()));
         for name in &names {
             let problem = match source.read(name) {
                 Ok(None) => continue,
-                Ok(Some(bytes)) => match decode(name, &bytes) {
+                Ok(Some(bytes)) => match decode_within(name, &bytes, room) {
                     Ok(image) => {
                         self.images.push((texture, image));
                         return;
@@ -179,12 +187,37 @@ impl Textures {
     }
 }
 
-pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<RgbaImage, image::ImageError> {
-    rgba(decoder(name, bytes)?)
+/// A picture by itself, whatever others there are.
+pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<RgbaImage, ImageError> {
+    decode_within(name, bytes, &mut { FREE_BYTES })
+}
+
+/// `room` is what is left for pictures; this one adds what its own bytes allow, and takes what it keeps.
+fn decode_within(name: &str, bytes: &[u8], room: &mut u64) -> Result<RgbaImage, ImageError> {
+    *room = room.saturating_add(PER_ENCODED_BYTE.saturating_mul(bytes.len() as u64));
+    let decoder = decoder(name, bytes)?;
+    let kept = kept_bytes(&decoder);
+    if bytes_while_decoding(&decoder) > *room {
+        return Err(ImageError::Limits(LimitError::from_kind(LimitErrorKind::InsufficientMemory)));
+    }
+    let picture = rgba(decoder)?;
+    *room -= kept;
+    Ok(picture)
+}
+
+/// What the decoded picture takes.
+pub(crate) fn kept_bytes(decoder: &impl ImageDecoder) -> u64 {
+    let (width, height) = decoder.dimensions();
+    u64::from(width) * u64::from(height) * 4
+}
+
+/// While a picture is decoded, its samples are there, and as much again of what the decoder needs.
+pub(crate) fn bytes_while_decoding(decoder: &impl ImageDecoder) -> u64 {
+    kept_bytes(decoder).saturating_add(decoder.total_bytes().saturating_mul(2))
 }
 
 /// What decodes a picture: knows its size already.
-pub(crate) fn decoder<'a>(name: &str, bytes: &'a [u8]) -> Result<impl ImageDecoder + 'a, image::ImageError> {
+pub(crate) fn decoder<'a>(name: &str, bytes: &'a [u8]) -> Result<impl ImageDecoder + 'a, ImageError> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     // TGA does not begin with anything of its own: the name has to say it.
     if reader.format().is_none()
@@ -201,6 +234,6 @@ pub(crate) fn decoder<'a>(name: &str, bytes: &'a [u8]) -> Result<impl ImageDecod
     Ok(decoder)
 }
 
-pub(crate) fn rgba(decoder: impl ImageDecoder) -> Result<RgbaImage, image::ImageError> {
+pub(crate) fn rgba(decoder: impl ImageDecoder) -> Result<RgbaImage, ImageError> {
     Ok(DynamicImage::from_decoder(decoder)?.into_rgba8())
 }

@@ -3,7 +3,7 @@
 
 use avatar_exchange::{Material, Node, RawScene, Scene, SceneImage, ScenePart};
 use avatar_mesh::Mesh;
-use avatar_pack::{Import, portable_pictures};
+use avatar_pack::{Import, MemorySource, Texture, Textures, portable_pictures};
 use glam::{Vec2, Vec3};
 use std::borrow::Cow;
 
@@ -62,4 +62,42 @@ fn pictures_that_gltf_does_not_know_become_png() {
     assert!(matches!(portable_pictures(&portable), Cow::Borrowed(_)));
     let scene = scene_with_picture("duck", &TGA);
     assert_eq!(portable_pictures(&scene).images[0].bytes, TGA);
+}
+
+/// A bitmap's header (BITMAPINFOHEADER, 24 bits a pixel) without any pixels.
+fn claims(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = b"BM\x36\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0".to_vec();
+    bytes.extend(width.to_le_bytes());
+    bytes.extend(height.to_le_bytes());
+    bytes.extend([1, 0, 24, 0]);
+    bytes.resize(54, 0);
+    bytes
+}
+
+/// A few bytes must not take hundreds of megabytes, neither alone nor together.
+#[test]
+fn pictures_of_packs_have_a_budget() {
+    let told = |name: &str, bytes: Vec<u8>| {
+        let mut source = MemorySource::default();
+        source.files.insert(name.to_owned(), bytes);
+        let textures = Textures::load(&source);
+        assert!(textures.get(Texture::SkinColor).is_none());
+        textures.warnings[0].to_string()
+    };
+    let text = told("SkinTex_Decal.png", claims(11_000, 7_000));
+    assert!(text.contains("Memory limit"), "{text}");
+    // Within the budget it is decoded, and found to end too early.
+    let text = told("SkinTex_Decal.png", claims(3000, 3000));
+    assert!(!text.contains("Memory limit"), "{text}");
+
+    // Pictures that are as large as their files say are all read.
+    let mut picture = claims(3000, 3000);
+    picture.resize(54 + 27_000_000, 0);
+    let names = ["SkinTex_Decal", "SkinTex_AO", "SkinTex_Gloss", "SkinTex_Normal", "EyeTex_Decal00"];
+    let mut source = MemorySource::default();
+    for name in names {
+        source.files.insert(format!("{name}.png"), picture.clone());
+    }
+    let textures = Textures::load(&source);
+    assert!(textures.warnings.is_empty(), "{:?}", textures.warnings);
 }
