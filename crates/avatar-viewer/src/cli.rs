@@ -226,10 +226,10 @@ pub(crate) struct TraceArgs {
     #[arg(long)]
     pub(crate) derivatives: bool,
     /// Rows per second
-    #[arg(long, default_value = "240", value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = "240", value_parser = positive, allow_hyphen_values = true, value_name = "RATE")]
     pub(crate) hz: f64,
     /// Seconds; the last row is at or just before this time
-    #[arg(long, default_value = "3", value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, default_value = "3", value_parser = positive, allow_hyphen_values = true, value_name = "SECONDS")]
     pub(crate) duration: f64,
     /// The motion, as .csv; `-` is standard output
     #[arg(long, default_value = STANDARD, value_name = "FILE")]

@@ -40,7 +40,7 @@ pub(crate) fn format<F: Copy + PartialEq>(
     })?;
     match asked.filter(|(_, format)| *format != found) {
         Some((name, _)) => Err(usage(format!(
-            "--format {name}: expected the format that the name ends in, which is enough to say it, found --out {}",
+            "--format {name}: expected the format that the name ends in, found --out {}",
             out.display()
         ))),
         None => Ok(found),

@@ -30,7 +30,7 @@ mod window;
 mod script;
 mod verbs;
 
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches};
 use std::process::ExitCode;
 
@@ -59,14 +59,36 @@ fn wrong_usage(error: &clap::Error) -> ExitCode {
         Some(ContextValue::String(text)) => text.as_str(),
         _ => "",
     };
-    let option = text(ContextKind::InvalidArg).split(' ').next().unwrap_or_default();
-    match (error.get(ContextKind::ValidValue), text(ContextKind::InvalidValue)) {
-        (Some(ContextValue::Strings(names)), found) => {
-            let error = usage::unknown_option(option, found, names.iter().map(String::as_str));
-            standard::tell(format_args!("error: {error}\n\nFor more information, try '--help'."));
-        }
+    let command = cli::Cli::command();
+    let verbs = || command.get_subcommands().map(clap::Command::get_name);
+    let names = match error.get(ContextKind::ValidValue) {
+        Some(ContextValue::Strings(names)) => names.as_slice(),
+        _ => &[],
+    };
+    let own = if !names.is_empty() {
+        let option = text(ContextKind::InvalidArg).split(' ').next().unwrap_or_default();
+        let found = text(ContextKind::InvalidValue);
+        Some(usage::unknown_option(option, found, names.iter().map(String::as_str)))
+    } else if error.kind() == ErrorKind::InvalidSubcommand {
+        Some(usage::unknown_option("verb", text(ContextKind::InvalidSubcommand), verbs()))
+    } else {
+        None
+    };
+    match own {
+        Some(error) => standard::tell(format_args!("error: {error}\n\nFor more information, try '--help'.")),
         // Nothing can be done where nobody reads it.
-        _ => drop(error.print()),
+        None => drop(error.print()),
+    }
+    let mut words = std::env::args_os().skip(1);
+    let is_verb = |word: &std::ffi::OsString| verbs().any(|verb| word == verb);
+    if error.use_stderr()
+        && words.next().is_some_and(|word| !is_verb(&word))
+        && let Some(verb) = words.find(is_verb)
+    {
+        standard::tell(format_args!(
+            "A verb comes first, its options after it: avatar-viewer {} …",
+            verb.display()
+        ));
     }
     ExitCode::from(if error.use_stderr() { 2 } else { 0 })
 }

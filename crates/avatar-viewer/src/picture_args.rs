@@ -39,7 +39,11 @@ impl PictureArgs {
         let framing = match self.frame.as_deref() {
             None => Framing::Whole,
             Some("face") if pack.part("face").is_none() => Framing::Face,
-            Some(name) => Framing::Part(usage::part(pack, name)?),
+            Some(name) => {
+                let place = pack.parts().iter().position(|part| part.name == name);
+                let names = pack.parts().iter().map(|part| part.name.as_str()).chain(["face"]);
+                Framing::Part(place.ok_or_else(|| usage::unknown("part", name, names))?)
+            }
         };
         let mut view = View { framing, ..self.view.view() };
         view.yaw_degrees = self.yaw.unwrap_or(view.yaw_degrees);

@@ -1,6 +1,7 @@
 use super::pointer::{self, Pointers};
 use crate::scene::{ImportError, quoted};
 use gltf::json::Root;
+use serde_json::error::Category;
 use serde_json::{Value, json};
 
 /// The structures of a JSON text, and what had to be changed to fit them.
@@ -12,6 +13,9 @@ pub(super) struct Parsed {
 }
 
 pub(super) fn parse(text: &[u8]) -> Result<Parsed, ImportError> {
+    if text.is_empty() {
+        return Err(ImportError::new("JSON", "glTF 2.0", "nothing"));
+    }
     let first = match Root::from_slice(text) {
         Ok(root) if !pointer::may_occur(text) => {
             return Ok(Parsed { root, dropped: 0, pointers: Pointers::default() });
@@ -41,7 +45,15 @@ pub(super) fn parse(text: &[u8]) -> Result<Parsed, ImportError> {
 
 fn wrong(error: &serde_json::Error) -> ImportError {
     let place = format!("JSON, line {}, column {}", error.line(), error.column());
-    ImportError::new(place, "glTF 2.0", error.to_string())
+    let reason = error.to_string();
+    // The place stands in front of it.
+    let reason = reason.split(" at line ").next().unwrap_or_default();
+    match error.classify() {
+        Category::Syntax | Category::Eof => {
+            ImportError::new(place, "valid JSON", format!("a mistake in it ({reason})"))
+        }
+        Category::Data | Category::Io => ImportError::new(place, "glTF 2.0", reason),
+    }
 }
 
 /// Files of glTF 1.0 have objects where 2.0 has lists: their version tells more than the first of these.

@@ -32,10 +32,24 @@ fn misspelt_names_are_guessed() {
         run(&["render", option, value, "--out", "-"]).fails(2, &[&expected, &meant]);
     }
     run(&["rendr"]).fails(2, &["expected a verb", "found \"rendr\"", "(did you mean \"render\"?)"]);
+    run(&["help", "rendr"])
+        .fails(2, &["verb: expected one of render, record,", "(did you mean \"render\"?)"]);
+    run(&["render", "--frame", "fcae", "--out", "-"]).fails(2, &["(did you mean \"face\"?)"]);
     // What looks like nothing is not guessed.
     let far = run(&["bones", "--pose", "temperature"]);
     assert!(!far.stderr.contains("did you mean"), "{}", far.stderr);
     far.fails(2, &["expected the name of a pose, found \"temperature\"; there are: neutral, smile"]);
+}
+
+#[test]
+fn what_is_missing_or_in_the_wrong_place_is_said() {
+    let verb_first = "A verb comes first, its options after it: avatar-viewer render …";
+    run(&["--size", "10x10", "render", "--out", "x.png"]).fails(2, &["--out", verb_first]);
+    run(&["bones", "--time"]).fails(2, &["a value is required for '--time <SECONDS>' but none was supplied"]);
+    run(&["render", "--out", ""]).fails(2, &["a value is required for '--out <FILE>'"]);
+    run(&["render", "--out", "-", "--view", ""])
+        .fails(2, &["--view: expected one of front,", "found nothing"]);
+    run(&["bones", "--time", "1"]).fails(2, &["--clip <NAME>"]);
 }
 
 #[test]
