@@ -8,9 +8,10 @@
 )]
 
 use crate::common::{folder, golden, shared};
-use avatar_exchange::{AlphaMode, RawScene, Transform, glb, gltf};
+use avatar_exchange::{AlphaMode, Node, RawScene, Scene, ScenePart, Transform, Trs, glb, gltf};
 use avatar_mesh::{Winding, raw};
 use avatar_pack::{FaceState, Import, MemorySource, Pack, Textures, export};
+use glam::Vec3;
 
 /// Differences are parts of the avatar's size: single precision tells 1e-7 of it.
 const TOLERANCE: f32 = 1e-6;
@@ -204,5 +205,46 @@ fn looks_and_rest_are_those_of_the_pack() {
         let expected = 255.0 * (look.roughness_matte * (1.0 - share) + look.roughness_glossy * share);
         assert!((f32::from(decoded.get_pixel(x, y).0[1]) - expected).abs() <= 0.51, "{x} {y}");
         assert_eq!(decoded.get_pixel(x, y).0[2], 0, "no metal");
+    }
+}
+
+/// A triangle at a node that mirrors, imported, written as GLB, and read again: its front is where its normal
+/// points, for readers that ask the joints and for those that ask the node of the mesh.
+#[test]
+fn a_mirrored_part_is_written_with_its_front_outside() {
+    let mirror = Trs { scale: Vec3::new(-1.0, 1.0, 1.0), translation: Vec3::X, ..Trs::default() };
+    let node =
+        |name: &str, trs| Node { name: name.to_owned(), local: Transform::Trs(trs), ..Node::default() };
+    let mesh = avatar_mesh::Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        uvs: vec![glam::Vec2::ZERO; 3],
+        normals: vec![Vec3::Z; 3],
+        triangles: vec![[0, 1, 2]],
+        ..avatar_mesh::Mesh::default()
+    };
+    let parts = vec![ScenePart::rigid("mirrored", 0, mesh.clone()), ScenePart::rigid("plain", 1, mesh)];
+    let nodes = vec![node("mirrored", mirror), node("plain", Trs::default())];
+    let raw = RawScene { nodes, parts, ..RawScene::default() };
+    let first = Import::from_scene(Scene::from_raw(raw).expect("a scene")).expect("an avatar");
+    let scene = export(&first.pack, &first.textures);
+    let is_mirrored = |part: usize| match scene.nodes[scene.parts[part].node].local {
+        Transform::Trs(trs) => trs.scale.element_product() < 0.0,
+        Transform::Matrix(_) => panic!("a matrix"),
+    };
+    assert_eq!([0, 1].map(is_mirrored), [true, false]);
+    let second = again(&scene);
+    for import in [&first, &second] {
+        let mut state = FaceState::new(&import.pack);
+        state.pose(&import.pack, &import.pack.controls().defaults()).expect("a pose");
+        for part in 0..2 {
+            let deformed = state.deform(&import.pack, part).expect("a part");
+            let [a, b, c] =
+                state.triangles(&import.pack, part)[0].map(|corner| deformed.positions[corner as usize]);
+            let front = (b - a).cross(c - a).normalize_or_zero();
+            assert!(
+                front.distance(Vec3::Z) < 1e-6 && deformed.normals[0].distance(Vec3::Z) < 1e-6,
+                "{front}"
+            );
+        }
     }
 }

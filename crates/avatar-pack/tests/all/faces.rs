@@ -184,10 +184,23 @@ fn the_face_of_a_body_is_its_head() {
         ],
         ..RawScene::default()
     };
-    let pack = import(scene).pack;
     let expected = Bounds { min: Vec3::new(0.0, 17.0, 0.0), max: Vec3::new(1.0, 21.0, 0.0) };
-    let face = pack.face().expect("a face");
-    assert!(face.min.abs_diff_eq(expected.min, 1e-5) && face.max.abs_diff_eq(expected.max, 1e-5), "{face:?}");
+    let finds_it = |scene: RawScene| {
+        let pack = import(scene).pack;
+        let face = pack.face().expect("a face");
+        let near = face.min.abs_diff_eq(expected.min, 1e-5) && face.max.abs_diff_eq(expected.max, 1e-5);
+        assert!(near, "{face:?}");
+    };
+    finds_it(scene.clone());
+    // The same with most of the head's weight in further bones.
+    let mut further = scene;
+    let skinning = further.parts[0].mesh.skinning.as_mut().expect("a skinned body");
+    skinning.more_bones = vec![[1, 1, 0, 0]; 6];
+    skinning.more_weights = [[0.0; 4]; 3].into_iter().chain([[0.25, 0.3, 0.0, 0.0]; 3]).collect();
+    for vertex in 3..6 {
+        (skinning.bones[vertex], skinning.weights[vertex]) = ([0; 4], [0.15, 0.1, 0.1, 0.1]);
+    }
+    finds_it(further);
 }
 
 /// Two parts on skins of their own: the first of so many joints, the second of one, 5 above.
@@ -220,6 +233,15 @@ fn bones_of_a_part_are_those_of_its_own_skin() {
     let mut state = FaceState::new(&pack);
     state.pose(&pack, &pack.controls().defaults()).expect("a pose");
     assert_eq!(state.deform(&pack, 0).expect("it fits").positions[0], Vec3::ZERO);
+    assert_eq!(state.deform(&pack, 1).expect("it fits").positions[0], Vec3::Y * 5.0);
+    // Further bones, too: half of the weight is on the second bone of a vertex, which is the same one.
+    let mut raw = RawScene::clone(&two_skins(3));
+    let skinning = raw.parts[1].mesh.skinning.as_mut().expect("a skinned part");
+    (skinning.more_bones, skinning.more_weights) = (vec![[0; 4]; 3], vec![[0.5, 0.0, 0.0, 0.0]; 3]);
+    skinning.weights = vec![[0.5, 0.0, 0.0, 0.0]; 3];
+    let pack = import(raw).pack;
+    let mut state = FaceState::new(&pack);
+    state.pose(&pack, &pack.controls().defaults()).expect("a pose");
     assert_eq!(state.deform(&pack, 1).expect("it fits").positions[0], Vec3::Y * 5.0);
     let error = Import::from_scene(two_skins(70_000)).expect_err("too many joints");
     assert_eq!(error.to_string(), "expected at most 65536 joints in all skins, found 70001");

@@ -303,3 +303,59 @@ fn what_does_not_fit_is_named() {
     raw.nodes.push(node("bone", None, Trs::default()));
     assert_eq!(refused(raw), RawError::NoMesh);
 }
+
+#[test]
+fn of_more_than_four_bones_a_raw_file_gets_the_largest_with_a_note() {
+    let mut raw = head();
+    let skinning = raw.parts[0].mesh.skinning.as_mut().expect("a skinned face");
+    skinning.weights[1] = [0.125, 0.125, 0.125, 0.125];
+    skinning.bones[1] = [0, 1, 2, 0];
+    skinning.more_bones = vec![[0; 4], [1, 2, 0, 0], [0; 4], [0; 4]];
+    skinning.more_weights = vec![[0.0; 4], [0.375, 0.125, 0.0, 0.0], [0.0; 4], [0.0; 4]];
+    let import = imported(raw);
+    let files = raw_files(&import.pack, &import.textures).expect("files");
+    let note = "part \"Face\": 1 vertices have more than four bones: the four largest are kept";
+    assert!(files.notes.iter().any(|found| found == note), "{:?}", files.notes);
+    let (_, again) = loaded(&files);
+    let written = again.parts()[0].mesh.skinning.as_ref().expect("a skin");
+    // ⅜ and three of the four eighths, of ¾.
+    let expected = [0.5, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0];
+    let near = written.weights[1].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6);
+    assert!(near && written.more_bones.is_empty(), "{written:?}");
+}
+
+/// Joints that scale unevenly are refused; what is mirrored or stretched at binding comes through.
+#[test]
+fn what_is_mirrored_or_stretched_at_binding_has_its_front_and_normals_outside() {
+    for scale in [Vec3::new(-2.0, 1.0, 1.0), Vec3::new(1.0, 3.0, 1.0), Vec3::new(-1.0, -1.0, -0.5)] {
+        let mut raw = head();
+        let jaw = [0, 1, 2, 3]
+            .into_iter()
+            .fold(glam::DAffine3::IDENTITY, |world, node: usize| world * raw.nodes[node].local.affine());
+        let stretched = jaw.inverse() * glam::DAffine3::from_scale(scale.as_dvec3());
+        let inverse = Affine3A::from_cols_array(&stretched.to_cols_array().map(|x| x as f32));
+        raw.skins.push(Skin { name: String::new(), joints: vec![3], inverse_binds: vec![inverse] });
+        raw.parts[1].skin = Some(1);
+        // A slope, whose normal another scale tilts.
+        let mesh = &mut raw.parts[1].mesh;
+        mesh.positions.iter_mut().for_each(|p| p.z += 0.5 * p.x + 0.25 * p.y);
+        mesh.normals = vec![Vec3::new(-0.5, -0.25, 1.0).normalize_or_zero(); 4];
+        mesh.skinning = Some(Skinning {
+            bones: vec![[0; 4]; 4],
+            weights: vec![[1.0, 0.0, 0.0, 0.0]; 4],
+            ..Skinning::default()
+        });
+        let import = imported(raw);
+        let files = raw_files(&import.pack, &import.textures).expect("files");
+        let (_, again) = loaded(&files);
+        let jaw = again.parts().iter().find(|part| part.name == "lower-jaw").expect("a part");
+        assert_eq!(jaw.mesh.triangles.len(), 2);
+        for corners in &jaw.mesh.triangles {
+            let [a, b, c] = corners.map(|corner| jaw.mesh.positions[corner as usize]);
+            let front = (b - a).cross(c - a).normalize_or_zero();
+            for normal in corners.map(|corner| jaw.mesh.normals[corner as usize]) {
+                assert!(front.distance(normal) < 1e-4, "{scale}: {front} {normal}");
+            }
+        }
+    }
+}

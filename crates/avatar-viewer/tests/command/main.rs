@@ -16,6 +16,7 @@ mod expected_data;
 mod hair;
 mod import;
 mod look;
+mod mirrored;
 mod outputs;
 mod record;
 #[cfg(unix)]
