@@ -1,9 +1,9 @@
 use super::container::Container;
+use super::coordinates::Looks;
 use super::extensions::{Support, support_of};
 use super::json;
 use super::pointer::Pointers;
 use super::scan::{Found, scan};
-use super::texture::Looks;
 use super::uri::Uri;
 use crate::build::budget::Budget;
 use crate::scene::{Finding, ImportError, Note, Resolve, quoted};

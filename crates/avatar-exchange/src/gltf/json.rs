@@ -83,3 +83,17 @@ fn add_nodes_to_scenes(root: &mut Value) -> usize {
     let empty = scenes.filter_map(Value::as_object_mut).filter(|scene| !scene.contains_key("nodes"));
     empty.map(|scene| scene.insert("nodes".to_owned(), json!([]))).count()
 }
+
+/// A number that f32 can hold.
+pub(super) fn float(value: &Value) -> Option<f32> {
+    value.as_f64().map(|value| value as f32).filter(|value| value.is_finite())
+}
+
+/// A value of the file in a message.
+pub(super) fn shortened(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(60) {
+        None => text,
+        Some((end, _)) => format!("{}…", &text[..end]),
+    }
+}

@@ -1,6 +1,8 @@
+use super::coordinates::Looks;
 use super::document::Document;
 use super::extensions::{Support, support_of};
-use super::texture::{Looks, Use, float};
+use super::json::float;
+use super::texture::Use;
 use crate::scene::{AlphaMode, Finding, ImportError, Material, RawScene, SceneImage};
 use gltf::json::Value;
 use gltf::json::material::AlphaMode as Mode;

@@ -1,6 +1,7 @@
 //! `EXT_meshopt_compression` and `KHR_meshopt_compression`: views whose bytes are compressed.
 
 use super::document::Document;
+use super::json::shortened;
 use crate::scene::ImportError;
 use draco_gltf::meshopt::{MeshoptFilter, MeshoptMode, decode_buffer_view};
 use gltf::json::buffer;
@@ -54,7 +55,7 @@ fn packed(number: usize, view: &buffer::View) -> Result<Option<Packed>, ImportEr
     };
     let json = &extensions.others[name];
     let wrong = |key: &str, expected: &str| {
-        let found = json.get(key).map_or_else(|| "none".to_owned(), |value| shortened(value));
+        let found = json.get(key).map_or_else(|| "none".to_owned(), shortened);
         ImportError::new(format!("bufferView {number}, {name}, {key}"), expected, found)
     };
     let whole = |key: &str, otherwise: Option<u64>| match (json.get(key), otherwise) {
@@ -80,13 +81,4 @@ fn packed(number: usize, view: &buffer::View) -> Result<Option<Packed>, ImportEr
         mode,
         filter,
     }))
-}
-
-/// A value of the file in a message.
-pub(super) fn shortened(value: &Value) -> String {
-    let text = value.to_string();
-    match text.char_indices().nth(60) {
-        None => text,
-        Some((end, _)) => format!("{}…", &text[..end]),
-    }
 }

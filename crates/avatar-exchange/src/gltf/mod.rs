@@ -12,6 +12,7 @@ mod accessor;
 mod animation;
 mod component;
 mod container;
+mod coordinates;
 mod document;
 mod draco;
 mod extensions;

@@ -1,7 +1,7 @@
 //! Attributes of vertices beside positions, normals and bones.
 
+use super::coordinates::{Looks, UvSource};
 use super::document::Document;
-use super::texture::{Looks, UvSource};
 use crate::scene::{Finding, ImportError};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::{ComponentType, Type};

@@ -1,4 +1,4 @@
-//! Channels for single weights, which `KHR_animation_pointer` has: a channel of the scene moves all of a node.
+//! Channels for single weights, as `KHR_animation_pointer` has them: one of the scene moves all of a node.
 
 use crate::build::budget::Budget;
 use crate::scene::{Channel, ChannelTarget, ImportError, Interpolation, RawScene, sample};

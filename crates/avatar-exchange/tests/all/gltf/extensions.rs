@@ -122,7 +122,7 @@ fn shows_its_effect(name: &str) {
             assert_eq!(with_material(name, &material).materials[0].emissive, [4.0, 2.0, 0.0]);
         }
         "KHR_materials_pbrSpecularGlossiness" => {
-            // Black in the specular colour: no metal, and the base colour is what is diffuse, a little brighter.
+            // It reflects what all do that are no metals, so its base colour is the diffuse one.
             let material = format!(
                 r#"{{"extensions": {{"{name}": {{"diffuseFactor": [0.48, 0.24, 0.12, 0.5], "specularFactor": [0.04, 0.04, 0.04],
                 "glossinessFactor": 0.25, "diffuseTexture": {{"index": 0}}}}}}}}"#

@@ -13,7 +13,7 @@ fn has_note(scene: &Scene, text: &str) {
     assert!(scene.notes.iter().any(|note| note.to_string().contains(text)), "{text}: {:?}", scene.notes);
 }
 
-/// A triangle at a node with instances: two that are turned, scaled and moved below a node that is moved, too.
+/// A triangle at a node that is moved, with two instances that are turned, scaled and moved.
 fn instanced(attributes: impl Fn([usize; 3]) -> String, node: &str) -> (Builder, String) {
     let mut file = Builder::default();
     let position = file.triangle();
