@@ -34,8 +34,8 @@ pub(crate) fn is_mirroring(matrix: &DMat3) -> bool {
 }
 
 /// What turns normals where a matrix moves a surface, so that they stand on it again: the inverse transpose,
-/// up to a positive factor. It is computed as the cofactors times the sign of the determinant, which exist for
-/// flat matrices, too.
+/// up to a positive factor. It is computed as the cofactors times the sign of the determinant, which exist
+/// for flat matrices, too.
 pub fn normal_matrix(matrix: &DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
     let sign = if is_mirroring(matrix) { -1.0 } else { 1.0 };

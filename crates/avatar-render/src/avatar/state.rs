@@ -57,8 +57,8 @@ impl AvatarState {
     /// Sets the pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order;
     /// they may include a placement in the world, which must not scale if the model has hair. `weights` has
     /// one blend weight per shape; shapes with weight 0 cost nothing. Bones may scale unevenly, shear and
-    /// mirror: normals stay normals, and fronts fronts. Allocates nothing, but for a part that bones mirror for
-    /// the first time.
+    /// mirror: normals stay normals, and fronts fronts. Allocates nothing, but for a part that bones mirror
+    /// for the first time.
     ///
     /// # Errors
     /// Another number of bones or weights than the model has; the state is unchanged then.

@@ -1,8 +1,8 @@
 //! The pass that deforms avatars.
 
 use crate::deform::pose::{AVATAR, Pose, avatar_layout};
-use crate::deform::posed::{DEFORMED, PosedPart, deformed_layout};
-use crate::deform::reversed::{REVERSE_PASS, reversed_layout};
+use crate::deform::posed::{PosedPart, deformed_layout};
+use crate::deform::reversed::{DEFORMED, REVERSE_PASS, reversed_layout};
 use crate::gpu::pipeline::compute_pipeline;
 use crate::gpu::program::{Constant, Module, Program, Value};
 use crate::model::geometry::Geometry;

@@ -2,14 +2,10 @@
 
 use crate::deform::reversed::Reversed;
 use crate::gpu::bindings::storage_entry;
-use crate::gpu::program::Module;
 use crate::model::part::ModelPart;
 use avatar_mesh::{mirrors, turns_evenly};
 use glam::Affine3A;
 use std::sync::Arc;
-
-/// WGSL of what the deform pass leaves.
-pub(crate) const DEFORMED: Module = Module::of(include_str!("shaders/deformed.wgsl"));
 
 /// WGSL `DeformedVertex`.
 #[repr(C)]

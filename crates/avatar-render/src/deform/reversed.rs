@@ -4,9 +4,11 @@
 //! the order that is seen. One part can have such bones and others, so each triangle is decided by its own
 //! vertices, by a pass that only runs for parts with such bones.
 
-use crate::deform::posed::DEFORMED;
 use crate::gpu::bindings::storage_entry;
 use crate::gpu::program::{Constant, Module, Program, Value};
+
+/// WGSL of what the deform pass leaves, which the pass reads.
+pub(crate) const DEFORMED: Module = Module::of(include_str!("shaders/deformed.wgsl"));
 
 const REVERSE_WORKGROUP_SIZE: u32 = 64;
 /// Workgroups in a row of a dispatch: WebGPU's default limit.

@@ -65,8 +65,8 @@ fn largest_of(v: vec3f) -> f32 {
 
 // What a matrix makes of a normal if it is to stand on the surface: the cofactors, which are the inverse
 // transpose times the determinant, and exist for flat matrices, too. Both steps divide by the largest number,
-// so that small and large scales lose nothing; the length is between 1 and 2. `along` is the answer where there
-// is no direction.
+// so that small and large scales lose nothing; the length is between 1 and 2. `along` is the answer where
+// there is no direction.
 fn standing_normal(posed: Bone, normal: vec3f, along: vec3f) -> vec3f {
     let largest = max(max(largest_of(posed[0].xyz), largest_of(posed[1].xyz)), largest_of(posed[2].xyz));
     if !(largest > 0.0) {
