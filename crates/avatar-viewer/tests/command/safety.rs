@@ -15,8 +15,9 @@ fn make_pipe(path: &Path) {
     assert!(made.success());
 }
 
-/// What is not a file, made in the place of one, and what a message calls it.
-const NO_FILES: [(&str, fn(&Path)); 4] = [
+/// What a message calls something that is not a file, and what makes it in the place of one.
+type NoFile = (&'static str, fn(&Path));
+const NO_FILES: [NoFile; 4] = [
     ("a pipe", make_pipe),
     ("a device", |path| symlink("/dev/zero", path).expect("a link")),
     ("a socket", |path| drop(UnixListener::bind(path).expect("a socket"))),
@@ -161,7 +162,7 @@ fn referring(folder: &Path) -> [(&'static str, Vec<&'static str>); 2] {
 fn what_a_file_refers_to() {
     let outer = tempfile::tempdir().expect("a temporary folder");
     fs::write(outer.path().join("secret"), "newmtl hunter2\n").expect("written");
-    let leaves: (&str, fn(&Path)) = ("a link", |path| symlink("../secret", path).expect("a link"));
+    let leaves: NoFile = ("a link", |path| symlink("../secret", path).expect("a link"));
     for (number, (what, make)) in NO_FILES.into_iter().chain([leaves]).enumerate() {
         let folder = outer.path().join(format!("avatar-{number}"));
         fs::create_dir(&folder).expect("made");
