@@ -40,8 +40,9 @@
 //!    eyeball            front sides
 //!    skin back          what shows at the rim of the neck, lids and lips: a hollow in ambient light
 //!    outlines           toon only
+//!    surfaces           of interchange files: opaque ones, those with holes, lines around cartoons
 //!  hair                 strands as ribbons, where a model has hair
-//!  corneas              front sides, blended, far to near, depth tested but not written; without hair
+//!  corneas              and all that is blended, far to near, depth tested but not written; without hair
 //!                       in one pass with the avatars
 //! ```
 //!

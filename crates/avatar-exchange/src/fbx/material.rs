@@ -24,6 +24,13 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
             None => color(&pbr.base_color, number(&pbr.base_factor, 1.0), 1.0),
         };
         let opacity = number(&pbr.opacity, 1.0);
+        // The opacity of the picture that is its colour as well is that picture's alpha.
+        let opacity_file = file_of(&pbr.opacity);
+        let is_alpha = opacity_file.is_some() && opacity_file == file_of(&pbr.base_color);
+        if opacity_file.is_some() && !is_alpha {
+            let place = format!("material {:?}", material.element.name.to_string());
+            note(&mut scene.notes, place, Finding::left_out("its opacity texture is left out"));
+        }
         let read = Material {
             name: material.element.name.to_string(),
             base_color: [r, g, b, opacity],
@@ -33,7 +40,7 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
             normal_texture: images.of(&pbr.normal_map, scene).map(TextureRef::from),
             emissive: color(&pbr.emission_color, number(&pbr.emission_factor, 1.0), 0.0),
             emissive_texture: images.of(&pbr.emission_color, scene).map(TextureRef::from),
-            alpha_mode: if opacity < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque },
+            alpha_mode: if opacity < 1.0 || is_alpha { AlphaMode::Blend } else { AlphaMode::Opaque },
             // Most materials of FBX do not say it, and are seen from both sides.
             double_sided: material.features.double_sided.enabled
                 || !material.features.double_sided.is_explicit,
@@ -41,6 +48,13 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
         };
         scene.materials.push(read);
     }
+}
+
+/// The file of a map's texture, or of the first one of a layered or computed texture.
+fn file_of(map: &ufbx::MaterialMap) -> Option<String> {
+    let texture = map.texture.as_ref().filter(|_| map.texture_enabled)?;
+    let texture = texture.file_textures.first().unwrap_or(texture);
+    Some(texture.filename.to_string())
 }
 
 fn finite(x: f32) -> f32 {

@@ -32,6 +32,8 @@ struct Draft {
     material: Material,
     /// A height map, or a normal map under its statement, which is the usual use of it.
     bump: Option<usize>,
+    /// The picture of its opacity.
+    opacity: Option<usize>,
     /// Whether `d` was there, which counts more than `Tr`: writers disagree about what that one means.
     has_opacity: bool,
 }
@@ -61,12 +63,20 @@ pub(super) fn attach(
     }
     for name in names {
         let material = match library.found.get(name).and_then(|&index| library.materials.get(index)) {
-            Some(Draft { material, bump, .. }) => {
+            Some(Draft { material, bump, opacity, .. }) => {
+                let of_color = material.base_color_texture.map(|texture| texture.image);
+                // The opacity of the picture that is its colour as well is that picture's alpha.
+                let is_alpha = opacity.is_some() && *opacity == of_color;
+                if opacity.is_some() && !is_alpha {
+                    let text = "its opacity texture is left out";
+                    obj.notes.push(Note::new(format!("material {name:?}"), Finding::left_out(text)));
+                }
                 if let (None, Some(_)) = (material.normal_texture, bump) {
                     let text = "its bump map is taken for a normal map";
                     obj.notes.push(Note::new(format!("material {name:?}"), Finding::converted(text)));
                 }
                 Material {
+                    alpha_mode: if is_alpha { AlphaMode::Blend } else { material.alpha_mode },
                     normal_texture: material.normal_texture.or(bump.map(TextureRef::from)),
                     ..material.clone()
                 }
@@ -153,6 +163,7 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
             "Pm" => material.metallic = one("a metalness")?.clamp(0.0, 1.0),
             "map_Kd" => material.base_color_texture = image(&mut images).map(TextureRef::from),
             "map_Ke" => material.emissive_texture = image(&mut images).map(TextureRef::from),
+            "map_d" => draft.opacity = image(&mut images),
             "norm" | "map_norm" => material.normal_texture = image(&mut images).map(TextureRef::from),
             "bump" | "map_bump" | "map_Bump" => draft.bump = image(&mut images),
             _ => {}

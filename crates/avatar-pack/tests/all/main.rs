@@ -10,6 +10,7 @@ mod hair;
 mod materials;
 mod pack;
 mod pictures;
+mod looks;
 mod poses;
 mod raw;
 mod reach;

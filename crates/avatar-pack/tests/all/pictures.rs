@@ -101,3 +101,98 @@ fn pictures_of_packs_have_a_budget() {
     let textures = Textures::load(&source);
     assert!(textures.warnings.is_empty(), "{:?}", textures.warnings);
 }
+
+/// A scene with a part for each material, and these pictures.
+fn scene_of(materials: Vec<Material>, pictures: Vec<Vec<u8>>) -> Scene {
+    let mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        normals: vec![Vec3::Z; 3],
+        uvs: vec![Vec2::ZERO; 3],
+        triangles: vec![[0, 1, 2]],
+        ..Mesh::default()
+    };
+    let part = |material| ScenePart {
+        material: Some(material),
+        ..ScenePart::rigid(&format!("plate {material}"), 0, mesh.clone())
+    };
+    let image =
+        |(number, bytes)| SceneImage { name: format!("picture {number}"), bytes, ..Default::default() };
+    let scene = RawScene {
+        nodes: vec![Node::default()],
+        parts: (0..materials.len()).map(part).collect(),
+        materials,
+        images: pictures.into_iter().enumerate().map(image).collect(),
+        ..RawScene::default()
+    };
+    Scene::from_raw(scene).expect("a scene")
+}
+
+fn painted(image: usize) -> Material {
+    Material { base_color_texture: Some(image.into()), metallic: 0.0, ..Material::default() }
+}
+
+fn encoded(picture: image::DynamicImage, format: image::ImageFormat) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, format).expect("a picture");
+    bytes.into_inner()
+}
+
+#[test]
+fn a_picture_is_decoded_once_for_all_colours_that_it_is_multiplied_by() {
+    let png = encoded(
+        image::RgbaImage::from_pixel(2, 2, image::Rgba([9, 8, 7, 255])).into(),
+        image::ImageFormat::Png,
+    );
+    let tints = [[1.0; 4], [0.5, 1.0, 1.0, 1.0], [0.2, 0.1, 0.9, 1.0]];
+    let materials = tints.map(|base_color| Material { base_color, ..painted(0) });
+    let import = Import::from_scene(scene_of(materials.to_vec(), vec![png])).expect("an avatar");
+    let color = |part: usize| {
+        let kind = import.pack.parts()[part].kind;
+        import.textures.of_part(part, kind).color.expect("a picture")
+    };
+    assert!(std::ptr::eq(color(0), color(1)) && std::ptr::eq(color(1), color(2)));
+    for (part, tint) in tints.iter().enumerate() {
+        let look = import.pack.material(part).standard.expect("a look of the file's");
+        assert_eq!(look.base_color, *tint);
+    }
+}
+
+#[test]
+fn webp_is_read_and_what_is_no_picture_is_one_note() {
+    let webp = encoded(
+        image::RgbaImage::from_pixel(3, 2, image::Rgba([200, 100, 50, 128])).into(),
+        image::ImageFormat::WebP,
+    );
+    let mut ktx = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+    ktx.extend([0; 64]);
+    // Both broken pictures are used three times.
+    let materials = [0, 1, 1, 1, 2, 2, 2].map(painted);
+    let pictures = vec![webp, ktx, b"no picture".to_vec()];
+    let import = Import::from_scene(scene_of(materials.to_vec(), pictures)).expect("an avatar");
+    let color = |part: usize| import.textures.of_part(part, import.pack.parts()[part].kind).color;
+    let (width, height) = color(0).expect("WebP").dimensions();
+    assert_eq!((width, height), (3, 2));
+    assert_eq!(color(0).expect("WebP").get_pixel(1, 1).0, [200, 100, 50, 128]);
+    assert!((1..7).all(|part| color(part).is_none()));
+    let told: Vec<String> = import.textures.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(told[0].contains("picture 1") && told[0].contains("found KTX"), "{told:?}");
+    assert!(told[1].contains("picture 2"), "{told:?}");
+}
+
+#[test]
+fn all_pictures_together_keep_within_a_budget() {
+    // Sixteen mebibytes each once it is decoded, and a few kilobytes in the file.
+    let flat = encoded(image::GrayImage::new(2048, 2048).into(), image::ImageFormat::Png);
+    assert!(flat.len() < 1 << 16);
+    let materials = (0..16).map(painted).collect();
+    let import = Import::from_scene(scene_of(materials, vec![flat.clone(); 16])).expect("an avatar");
+    let decoded = (0..16)
+        .filter(|part| import.textures.of_part(*part, import.pack.parts()[*part].kind).color.is_some())
+        .count();
+    let budget = (128 << 20) + 24 * 16 * flat.len();
+    assert!(decoded >= 4 && decoded * (16 << 20) <= budget, "{decoded}");
+    let told: Vec<String> = import.textures.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(told.len(), 16 - decoded, "{told:?}");
+    assert!(told[0].contains("2048×2048") && told[0].contains("134217728 bytes"), "{}", told[0]);
+}

@@ -1,6 +1,5 @@
 //! One frame: its passes in their order, what they draw into, and the renderer that records them.
 
-pub(crate) mod standard;
 pub(crate) mod check_view;
 pub(crate) mod draw;
 pub(crate) mod drawables;
@@ -10,6 +9,7 @@ pub(crate) mod passes;
 pub(crate) mod programs;
 pub(crate) mod record;
 pub(crate) mod renderer;
+pub(crate) mod standard;
 pub(crate) mod strands;
 pub(crate) mod targets;
 pub(crate) mod timer;

@@ -53,7 +53,8 @@ pub(crate) struct Geometry {
     pub(crate) vertices: wgpu::Buffer,
     /// 1 / radius of the surface, one f32 per vertex.
     pub(crate) curvatures: wgpu::Buffer,
-    /// [`GpuExtra`](crate::model::extras::GpuExtra) per vertex, where the mesh has second texture coordinates or colours.
+    /// [`GpuExtra`](crate::model::extras::GpuExtra) per vertex, where the mesh has second texture coordinates
+    /// or colours.
     pub(crate) extras: Option<wgpu::Buffer>,
     /// For the deform pass.
     pub(crate) bind_group: wgpu::BindGroup,

@@ -178,9 +178,9 @@ fn a_surface_of_one_side_is_seen_from_its_front_only() {
 #[test]
 fn a_relief_turns_the_surface_by_its_texture_and_scale() {
     let Some(_) = gpu() else { return };
-    // Tilted toward +u, which is the right of the picture.
-    let right = plain([228, 128, 206, 255]);
-    let textures = PartTextures { normal: Some(&right), ..PartTextures::default() };
+    // Tilted toward +u, which is the right of the picture, and up.
+    let tilted = plain([228, 160, 206, 255]);
+    let textures = PartTextures { normal: Some(&tilted), ..PartTextures::default() };
     let (_, shading) = shadings()[0];
     let draw = |toward_lamp, normal_strength| {
         let gpu = gpu().expect("asked before");
@@ -192,10 +192,11 @@ fn a_relief_turns_the_surface_by_its_texture_and_scale() {
         light_of(shading, 32, &with(key_light(toward_lamp)), &avatar).middle().x
     };
     // ⟨normalize((sample · 2 − 1) · (scale, scale, 1)), lamp⟩: section 3.9.3. White, so nearly the cosine.
-    let (x, z) = (2.0 * 228.0 / 255.0 - 1.0f32, 2.0 * 206.0 / 255.0 - 1.0f32);
+    let [x, y, z] = [228.0, 160.0, 206.0f32].map(|texel| 2.0 * texel / 255.0 - 1.0);
     for scale in [0.5, 1.0] {
-        let normal = Vec3::new(x * scale, 0.0, z).normalize();
-        for toward_lamp in [Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.3, 0.0, 0.95).normalize()] {
+        let normal = Vec3::new(x * scale, y * scale, z).normalize();
+        let lamps = [(0.6, 0.0), (-0.3, 0.0), (0.0, 0.7), (0.0, -0.7f32)];
+        for toward_lamp in lamps.map(|(x, y)| Vec3::new(x, y, (1.0 - x * x - y * y).sqrt())) {
             let (found, expected) = (draw(toward_lamp, scale), normal.dot(toward_lamp));
             assert!((found - expected).abs() < 0.06, "{scale}, {toward_lamp}: {found} for {expected}");
         }

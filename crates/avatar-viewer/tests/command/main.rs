@@ -9,6 +9,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod alpha;
 mod bad_input;
 mod contract;
 mod convert;

@@ -141,6 +141,26 @@ fn materials_come_from_libraries() {
 }
 
 #[test]
+fn the_opacity_of_the_picture_of_the_colour_is_its_alpha() {
+    let text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl hair\nf 1 2 3\n";
+    let material = |library: &str| {
+        let scene = read("a.obj", text.as_bytes(), &mut |path| match path {
+            "a.mtl" => Ok(library.as_bytes().to_vec()),
+            _ => Ok(b"\x89PNG....".to_vec()),
+        })
+        .expect("a good file");
+        let told =
+            scene.notes.iter().any(|note| note.to_string().contains("its opacity texture is left out"));
+        (scene.materials[0].alpha_mode, told, scene.materials[0].double_sided)
+    };
+    // In either order; a file of this kind says nothing about sides.
+    assert_eq!(material("newmtl hair\nmap_Kd a.png\nmap_d a.png\n"), (AlphaMode::Blend, false, true));
+    assert_eq!(material("newmtl hair\nmap_d a.png\nmap_Kd a.png\n"), (AlphaMode::Blend, false, true));
+    assert_eq!(material("newmtl hair\nmap_Kd a.png\nmap_d b.png\n"), (AlphaMode::Opaque, true, true));
+    assert_eq!(material("newmtl hair\nmap_Kd a.png\n"), (AlphaMode::Opaque, false, true));
+}
+
+#[test]
 fn paths_stay_in_the_folder() {
     for (written, asked) in [
         (r"C:\Users\me\skin.png", Some("skin.png")),

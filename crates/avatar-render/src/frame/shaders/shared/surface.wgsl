@@ -15,6 +15,8 @@ struct Surface {
 
 // The tangent frame from derivatives of position and uv: C. Schüler, "Followup: Normal Mapping Without
 // Precomputed Tangents", 2013. The uv's v grows downward while the map's green points up, hence the sign.
+// Rows of pixels go downward, too, which turns both vectors around: the tangent points to smaller u, the
+// bitangent to larger v.
 struct Tangents {
     tangent: vec3f,
     bitangent: vec3f,
@@ -51,6 +53,8 @@ fn relief_normal(position: vec3f, uv: vec2f, normal: vec3f) -> vec3f {
     if has_map {
         let texel = textureSample(normal_texture, repeat_sampler, uv).xyz;
         tilt = (texel.xy * 2.0 - 1.0) * material.normal_strength;
+        // As the standard has it; the relief of packs is made for the tangents above.
+        tilt *= select(1.0, -1.0, (material.textures & TINTED) != 0u);
         height = max(texel.z * 2.0 - 1.0, 0.1);
     }
     if has_pores {

@@ -24,6 +24,6 @@ struct Line {
 
 @fragment
 fn line_main(in: StandardOut) -> Line {
-    let samples = covered_samples(base_color(in).a);
+    let samples = covered_samples(in);
     return Line(target_color(material.outline_color, 1.0), samples);
 }

@@ -14,7 +14,7 @@ struct Cut {
 @fragment
 fn cut_main(in: StandardOut, @builtin(front_facing) is_front: bool) -> Cut {
     let base = base_color(in);
-    let samples = covered_samples(base.a);
+    let samples = covered_samples(in);
     let color = standard_color(in, base.rgb, is_front, view_occlusion(in.position_clip));
     return Cut(vec4f(color, 1.0), samples);
 }

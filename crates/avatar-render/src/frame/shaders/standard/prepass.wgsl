@@ -8,5 +8,5 @@ struct CutNormal {
 @fragment
 fn cut_prepass_main(in: StandardOut, @builtin(front_facing) is_front: bool) -> CutNormal {
     let normal = normalize(in.normal_world) * select(-1.0, 1.0, is_front);
-    return CutNormal(vec4f(normal * 0.5 + 0.5, 1.0), covered_samples(base_color(in).a));
+    return CutNormal(vec4f(normal * 0.5 + 0.5, 1.0), covered_samples(in));
 }

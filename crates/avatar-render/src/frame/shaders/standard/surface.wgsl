@@ -14,8 +14,8 @@ fn standard_surface(in: StandardOut, base: vec3f, is_front: bool) -> Surface {
         let uv = uv_of(in, NORMAL_TEXTURE);
         let tangents = tangents_at(in.position_world, uv, surface.smooth_normal);
         let texel = textureSample(normal_texture, repeat_sampler, uv).xyz * 2.0 - 1.0;
-        surface.normal =
-            tilted(tangents, surface.smooth_normal, texel.xy * material.normal_strength, max(texel.z, 0.1));
+        let tilt = -texel.xy * material.normal_strength;
+        surface.normal = tilted(tangents, surface.smooth_normal, tilt, max(texel.z, 0.1));
     }
     surface.color = base;
     surface.opacity = 1.0;
