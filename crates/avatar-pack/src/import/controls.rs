@@ -7,7 +7,7 @@ use avatar_exchange::Scene;
 use avatar_exchange::look_at::{LookAt, LookAtKind, RangeMap};
 use glam::Vec3;
 use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, face};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its
 /// hinge.
@@ -108,34 +108,37 @@ pub(super) fn controls(
 
 /// One control for all shapes, or sliders of shapes, of a name.
 fn shape_controls(sliders: &Wanted, report: &mut ImportReport, table: &mut Table) {
-    let mut counts = ShapeSet::ALL.map(|set| (set, 0));
-    // Several nodes may have one of a name: the control reaches whatever one of them does.
+    let mut found: BTreeSet<(ShapeSet, &str)> = BTreeSet::new();
+    let driven = &sliders.driven;
+    let apart: HashSet<&str> = driven.apart.iter().map(String::as_str).collect();
+    // Several nodes may have one of a name: the control reaches whatever one of them does. All rest at the
+    // same value.
     let mut ranges: HashMap<&str, (f32, f32, f32)> = HashMap::new();
     // Their names are what poses and the gaze look for; a shape of such a name gets another one.
     table.names.extend(sliders.expressions.iter().cloned());
-    let of_shapes = &sliders.names[..sliders.first_expression];
-    for (shape, (own_min, own_max, own_rest)) in of_shapes.iter().zip(&sliders.ranges) {
-        let (min, max, rest) = ranges.entry(shape).or_default();
+    let (of_shapes, of_expressions) = driven.names.split_at(sliders.first_expression);
+    for (shape, (own_min, own_max, rest)) in of_shapes.iter().zip(&sliders.ranges) {
+        let (min, max, _) = ranges.entry(shape).or_insert((*own_min, *own_max, *rest));
         (*min, *max) = (min.min(*own_min), max.max(*own_max));
-        *rest = if own_rest.abs() > rest.abs() { *own_rest } else { *rest };
     }
     for shape in of_shapes {
         // Each name once, where it is first.
         let Some((min, max, rest)) = ranges.remove(shape.as_str()) else { continue };
-        match ShapeSet::find(shape).map(|(set, _)| set) {
-            Some(set) => {
-                counts.iter_mut().filter(|(other, _)| *other == set).for_each(|(_, count)| *count += 1)
-            }
+        match driven.known.get(shape) {
+            Some(known) => _ = found.insert(*known),
             None => report.other_shapes.push(shape.clone()),
         }
-        let name = face_control(shape).filter(|name| !table.names.contains(*name)).unwrap_or(shape);
+        let of_face = face_control(shape).filter(|_| !apart.contains(shape.as_str()));
+        let name = of_face.filter(|name| !table.names.contains(*name)).unwrap_or(shape);
         table.add(name, Drive::Shape { shape: shape.clone() }, min, max, rest);
     }
-    let of_expressions = &sliders.names[sliders.first_expression..];
     for (name, slider) in sliders.expressions.iter().zip(of_expressions) {
         table.push(name.clone(), Drive::Shape { shape: slider.clone() }, 0.0, 1.0, 0.0);
     }
-    report.shape_sets.extend(counts.into_iter().filter(|(_, count)| *count > 0));
+    let count = |set: ShapeSet| (set, found.iter().filter(|(other, _)| *other == set).count());
+    report.shape_sets.extend(ShapeSet::ALL.map(count).into_iter().filter(|(_, count)| *count > 0));
+    report.apart.clone_from(&driven.apart);
+    report.notes.extend(driven.notes.iter().cloned());
 }
 
 #[derive(Default)]

@@ -1,6 +1,7 @@
 //! Avatars from interchange formats: a scene becomes rig, parts, shapes and controls, and a report says what
 //! of it did not.
 
+mod apart;
 mod controls;
 mod face;
 mod known;
@@ -12,6 +13,7 @@ mod rig;
 mod sections;
 mod shape_sets;
 mod sliders;
+mod spellings;
 #[cfg(feature = "vrm")]
 mod vrm;
 
@@ -50,6 +52,9 @@ pub struct ImportReport {
     pub shape_sets: Vec<(ShapeSet, usize)>,
     /// Shapes that became controls of their own names, unknown ones.
     pub other_shapes: Vec<String>,
+    /// Shapes that have one name at several nodes, where these differ: the controls that they got, each by its
+    /// node's name and a dot before that of the shape.
+    pub apart: Vec<String>,
     /// Joints whose turns became controls of their own names.
     pub other_joints: Vec<String>,
     /// What the file says about itself: name, version, licence, authors, terms of use.
@@ -115,12 +120,12 @@ impl Import {
         }
         note_helpers(leave_helpers_out(&mut scene), &mut report);
         let joints = rig::Joints::of(&scene, &known.roles, &mut report)?;
-        let shapes = parts::ShapeNames::of(&scene);
-        let sliders = sliders::Wanted::of(&scene, &shapes, &known.expressions)?;
+        let mut shapes = parts::ShapeNames::of(&scene);
+        let sliders = sliders::Wanted::of(&scene, &joints.names, &mut shapes, &known.expressions)?;
         let eyes = known.look.and_then(|(look_at, _)| controls::EyeRanges::of(&look_at));
         let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
         let (parts, textures) = parts::parts(&scene, &shapes, &mut report)?;
-        let poses = poses::poses(&controls);
+        let poses = poses::poses(&controls, &sliders.driven.known);
         let head =
             joints.roles.iter().find(|(role, _)| *role == Role::Head).map(|(_, node)| joints.of_node[*node]);
         let look_rule = known
@@ -208,6 +213,7 @@ impl fmt::Display for ImportReport {
             names => writeln!(f, "{what}: {}", names.join(", ")),
         };
         list(f, "shapes by their own names", &self.other_shapes)?;
+        list(f, "shapes that each of their nodes has a control for", &self.apart)?;
         list(f, "joints by their own names", &self.other_joints)?;
         self.notes.iter().try_for_each(|note| writeln!(f, "not represented: {note}"))
     }

@@ -48,9 +48,9 @@ fn lines() -> impl Iterator<Item = &'static str> {
 }
 
 /// The default poses whose main features the face can show, by joints or by shapes that mean the same, and
-/// one pose for each shape. `neutral` puts everything to rest.
-pub(super) fn poses(controls: &ControlTable) -> PoseSet {
-    let translation = Translation::new(controls);
+/// one pose for each shape. `neutral` puts everything to rest. `known` says what the names of shapes mean.
+pub(super) fn poses(controls: &ControlTable, known: &HashMap<String, (ShapeSet, &'static str)>) -> PoseSet {
+    let translation = Translation::new(controls, known);
     let mut set = PoseSet::default_face(&translation.face);
     set.poses.retain_mut(|pose| translation.apply(pose));
     let rest = Pose::from_values("neutral", &controls.defaults());
@@ -74,18 +74,18 @@ pub(super) fn poses(controls: &ControlTable) -> PoseSet {
 struct Translation<'a> {
     face: ControlTable,
     controls: &'a ControlTable,
-    /// The first control of each shape that is known by its name.
-    by_shape: HashMap<&'static str, usize>,
+    /// The controls of each shape that is known by its name: several, where nodes have it that differ.
+    by_shape: HashMap<&'static str, Vec<usize>>,
 }
 
 impl<'a> Translation<'a> {
-    fn new(controls: &'a ControlTable) -> Self {
-        let mut by_shape = HashMap::new();
+    fn new(controls: &'a ControlTable, known: &HashMap<String, (ShapeSet, &'static str)>) -> Self {
+        let mut by_shape: HashMap<_, Vec<usize>> = HashMap::new();
         for (index, control) in controls.controls().iter().enumerate() {
             if let Drive::Shape { shape } = &control.drives
-                && let Some((_, name)) = ShapeSet::find(shape)
+                && let Some((_, name)) = known.get(shape)
             {
-                by_shape.entry(name).or_insert(index);
+                by_shape.entry(*name).or_default().push(index);
             }
         }
         Self { face: ControlTable::default_face(), controls, by_shape }
@@ -172,11 +172,12 @@ impl<'a> Translation<'a> {
                     }
                 }
                 // Half of a frown shows nothing, but must not stay from the pose before.
-                None => stand_in.ways.iter().flatten().filter_map(|shape| self.by_shape.get(shape)).for_each(
-                    |shape| {
+                None => {
+                    let there = stand_in.ways.iter().flatten().filter_map(|shape| self.by_shape.get(shape));
+                    for shape in there.flatten() {
                         values.entry(*shape).or_insert(0.0);
-                    },
-                ),
+                    }
+                }
             }
         }
         is_shown
@@ -185,8 +186,10 @@ impl<'a> Translation<'a> {
     /// The shapes that show what a stand-in is for, by their controls: the first way that the face has all
     /// shapes of.
     fn shapes_of(&self, stand_in: &StandIn) -> Option<Vec<usize>> {
-        let all = |way: &Vec<&str>| way.iter().map(|shape| self.by_shape.get(shape).copied()).collect();
-        stand_in.ways.iter().find_map(all)
+        let mut ways = stand_in.ways.iter();
+        let found: Vec<&Vec<usize>> =
+            ways.find_map(|way| way.iter().map(|shape| self.by_shape.get(shape)).collect())?;
+        Some(found.into_iter().flatten().copied().collect())
     }
 }
 
@@ -208,6 +211,7 @@ fn follows_gaze(lid: f32, eye_up: f32) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::spellings;
     use super::*;
 
     #[test]
@@ -219,7 +223,7 @@ mod tests {
             let control = &face.controls()[face.index(control).expect(control)];
             assert!((control.min..=control.max).contains(full) && *full != 0.0, "{} {full}", control.name);
             for shape in ways.iter().flatten() {
-                assert!(ShapeSet::find(shape).is_some_and(|(_, name)| name == *shape), "{shape}");
+                assert!(spellings::find(shape).is_some_and(|(_, name)| name == *shape), "{shape}");
             }
         }
     }

@@ -3,7 +3,6 @@
 use super::names::plain;
 use super::sections::sections;
 use pose_anim::face;
-use std::collections::HashMap;
 use std::fmt;
 use std::sync::OnceLock;
 
@@ -57,39 +56,6 @@ impl ShapeSet {
         let sets = SETS.get_or_init(|| sections(SHAPES));
         sets.iter().find(|(heading, _)| *heading == self.heading()).map_or(&[], |(_, names)| names)
     }
-
-    /// The set that a shape of this name belongs to, and how the set has the name: upper and lower case,
-    /// separators, and what stands before the last dot do not count, `_L` and `_R` stand for `Left` and
-    /// `Right`.
-    pub(super) fn find(name: &str) -> Option<(Self, &'static str)> {
-        let last = name.rsplit(['.', ':']).next().unwrap_or(name);
-        let known = |name: &str| by_plain_name().get(name).copied();
-        let sided = || {
-            let (stem, side) = last.split_at_checked(last.len().checked_sub(2)?)?;
-            let side = match side {
-                "_L" | "_l" => "left",
-                "_R" | "_r" => "right",
-                _ => return None,
-            };
-            known(&(plain(stem) + side))
-        };
-        let viseme = || known(&format!("viseme{}", plain(last.strip_prefix("viseme_")?)));
-        known(&plain(last)).or_else(sided).or_else(viseme)
-    }
-}
-
-/// All sets' names without what does not count; of sets that share one, the first.
-fn by_plain_name() -> &'static HashMap<String, (ShapeSet, &'static str)> {
-    static NAMES: OnceLock<HashMap<String, (ShapeSet, &'static str)>> = OnceLock::new();
-    NAMES.get_or_init(|| {
-        let mut names = HashMap::new();
-        for set in ShapeSet::ALL {
-            for name in set.names() {
-                names.entry(plain(name)).or_insert((set, *name));
-            }
-        }
-        names
-    })
 }
 
 /// Whether a part is one of those that MakeHuman's base mesh has for fitting clothes, hair and bones to it,
@@ -122,23 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shapes_are_known_by_their_usual_names() {
-        for (name, set) in [
-            ("jawOpen", Some(ShapeSet::ArKit)),
-            ("JawOpen", Some(ShapeSet::ArKit)),
-            ("Face.M_F00_000_00_jawOpen", None),
-            ("head.eyeBlink_L", Some(ShapeSet::ArKit)),
-            ("mouthSmileRight", Some(ShapeSet::ArKit)),
-            ("viseme_PP", Some(ShapeSet::Visemes)),
-            ("SSmile", Some(ShapeSet::Own)),
-            ("Surprised", Some(ShapeSet::Vrm)),
-            ("eye-left-closure", Some(ShapeSet::MakeHuman)),
-            ("mouth_open", Some(ShapeSet::MakeHuman)),
-            ("Key 1", None),
-            ("", None),
-        ] {
-            assert_eq!(ShapeSet::find(name).map(|(set, _)| set), set, "{name}");
-        }
+    fn smiles_and_frowns_have_the_controls_of_the_face() {
         assert_eq!(face_control("Smile"), Some("smile"));
         assert_eq!(face_control("mouthSmileLeft"), None);
     }
@@ -157,7 +107,7 @@ mod tests {
     #[test]
     fn every_set_has_all_its_names() {
         let counts = ShapeSet::ALL.map(|set| set.names().len());
-        assert_eq!(counts, [2, 52, 15, 34, 30]);
+        assert_eq!(counts, [2, 52, 15, 34, 28]);
         let headings: Vec<_> = sections(SHAPES).into_iter().map(|(heading, _)| heading).collect();
         assert_eq!(
             headings,

@@ -1,3 +1,4 @@
+use super::apart::{Driven, Slot};
 use super::known::{EXPRESSION, NamedExpression};
 use super::parts::ShapeNames;
 use crate::{Expressions, Sliders};
@@ -10,21 +11,26 @@ use std::hash::Hash;
 /// What controls are made for: a slider of each name.
 #[derive(Debug, Default)]
 pub(super) struct Wanted {
-    pub(super) names: Vec<String>,
+    /// The sliders: where they are, and their values at rest.
+    slots: Vec<Slot>,
+    /// What controls drive.
+    pub(super) driven: Driven,
     /// Least and greatest values at which shapes stand alone, and 0 and 1; and the values at rest.
     pub(super) ranges: Vec<(f32, f32, f32)>,
     pub(super) sliders: Option<Sliders>,
-    /// From here on `names` are those of expressions.
+    /// From here on the names of `driven` are those of expressions.
     pub(super) first_expression: usize,
     /// What the controls of the expressions are called.
     pub(super) expressions: Vec<String>,
 }
 
 impl Wanted {
-    /// The sliders of the scene; where shapes have none, they are their own. Each expression has one more.
+    /// The sliders of the scene; where shapes have none, they are their own, by names that tell them apart
+    /// where nodes differ. Each expression has one more.
     pub(super) fn of(
         scene: &Scene,
-        shapes: &ShapeNames,
+        node_names: &[String],
+        shapes: &mut ShapeNames,
         known: &[NamedExpression],
     ) -> Result<Self, DriversError> {
         let mut wanted = Self::default();
@@ -38,20 +44,25 @@ impl Wanted {
                 Some(drivers) => wanted.add_node(drivers, first..end, &mut keys, &mut rules),
                 None => {
                     for shape in first..end {
-                        let key = wanted.add(
-                            shapes.names[shape].clone(),
-                            shapes.weights[shape],
-                            [0.0, 1.0],
-                            &mut keys,
-                        );
+                        let slot = Slot {
+                            node,
+                            name: shapes.names[shape].clone(),
+                            shape: Some(shape - first),
+                            rest: shapes.weights[shape],
+                        };
+                        let key = wanted.add(slot, [0.0, 1.0], &mut keys);
                         let rule = Rule::Product(vec![Input::Driver(key)]);
                         rules.push(ShapeRule { shape: key_of(shape), rule });
                     }
                 }
             }
         }
+        wanted.driven = Driven::of(scene, &wanted.slots, node_names);
         let expressions = wanted.add_expressions(shapes, known, &mut keys);
-        if !scene.drivers.is_empty() || !known.is_empty() {
+        if scene.drivers.is_empty() && known.is_empty() {
+            // Each shape is a slider of its own.
+            shapes.names.clone_from(&wanted.driven.names);
+        } else {
             let of_shapes: Vec<String> = (0..shapes.names.len()).map(key_of).collect();
             let drivers = ShapeDrivers::new(&keys, &of_shapes, &rules)?;
             let followed = Followed::new(&keys, &rules);
@@ -64,7 +75,8 @@ impl Wanted {
                     followed.extend((followed.last() != Some(&slider)).then_some(slider));
                 }
             }
-            wanted.sliders = Some(Sliders { names: wanted.names.clone(), of_shapes, drivers, expressions });
+            let names = wanted.driven.names.clone();
+            wanted.sliders = Some(Sliders { names, of_shapes, drivers, expressions });
         }
         Ok(wanted)
     }
@@ -76,8 +88,8 @@ impl Wanted {
         known: &[NamedExpression],
         keys: &mut Vec<String>,
     ) -> Expressions {
-        self.first_expression = self.names.len();
-        let mut names: HashSet<String> = self.names.iter().cloned().collect();
+        self.first_expression = self.driven.names.len();
+        let mut names: HashSet<String> = self.driven.names.iter().cloned().collect();
         let mut bound = vec![false; shapes.names.len()];
         let mut list = Vec::with_capacity(known.len());
         for NamedExpression { name, expression, binds } in known {
@@ -87,7 +99,8 @@ impl Wanted {
             while !names.insert(unique.clone()) {
                 unique.push('\'');
             }
-            self.add(unique, 0.0, [0.0, 1.0], keys);
+            self.add_key(0.0, [0.0, 1.0], keys);
+            self.driven.names.push(unique);
             let place = |bind: usize| {
                 let (node, shape) = *binds.get(bind)?;
                 shapes.place(node, shape)
@@ -103,11 +116,15 @@ impl Wanted {
         Expressions { first_slider: self.first_expression, list, rest: rest.collect() }
     }
 
-    fn add(&mut self, name: String, rest: f32, outermost: [f32; 2], keys: &mut Vec<String>) -> String {
+    /// One more slider; returns its key.
+    fn add(&mut self, slot: Slot, outermost: [f32; 2], keys: &mut Vec<String>) -> String {
+        let rest = if slot.rest.is_finite() { slot.rest } else { 0.0 };
+        self.slots.push(Slot { rest, ..slot });
+        self.add_key(rest, outermost, keys)
+    }
+
+    fn add_key(&mut self, rest: f32, [min, max]: [f32; 2], keys: &mut Vec<String>) -> String {
         let key = format!("slider {}", keys.len());
-        let rest = if rest.is_finite() { rest } else { 0.0 };
-        let [min, max] = outermost;
-        self.names.push(name);
         self.ranges.push((min.min(rest), max.max(rest), rest));
         keys.push(key.clone());
         key
@@ -132,7 +149,7 @@ impl Wanted {
             .map(|(number, name)| {
                 let outermost = outermost.get(name.as_str()).copied().unwrap_or([0.0, 1.0]);
                 let rest = drivers.rest.get(number).copied().unwrap_or(0.0);
-                self.add(name.clone(), rest, outermost, keys)
+                self.add(Slot { node: drivers.node, name: name.clone(), shape: None, rest }, outermost, keys)
             })
             .collect();
         // Of several of one name the first counts.

@@ -1,5 +1,6 @@
 //! Tests of avatar-pack as its users see it, in one binary.
 
+mod apart;
 mod common;
 mod contents;
 mod export;

@@ -24,7 +24,7 @@ fn part(name: &str, node: usize, shapes: &[(&str, Vec3)]) -> ScenePart {
 }
 
 /// Lids that shut in two steps and rest at three quarters of their way; a shape of another node of the same
-/// name as a slider; a corrective shape.
+/// name as a slider, which rests at the same value; a corrective shape.
 fn lids() -> RawScene {
     let node = |name: &str, weights: &[f32]| Node {
         name: name.to_owned(),
@@ -37,7 +37,7 @@ fn lids() -> RawScene {
     };
     let both = ["shut", "smile"].map(|name| Input::Driver(name.to_owned()));
     RawScene {
-        nodes: vec![node("brow", &[0.0]), node("lids", &[0.5, 0.5, 0.0, 0.0])],
+        nodes: vec![node("brow", &[0.75]), node("lids", &[0.5, 0.5, 0.0, 0.0])],
         parts: vec![
             part("brow", 0, &[("shut", Vec3::X)]),
             part(

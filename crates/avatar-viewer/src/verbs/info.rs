@@ -57,6 +57,7 @@ struct ImportedReport {
     joints: BTreeMap<String, String>,
     shape_sets: BTreeMap<String, usize>,
     shapes_by_own_name: Vec<String>,
+    shapes_by_node: Vec<String>,
     joints_by_own_name: Vec<String>,
 }
 
@@ -67,6 +68,7 @@ fn import(report: &ImportReport) -> ImportedReport {
         joints: named.collect(),
         shape_sets: report.shape_sets.iter().map(|(set, count)| (set.to_string(), *count)).collect(),
         shapes_by_own_name: report.other_shapes.clone(),
+        shapes_by_node: report.apart.clone(),
         joints_by_own_name: report.other_joints.clone(),
     }
 }
@@ -160,10 +162,13 @@ fn text(report: &Report<'_>) -> String {
         for (set, count) in &import.shape_sets {
             let _ = writeln!(out, "{count} shapes of {set}");
         }
-        for (what, names) in [("shapes", &import.shapes_by_own_name), ("joints", &import.joints_by_own_name)]
-        {
+        for (what, names) in [
+            ("shapes under their own names", &import.shapes_by_own_name),
+            ("shapes of one name that differ between nodes", &import.shapes_by_node),
+            ("joints under their own names", &import.joints_by_own_name),
+        ] {
             if !names.is_empty() {
-                let _ = writeln!(out, "{what} under their own names: {}", names.join(", "));
+                let _ = writeln!(out, "{what}: {}", names.join(", "));
             }
         }
     }
