@@ -52,6 +52,10 @@ pub(super) fn read<'a>(
             let text = "faces with less than three corners are left out";
             note(&mut scene.notes, place.as_str(), Finding::left_out(text));
         }
+        if mesh.subdivision_display_mode != ufbx::SubdivisionDisplayMode::Disabled {
+            let text = "it is a subdivision surface, of which the cage is read";
+            note(&mut scene.notes, place.as_str(), Finding::converted(text));
+        }
         if mesh.uv_sets.len() > 1 {
             let text = format!("{} further sets of texture coordinates are left out", mesh.uv_sets.len() - 1);
             note(&mut scene.notes, place.as_str(), Finding::LeftOut(text));

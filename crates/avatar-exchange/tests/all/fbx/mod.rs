@@ -2,6 +2,7 @@
 
 mod others;
 mod reference;
+mod takes;
 
 use crate::support::damage::read_any;
 use avatar_exchange::{ImportError, Scene, Transform, fbx};
