@@ -212,8 +212,11 @@ fn what_else_targets_move_is_noted() {
     assert_eq!(of_targets, ["meshes, targets: 'TEXCOORD_0' is left out"]);
 }
 
+/// Pointer, times, values, their type and how to interpolate.
+type Pointed<'p> = (&'p str, &'p [f32], &'p [f32], &'p str, &'p str);
+
 /// Two nodes that show a mesh of two targets, the second with weights of its own, and channels by pointer.
-fn pointed(channels: &[(&str, &[f32], &[f32], &str, &str)]) -> (Builder, String) {
+fn pointed(channels: &[Pointed<'_>]) -> (Builder, String) {
     let mut file = Builder::default();
     let position = file.triangle();
     let (mut samplers, mut targets) = (Vec::new(), Vec::new());
