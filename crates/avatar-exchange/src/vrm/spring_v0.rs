@@ -49,8 +49,7 @@ pub(super) fn read(place: &Place<'_>, raw: &mut RawScene) -> Result<Springs, Imp
         for root in place.list("bones")? {
             let Some(root) = root.index_or_none("a node", raw.nodes.len())? else { continue };
             let first = springs.chains.len();
-            again += usize::from(used[root]);
-            add(root, &model, joint, &descent, &mut used, &mut left, &mut springs.chains);
+            again += add(root, &model, joint, &descent, &mut used, &mut left, &mut springs.chains);
             if left == 0 && springs.chains.len() > first {
                 let expected = format!("at most {MOST_REFERENCES} mentions of colliders in all chains");
                 return Err(place.wrong(expected));
@@ -90,7 +89,7 @@ fn mirrored(place: &Place<'_>) -> Result<Vec3, ImportError> {
 }
 
 /// A chain along the first children, and one more from each other child on. `left` counts what may still be
-/// copied for chains.
+/// copied for chains. Returns at how many nodes another spring had been already.
 fn add(
     root: usize,
     model: &SpringChain,
@@ -99,7 +98,8 @@ fn add(
     used: &mut [bool],
     left: &mut usize,
     chains: &mut Vec<SpringChain>,
-) {
+) -> usize {
+    let mut again = 0;
     let mut starts = vec![root];
     while let Some(start) = starts.pop() {
         let mut joints = Vec::new();
@@ -109,9 +109,11 @@ fn add(
             starts.extend(descent.children(node).iter().skip(1).rev());
             next = descent.children(node).first().copied();
         }
+        again += usize::from(next.is_some());
         if !joints.is_empty() && *left > 0 {
             *left = left.saturating_sub(1 + model.collider_groups.len() + model.name.len());
             chains.push(SpringChain { joints, ..model.clone() });
         }
     }
+    again
 }

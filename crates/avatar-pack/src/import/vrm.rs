@@ -1,6 +1,6 @@
 use super::known::{EXPRESSION, Known, NamedExpression};
 use super::{Import, ImportFailure, Role};
-use avatar_exchange::vrm::{Expression, Meta, Vrm, VrmModel};
+use avatar_exchange::vrm::{Expression, FirstPersonView, Meta, Vrm, VrmModel};
 use pose_anim::{ControlTable, Drive, Pose};
 use std::collections::HashMap;
 
@@ -105,11 +105,12 @@ fn about(meta: &Meta) -> Vec<(String, String)> {
 
 /// Notes what was read and moves nothing.
 fn note_what_rests(vrm: &Vrm, import: &mut Import) {
-    let views = vrm.first_person.views.len();
+    let views = vrm.first_person.views.iter();
+    let own = views.filter(|(_, view)| *view == FirstPersonView::FirstPersonOnly).count();
     for (count, what) in [
         (vrm.springs.chains.len(), "springs of hair and clothes are at rest"),
         (vrm.constraints.len(), "nodes that turn with others stay as they are"),
-        (views, "parts are shown to everybody, whatever the character itself is to see of them"),
+        (own, "parts that only the character itself is to see are shown"),
     ] {
         if count > 0 {
             import.note(format!("VRM: {count} {what}"));

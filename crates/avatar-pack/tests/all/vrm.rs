@@ -352,3 +352,33 @@ fn names_of_shapes_in_primitives_are_as_good_as_those_of_the_mesh() {
         assert!(in_primitive.pack.poses().get(pose).is_some(), "{pose}");
     }
 }
+
+#[test]
+fn what_is_read_and_moves_nothing_is_noted() {
+    let vrm = VRM
+        .replace(
+            r#""extensions": {"#,
+            r#""extensions": {"VRMC_springBone": {"specVersion": "1.0",
+            "springs": [{"joints": [{"node": 1}, {"node": 2}]}]}, "#,
+        )
+        .replace(
+            r#""expressions""#,
+            r#""firstPerson": {"meshAnnotations": [{"node": 1, "type": "both"},
+            {"node": 2, "type": "firstPersonOnly"}]}, "expressions""#,
+        )
+        .replace(
+            r#"{"name": "c", "#,
+            r#"{"name": "c", "extensions": {"VRMC_node_constraint":
+            {"specVersion": "1.0", "constraint": {"rotation": {"source": 0}}}}, "#,
+        );
+    let model = read("nina.vrm", &glb(&vrm), &mut |_| Err(String::new())).expect("a VRM");
+    let Import { pack, report, .. } = Import::from_vrm(model).expect("an avatar");
+    for note in [
+        "VRM: 1 springs of hair and clothes are at rest",
+        "VRM: 1 nodes that turn with others stay as they are",
+        "VRM: 1 parts that only the character itself is to see are shown",
+    ] {
+        assert!(report.notes.iter().any(|other| other == note), "{note}: {:?}", report.notes);
+        assert!(pack.warnings().iter().any(|other| other.to_string().contains(note)), "{note}");
+    }
+}

@@ -158,6 +158,22 @@ fn springs_of_version_0_become_chains_along_first_children() {
     assert!(notes.iter().any(|note| note == again), "{notes:?}");
 }
 
+/// A root above another one that came first: its chain ends where the other begins.
+#[test]
+fn no_node_of_version_0_is_in_two_chains() {
+    let mut json = v0();
+    let groups = "/extensions/VRM/secondaryAnimation/boneGroups";
+    set(&mut json, &format!("{groups}/0/bones"), json!([7]));
+    set(&mut json, &format!("{groups}/1/bones"), json!([6]));
+    let model = read(&json).expect("a VRM");
+    let nodes = |chain: &SpringChain| chain.joints.iter().map(|joint| joint.node).collect::<Vec<_>>();
+    let chains: Vec<_> = model.vrm.springs.chains.iter().map(nodes).collect();
+    assert_eq!(chains, [vec![7, 8], vec![6], vec![9]]);
+    let place = "extensions.VRM.secondaryAnimation.boneGroups[1]";
+    let again = format!("{place}: 1 of its bones are in another spring already, and left out");
+    assert!(notes(&model).contains(&again), "{:?}", notes(&model));
+}
+
 /// A file may require what it uses: it is read here.
 #[test]
 fn extensions_of_the_format_may_be_required() {
