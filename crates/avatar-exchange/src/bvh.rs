@@ -1,9 +1,9 @@
 //! Biovision hierarchies: a skeleton, and its motion as one clip.
 //!
-//! The format states neither axes nor units: they stay as they are. At rest a joint stands at its offset; in a
-//! frame its position channels take the offset's place, as in Blender and in the files of programs that write
-//! positions for every joint. Its rotation is the product of its rotation channels in their order, so that the
-//! last one acts first.
+//! The format states neither axes nor units: they stay as they are. At rest a joint stands at its offset; in
+//! a frame its position channels take the offset's place, as in Blender and in the files of programs that
+//! write positions for every joint. Its rotation is the product of its rotation channels in their order, so
+//! that the last one acts first.
 //!
 //! ```
 //! let text = "HIERARCHY\nROOT hip\n{\nOFFSET 0 1 0\nCHANNELS 1 Zrotation\nEnd Site\n{\nOFFSET 0 2 0\n}\n}\n\

@@ -89,6 +89,9 @@ impl<'a> Reader<'a> {
             let text = format!("{} further sets of texture coordinates are left out", uvs.len() - 1);
             self.note(at, Finding::LeftOut(text));
         }
+        if all.iter().any(|input| input.semantic == "COLOR") {
+            self.note(at, Finding::left_out("colours of vertices are left out"));
+        }
         let uv = uvs.first().map(|input| (input.offset, input.source));
         let of = |semantic| {
             all.iter().find(|input| input.semantic == semantic).map(|input| (input.offset, input.source))

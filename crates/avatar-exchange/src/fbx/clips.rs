@@ -143,7 +143,8 @@ fn node_channels<'a>(
     Ok(())
 }
 
-/// Nodes that hold a scale which acts on a node's place, or, where the node itself is such a one, on its scale.
+/// Nodes that hold a scale which acts on a node's place, or, where the node is such a one itself, on its
+/// scale.
 fn scales_above(node: &ufbx::Node) -> Vec<u32> {
     let Some(parent) = &node.parent else { return Vec::new() };
     let beside = parent.scale_helper.as_ref().filter(|_| !node.is_scale_helper);

@@ -1,5 +1,6 @@
 //! When the curves of a take have to be evaluated, so that straight lines between these times are what the
-//! file says: at all keys, on both sides of jumps, and at the file's own frames where a curve is not straight.
+//! file says: at all keys, on both sides of jumps, and at the file's own frames where a curve is not
+//! straight.
 
 use crate::build::budget::{Budget, Exceeded};
 use std::collections::{HashMap, HashSet};
@@ -84,7 +85,8 @@ impl<'a> Curves<'a> {
         Self { of_property, connections, rate, range, used: HashSet::new(), going_on: HashSet::new() }
     }
 
-    /// When to evaluate what depends on these properties, in order; nothing where the take moves none of them.
+    /// When to evaluate what depends on these properties, in order; nothing where the take moves none of
+    /// them.
     pub(super) fn moments(
         &mut self,
         sources: &[Source<'a>],

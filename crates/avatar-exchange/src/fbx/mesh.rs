@@ -56,6 +56,9 @@ pub(super) fn read<'a>(
             let text = "it is a subdivision surface, of which the cage is read";
             note(&mut scene.notes, place.as_str(), Finding::converted(text));
         }
+        if !mesh.color_sets.is_empty() {
+            note(&mut scene.notes, place.as_str(), Finding::left_out("colours of vertices are left out"));
+        }
         if mesh.uv_sets.len() > 1 {
             let text = format!("{} further sets of texture coordinates are left out", mesh.uv_sets.len() - 1);
             note(&mut scene.notes, place.as_str(), Finding::LeftOut(text));

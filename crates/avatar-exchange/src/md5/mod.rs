@@ -1,9 +1,9 @@
 //! Meshes and animations of id Tech 4: `.md5mesh` and `.md5anim`, version 10.
 //!
-//! In the format z points up and models look along x; triangles run clockwise. Numbers stay those of the file,
-//! below a root node that turns x to z, y to x and z to y, so that faces look along +Z; triangles are turned
-//! around. Texture coordinates begin at the top left already.
-//! Normals are computed, since there are none in the file, and a shader is a name only.
+//! In the format z points up and models look along x; triangles run clockwise. Numbers stay those of the
+//! file, below a root node that turns x to z, y to x and z to y, so that faces look along +Z; triangles are
+//! turned around. Texture coordinates begin at the top left already. Normals are computed, since there are
+//! none in the file, and a shader is a name only.
 //!
 //! ```
 //! use avatar_exchange::{TextFile, md5::read};
