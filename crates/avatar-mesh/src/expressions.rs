@@ -1,7 +1,6 @@
-//! Expressions that add shapes up and hold each other back: how VRM 1.0 makes weights of shapes from values of
-//! expressions
-//! ([expressions.md](https://github.com/vrm-c/vrm-specification/blob/master/specification/VRMC_vrm-1.0/expressions.md),
-//! "Procedural override"). A smile may keep the eyes from blinking, so that lids do not pierce cheeks.
+//! Expressions that add shapes up and hold each other back: how VRM 1.0 makes weights of shapes from values
+//! of expressions (`expressions.md` of its specification, "Procedural override"). A smile may keep the eyes
+//! from blinking, so that lids do not pierce cheeks.
 //!
 //! ```text
 //! output = clamp(value, 0, 1), or 1 where a binary one is above 0.5, else 0
@@ -74,8 +73,8 @@ pub fn output(value: f32, is_binary: bool) -> f32 {
     }
 }
 
-/// Adds to weights what expressions of these values make. Expressions without a value have 0; binds beyond the
-/// weights do nothing. Allocates nothing.
+/// Adds to weights what expressions of these values make. Expressions without a value have 0; binds beyond
+/// the weights do nothing. Allocates nothing.
 ///
 /// ```
 /// use avatar_mesh::expressions::{Expression, Group, Override, add};

@@ -1,4 +1,4 @@
-use crate::gaze::LookRule;
+use crate::look_rule::LookRule;
 use crate::{ContentsError, SceneMotion, Sliders, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};

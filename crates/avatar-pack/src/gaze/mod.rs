@@ -17,7 +17,7 @@ use pose_anim::{Control, Drive, JointMotion, face};
 use rule::Follower;
 use solve::Unknown;
 
-pub use rule::{LookRule, gaze_values};
+pub use rule::gaze_values;
 
 /// Directions further from straight ahead say nothing about the side.
 const WIDEST_RAD: f32 = 0.95 * std::f32::consts::PI;
@@ -75,8 +75,8 @@ impl Gaze {
         (!eyes.is_empty() || rule.is_some()).then_some(Self { state, values, eyes, head, rule })
     }
 
-    /// Whether eyes follow a rule of the file ([`Pack::look_rule`]): then they find the same values each time,
-    /// to the last bit.
+    /// Whether eyes follow a rule of the file ([`Pack::look_rule`]): then they find the same values each
+    /// time, to the last bit.
     pub fn follows_rule(&self) -> bool {
         self.rule.is_some()
     }
@@ -95,8 +95,8 @@ impl Gaze {
     /// from straight ahead to the target, and then to the nearest direction within the ranges. Behind the
     /// eyes both take the direction from the middle between them, so that they do not part or cross.
     ///
-    /// Where the pack has a [`Pack::look_rule`], the values are those of the rule instead, which need not meet
-    /// the target.
+    /// Where the pack has a [`Pack::look_rule`], the values are those of the rule instead, which need not
+    /// meet the target.
     ///
     /// # Errors
     /// As [`FaceState::pose`].

@@ -1,18 +1,8 @@
-use crate::import::EXPRESSION;
+use crate::look_rule::{EXPRESSION, LookRule};
 use crate::{FaceState, Pack};
 use avatar_exchange::look_at::{Gaze as Angles, LookAt, LookAtKind};
 use glam::{DAffine3, Vec3};
 use pose_anim::face;
-use rig_core::JointId;
-
-/// How a file says that eyes look at things.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LookRule {
-    /// What moves, and how far.
-    pub look_at: LookAt,
-    /// The joint of the head, in whose space the place between the eyes is.
-    pub head: JointId,
-}
 
 /// The values of the controls of the eyes for a gaze as the head sees it, through the file's ranges:
 /// `eye.left.lr` and so on, in degrees. For look-at by bones; for that by expressions there is

@@ -22,6 +22,3 @@ pub(super) struct NamedExpression {
     /// Nodes and their shapes.
     pub(super) binds: Vec<(usize, usize)>,
 }
-
-/// What the controls of expressions are called: this, and the expression's name.
-pub(crate) const EXPRESSION: &str = "expression.";

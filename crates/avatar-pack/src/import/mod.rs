@@ -17,12 +17,11 @@ mod spellings;
 #[cfg(feature = "vrm")]
 mod vrm;
 
-pub(crate) use known::EXPRESSION;
 pub use names::Role;
 pub use shape_sets::ShapeSet;
 pub(crate) use shape_sets::face_control;
 
-use crate::gaze::LookRule;
+use crate::look_rule::LookRule;
 use crate::{ContentsError, FaceError, FaceState, Pack, PackContents, SceneMotion, Textures, Warning};
 use avatar_exchange::Scene;
 use avatar_look::Materials;

@@ -1,6 +1,7 @@
 use super::apart::{Driven, Slot};
-use super::known::{EXPRESSION, NamedExpression};
+use super::known::NamedExpression;
 use super::parts::ShapeNames;
+use crate::look_rule::EXPRESSION;
 use crate::{Expressions, Sliders};
 use avatar_exchange::{NodeDrivers, Scene};
 use avatar_mesh::drivers::{DriversError, Input, Rule, ShapeDrivers, ShapeRule};

@@ -1,5 +1,6 @@
-use super::known::{EXPRESSION, Known, NamedExpression};
+use super::known::{Known, NamedExpression};
 use super::{Import, ImportFailure, Role};
+use crate::look_rule::EXPRESSION;
 use avatar_exchange::vrm::{Expression, FirstPersonView, Meta, Vrm, VrmModel};
 use pose_anim::{ControlTable, Drive, Pose};
 use std::collections::HashMap;
