@@ -3,15 +3,16 @@
 
 use crate::scene::ImportError;
 
-/// Vertices and moved vertices of shapes that one file may have where they are counted: some 1 GiB.
+/// Bytes that every file may unpack to. Pictures, what is needed while it unpacks, and what becomes of a scene
+/// come on top: altogether at most 256 MiB, and 64 bytes for each byte of the file.
+#[cfg(any(feature = "collada", feature = "fbx", feature = "obj", feature = "gltf"))]
+const BASE_BYTES: u64 = 112 << 20;
+/// So many bytes more for each of the file's own.
+#[cfg(any(feature = "collada", feature = "fbx", feature = "obj", feature = "gltf"))]
+const BYTES_PER_BYTE: u64 = 32;
+/// What a vertex takes, or one that a shape moves, where these are counted.
 #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
-const MAX_VERTICES: u64 = 1 << 24;
-/// Bytes that every file may unpack to,
-#[cfg(feature = "gltf")]
-const BASE_BYTES: u64 = 256 << 20;
-/// and so many more for each of its own.
-#[cfg(feature = "gltf")]
-const BYTES_PER_BYTE: u64 = 64;
+const BYTES_PER_VERTEX: u64 = 64;
 
 /// How much may still be unpacked.
 #[derive(Debug)]
@@ -43,20 +44,21 @@ impl Exceeded {
 }
 
 impl Budget {
-    /// Counts vertices of all parts, of their shapes and of motion: [`MAX_VERTICES`] whatever the file's
-    /// size.
+    /// Counts vertices of all parts, of their shapes and of motion, as many as the bytes of
+    /// [`Budget::of_bytes`] hold.
     #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
-    pub(crate) fn of_vertices() -> Self {
-        Self { left: MAX_VERTICES, unit: Unit::Vertices }
+    pub(crate) fn of_vertices(input_bytes: usize) -> Self {
+        let bytes = BASE_BYTES.saturating_add((input_bytes as u64).saturating_mul(BYTES_PER_BYTE));
+        Self { left: bytes / BYTES_PER_VERTEX, unit: Unit::Vertices }
     }
 
     /// As [`Budget::of_vertices`], with so many left.
     #[cfg(all(test, feature = "fbx"))]
     pub(crate) fn with_vertices_left(left: u64) -> Self {
-        Self { left, ..Self::of_vertices() }
+        Self { left, ..Self::of_vertices(0) }
     }
 
-    /// Counts bytes: 256 MiB and 64 times the file's own bytes.
+    /// Counts bytes: [`BASE_BYTES`], and [`BYTES_PER_BYTE`] for each of the file.
     #[cfg(feature = "gltf")]
     pub(crate) fn of_bytes(input_bytes: usize) -> Self {
         let mut budget = Self { left: BASE_BYTES, unit: Unit::Bytes };
@@ -90,8 +92,11 @@ impl Budget {
             None => Err(match self.unit {
                 #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
                 Unit::Vertices => Exceeded {
-                    expected: format!("at most {MAX_VERTICES} vertices in all parts and shapes"),
-                    found: "more".to_owned(),
+                    expected: format!(
+                        "at most {} vertices more in parts and shapes of a file of this size",
+                        self.left
+                    ),
+                    found: wanted.to_string(),
                 },
                 #[cfg(feature = "gltf")]
                 Unit::Bytes => Exceeded {

@@ -27,7 +27,7 @@ pub(crate) struct Corners {
     known: HashMap<[u32; 10], u32>,
     /// The vertices, each a corner that stands for all like it.
     pub(crate) vertices: Vec<Corner>,
-    triangles: Vec<[u32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl Corners {

@@ -70,7 +70,7 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     let mut reader = Reader {
         tree: &tree,
         scene: RawScene::default(),
-        budget: Budget::of_vertices(),
+        budget: Budget::of_vertices(bytes.len()),
         cutter: Cutter::default(),
         sources: HashMap::new(),
         geometries: HashMap::new(),

@@ -10,6 +10,10 @@ use std::collections::{HashMap, HashSet};
 /// Nodes whose weights a `<source>` holds.
 pub(super) type WeightNodes = HashMap<usize, Vec<usize>>;
 
+/// Vertices that take as much as a part does without any, with the joint and the controls that become of its
+/// node.
+const PART_COST: usize = 32;
+
 impl<'a> Reader<'a> {
     /// Reads all parts. `materials` are numbers by element.
     pub(super) fn read_parts(
@@ -94,7 +98,9 @@ impl<'a> Reader<'a> {
             if primitive.corners.is_empty() {
                 continue;
             }
-            self.take(at, primitive.corners.vertices.len())?;
+            // A part and its triangles, of which five take as much as a vertex.
+            let corners = &primitive.corners;
+            self.take(at, corners.vertices.len() + corners.triangles.len() / 5 + PART_COST)?;
             let mesh = primitive.corners.mesh(&geometry.points);
             let mut part = ScenePart::rigid(chain.geometry.label(), node, mesh);
             for (name, offsets) in &morph.shapes {

@@ -24,10 +24,11 @@ use glam::{Quat, Vec3};
 
 /// Nesting of nodes that the library accepts.
 const MAX_DEPTH: u32 = 1024;
-/// Memory that the library may take: this much, and 128 bytes for each byte of the file. Arrays in files are
-/// compressed, by a factor of up to a thousand if they are hostile.
+/// Memory that the library may take for what it has read, and as much while it reads: this, and 20 bytes for
+/// each byte of the file. Arrays in files are compressed, by a factor of up to a thousand if they are hostile.
+/// What becomes of them here comes on top, within 256 MiB and 64 bytes for each byte.
 const MEMORY_BYTES: usize = 64 << 20;
-const MEMORY_PER_BYTE: usize = 128;
+const MEMORY_PER_BYTE: usize = 20;
 /// And never more than this.
 const MAX_MEMORY_BYTES: usize = 2 << 30;
 /// How often the library tells where it is: what errors name as their place.
@@ -66,7 +67,7 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     note_conversion(&fbx, &mut scene.notes);
     read_nodes(&fbx, &mut scene)?;
     material::read(&fbx, resolve, &mut scene);
-    let mut budget = Budget::of_vertices();
+    let mut budget = Budget::of_vertices(bytes.len());
     let blends = mesh::read(&fbx, &mut scene, &mut budget)?;
     clips::read(&fbx, &blends, &mut scene, &mut budget)?;
     note_the_rest(&fbx, &mut scene.notes);

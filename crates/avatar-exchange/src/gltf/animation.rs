@@ -115,6 +115,7 @@ impl Document<'_> {
             }
         };
         let times = self.floats::<1, [f32; 1]>(sampler.input, Type::Scalar)?;
+        self.take(&format!("sampler {number}"), times.len(), size_of::<f64>())?;
         let times = times.into_iter().map(|[time]| f64::from(time)).collect();
         let values = match target {
             ChannelTarget::Rotation => {

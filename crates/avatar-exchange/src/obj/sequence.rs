@@ -49,9 +49,10 @@ pub fn read_sequence(frames: &[ObjFrame<'_>], resolve: &mut Resolve<'_>) -> Resu
     };
     let mut base = read_obj(first.file, first.bytes, resolve)?;
     let names = unique_names(order.iter().map(|frame| stem(frame.file).to_owned()).collect());
+    let bytes = order.iter().map(|frame| frame.bytes.len()).sum();
     let vertices: usize = base.parts.iter().map(|part| part.mesh.positions.len()).sum();
     let too_much = |exceeded: Exceeded| exceeded.at("the sequence").in_file(first.file);
-    Budget::of_vertices().take(vertices, count).map_err(too_much)?;
+    Budget::of_vertices(bytes).take(vertices, count).map_err(too_much)?;
     for (number, (frame, name)) in order.iter().zip(names).enumerate() {
         if number == 0 {
             base.add_shape(&name, &[])?;

@@ -2,8 +2,8 @@ use super::error::{ImportError, quoted};
 use super::material::SceneImage;
 use super::note::{Finding, Note};
 use super::raw::{Channel, ChannelTarget, Interpolation, Node, RawScene, ScenePart, Transform};
-use avatar_mesh::MeshWarning;
 use avatar_mesh::drivers::ShapeDrivers;
+use avatar_mesh::{Mesh, MeshWarning};
 use glam::Affine3A;
 use std::ops::Deref;
 
@@ -58,6 +58,12 @@ impl Scene {
     /// Leaves parts out. Nodes, and with them the palette, stay.
     pub fn retain_parts(&mut self, keep: impl FnMut(&ScenePart) -> bool) {
         self.raw.parts.retain(keep);
+    }
+
+    /// Takes the mesh of a part, so that what keeps it need not copy it, and leaves an empty one: the scene is
+    /// then good for its nodes, clips, looks and pictures only.
+    pub fn take_mesh(&mut self, part: usize) -> Option<Mesh> {
+        self.raw.parts.get_mut(part).map(|part| std::mem::take(&mut part.mesh))
     }
 
     /// Checks a scene. Weights of bones that do not quite sum to 1 are divided by their sum, with a note.

@@ -123,7 +123,7 @@ impl Import {
         let sliders = sliders::Wanted::of(&scene, &joints.names, &mut shapes, &known.expressions)?;
         let eyes = known.look.and_then(|(look_at, _)| controls::EyeRanges::of(&look_at));
         let controls = controls::controls(&scene, &joints, eyes, &sliders, &mut report)?;
-        let (parts, textures) = parts::parts(&scene, &shapes, &mut report)?;
+        let (parts, textures) = parts::parts(&mut scene, &shapes, &mut report)?;
         let poses = poses::poses(&controls, &sliders.driven.known);
         let head =
             joints.roles.iter().find(|(role, _)| *role == Role::Head).map(|(_, node)| joints.of_node[*node]);

@@ -43,37 +43,47 @@ impl ShapeNames {
     }
 }
 
-/// The parts, which know the places of their shapes in the common list, and their pictures.
+/// The parts, which know the places of their shapes in the common list, and their pictures. The scene's
+/// meshes become theirs, so that they are not in memory twice.
 pub(super) fn parts(
-    scene: &Scene,
+    scene: &mut Scene,
     shapes: &ShapeNames,
     report: &mut ImportReport,
 ) -> Result<(Vec<Part>, Textures), ImportFailure> {
     let names = unique_names(scene.parts.iter().map(|part| part_name(scene, part)), "part");
     let mut looks = Looks::of(scene);
-    let parts = (scene.parts.iter().zip(names))
-        .map(|(part, name)| {
-            let (kind, material) = looks.take(scene, part, &name, report);
-            let bone = match part.skin {
-                Some(_) => None,
-                None => scene.palette().rigid.get(part.node).copied().flatten(),
-            };
-            let mut mesh = part.mesh.clone();
-            // Shapes that move positions only get the normals of the moved surface.
-            mesh.add_shape_normals();
-            to_palette(scene, part, &mut mesh)?;
-            let first_shape = shapes.first.get(part.node).copied().unwrap_or(0);
-            let bytes = mesh.positions.len() * 32 + mesh.triangles.len() * 12;
-            Ok(Part { name, kind, mesh, first_shape, bytes, bone, material: Some(material), bounds: None })
-        })
-        .collect::<Result<Vec<Part>, ImportFailure>>()?;
+    let mut parts = Vec::with_capacity(names.len());
+    for (number, name) in names.into_iter().enumerate() {
+        let Some(part) = scene.parts.get(number) else { continue };
+        let (kind, material) = looks.take(scene, part, &name, report);
+        let bone = match part.skin {
+            Some(_) => None,
+            None => scene.palette().rigid.get(part.node).copied().flatten(),
+        };
+        let (skin, first_shape) = (part.skin, shapes.first.get(part.node).copied().unwrap_or(0));
+        let mut mesh = scene.take_mesh(number).unwrap_or_default();
+        // Shapes that move positions only get the normals of the moved surface.
+        mesh.add_shape_normals();
+        to_palette(scene, skin, &mut mesh)?;
+        let bytes = mesh.positions.len() * 32 + mesh.triangles.len() * 12;
+        parts.push(Part {
+            name,
+            kind,
+            mesh,
+            first_shape,
+            bytes,
+            bone,
+            material: Some(material),
+            bounds: None,
+        });
+    }
     Ok((parts, looks.into_textures()))
 }
 
 /// Bones of a scene's part are joints of its skin; those of a pack's part are entries of the palette, in
 /// which the joints of all skins follow each other.
-fn to_palette(scene: &Scene, part: &ScenePart, mesh: &mut Mesh) -> Result<(), ImportFailure> {
-    let (Some(skin), Some(skinning)) = (part.skin, &mut mesh.skinning) else { return Ok(()) };
+fn to_palette(scene: &Scene, skin: Option<usize>, mesh: &mut Mesh) -> Result<(), ImportFailure> {
+    let (Some(skin), Some(skinning)) = (skin, &mut mesh.skinning) else { return Ok(()) };
     let palette = scene.palette();
     let first = palette.skins.get(skin).copied().unwrap_or(0);
     for bone in skinning.bones.iter_mut().chain(&mut skinning.more_bones).flatten() {

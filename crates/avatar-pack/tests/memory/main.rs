@@ -1,0 +1,85 @@
+//! Small files that claim to be large: whatever they say, reading them and making an avatar of them takes no
+//! more than 64 times their own size and 256 MiB. A program of its own, since it counts what it allocates.
+//!
+//! What the C library that reads FBX allocates is not counted here; it has a limit of its own
+//! (`avatar_exchange::fbx`), which is part of the sum.
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test may panic, and prints what it measured"
+)]
+
+mod bytes;
+mod gltf;
+mod others;
+
+use avatar_exchange::TextFile;
+use avatar_pack::Import;
+
+const MIB: u64 = 1 << 20;
+/// What reading may take whatever the file's size is, and for each of its bytes.
+const BASE: u64 = 256 * MIB;
+const PER_BYTE: u64 = 64;
+
+/// What became of a file.
+#[derive(Debug)]
+enum Outcome {
+    /// An avatar.
+    Read,
+    /// An error, and its text.
+    Refused(String),
+}
+
+impl Outcome {
+    fn is_read(&self) -> bool {
+        matches!(self, Self::Read)
+    }
+}
+
+/// Reads a file and files that belong to it up to an avatar, and measures the most that it holds at a time.
+/// `beside` is what is held where it is not counted.
+fn measured(name: &str, bytes: &[u8], further: &[(&str, &[u8])], beside: u64) -> Outcome {
+    let texts: Vec<TextFile<'_>> = further.iter().map(|(file, bytes)| TextFile { file, bytes }).collect();
+    let size = (bytes.len() + further.iter().map(|(_, bytes)| bytes.len()).sum::<usize>()) as u64;
+    let mut outcome = None;
+    let info = allocation_counter::measure(|| {
+        let scene = avatar_exchange::read(name, bytes, &texts, &mut |_| Err("no files".to_owned()));
+        outcome = Some(match scene.map_err(|error| error.to_string()) {
+            Ok(scene) => match Import::from_scene(scene) {
+                Ok(_) => Outcome::Read,
+                Err(error) => Outcome::Refused(error.to_string()),
+            },
+            Err(error) => Outcome::Refused(error),
+        });
+    });
+    let outcome = outcome.expect("it was read");
+    let (peak, limit) = (info.bytes_max + beside, BASE + PER_BYTE * size);
+    let what = match &outcome {
+        Outcome::Read => "read".to_owned(),
+        Outcome::Refused(why) => format!("refused: {}", why.chars().take(150).collect::<String>()),
+    };
+    println!("{name}: {size} bytes, {} of {} MiB, {what}", peak / MIB, limit / MIB);
+    assert!(peak <= limit, "{name}: {size} bytes took {} MiB of {}: {what}", peak / MIB, limit / MIB);
+    outcome
+}
+
+/// Reads files that claim more and more, eight times as much each time, until they are refused: the largest
+/// that is read is what takes most.
+fn growing(name: &str, file: impl Fn(u64) -> Vec<u8>) {
+    let mut was_read = false;
+    for step in 1..11 {
+        let count = 1 << (3 * step);
+        let outcome = measured(&format!("{count}.{name}"), &file(count), &[], 0);
+        was_read |= outcome.is_read();
+        if !outcome.is_read() && was_read {
+            return;
+        }
+    }
+}
+
+#[test]
+fn the_measure_itself_works() {
+    let info = allocation_counter::measure(|| drop(vec![0_u8; 3 << 20]));
+    assert_eq!(info.bytes_max, 3 * MIB);
+}
