@@ -229,6 +229,13 @@ fn errors_have_places() {
 }
 
 #[test]
+fn colours_of_vertices_are_told() {
+    let colored = "<triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/>\
+        <input semantic='COLOR' source='#n' offset='1'/><p>0 0 1 0 2 0</p></triangles>";
+    note(&load(&dented(colored)), "colours of vertices are left out");
+}
+
+#[test]
 fn skeletons_come_without_meshes() {
     const BONES: &str = "<node id='hip' type='JOINT'><translate>0 1 0</translate>\
         <node id='knee' type='JOINT'><translate>0 2 0</translate></node></node>";
