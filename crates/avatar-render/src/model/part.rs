@@ -94,6 +94,7 @@ pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
 
 impl ModelPart {
     /// Uploads one of `parts`. `height` is that of the skin; `known` are the textures of parts before.
+    #[allow(clippy::too_many_arguments, reason = "what one part needs, and what all parts of a model share")]
     pub(crate) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
