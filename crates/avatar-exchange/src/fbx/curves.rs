@@ -268,7 +268,7 @@ impl<'a> Curves<'a> {
             step *= 2.0;
         }
         let count = ((last - first) / step).floor() + 1.0;
-        if !(count >= 1.0) {
+        if count.is_nan() || count < 1.0 {
             return Ok(());
         }
         budget.take(count as usize, 1)?;
