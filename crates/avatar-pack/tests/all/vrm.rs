@@ -213,10 +213,12 @@ fn controls_of_expressions_weigh_shapes_as_the_formats_own_evaluation_does() {
         let mut state = FaceState::new(&pack);
         for _ in 0..20 {
             let names: Vec<&str> = model.vrm.expressions.iter().map(|one| one.name.as_str()).collect();
-            let chosen: Vec<(&str, f32)> = names
-                .into_iter()
-                .filter_map(|name| (random.next() < 0.4).then(|| (name, random.next())))
-                .collect();
+            let mut chosen: Vec<(&str, f32)> = Vec::new();
+            for name in names {
+                if random.next() < 0.4 {
+                    chosen.push((name, random.next()));
+                }
+            }
             let mut pose = model.scene.rest();
             expression_weights(&model.vrm, &chosen).apply(&mut pose);
             state.pose(&pack, &values_of(&pack, &chosen)).expect("values fit");
