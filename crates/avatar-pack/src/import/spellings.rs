@@ -96,8 +96,9 @@ fn common_prefix(names: &[&str]) -> usize {
     let Some((first, others)) = names.split_first() else { return 0 };
     let same = |other: &&str| first.bytes().zip(other.bytes()).take_while(|(a, b)| a == b).count();
     let length = others.iter().map(same).min().unwrap_or(0);
-    let shared = first.char_indices().filter(|(at, c)| at + c.len_utf8() <= length && !c.is_alphanumeric());
-    shared.last().map_or(0, |(at, c)| at + c.len_utf8())
+    let mut shared =
+        first.char_indices().filter(|(at, c)| at + c.len_utf8() <= length && !c.is_alphanumeric());
+    shared.next_back().map_or(0, |(at, c)| at + c.len_utf8())
 }
 
 /// Without the number that Blender gives to the second of a name: `jawOpen.001`.

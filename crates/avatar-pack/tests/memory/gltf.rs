@@ -181,7 +181,6 @@ fn skins_and_animations_without_data() {
 
 #[test]
 fn pictures_of_one_colour() {
-    let mesh = r#"{"primitives":[{"attributes":{"POSITION":0},"material":0}]}"#;
     for (side, copies) in [(16_384, 1), (4_096, 12)] {
         let png = base64(&black_png(side));
         let images = vec![format!(r#"{{"uri":"data:image/png;base64,{png}"}}"#); copies].join(",");
@@ -192,7 +191,6 @@ fn pictures_of_one_colour() {
         });
         let primitives =
             list(&|material| format!(r#"{{"attributes":{{"POSITION":0}},"material":{material}}}"#));
-        let _ = mesh;
         let mesh = format!(r#"{{"primitives":[{primitives}]}}"#);
         let more = format!(r#","images":[{images}],"textures":[{textures}],"materials":[{materials}]"#);
         let outcome = measured("picture.gltf", &file(&mesh, &[vec3(3)], &more), &[], 0);
