@@ -24,7 +24,8 @@ pub(crate) enum Row {
     },
 }
 
-/// Whole faces, then parts of the face from the large to the small. What is not here follows in the order of the table.
+/// Whole faces, then parts of the face from the large to the small. What is not here follows in the order of
+/// the table.
 const ORDER: [(&str, &str); 12] = [
     ("expression", "Expressions"),
     ("neck", "Neck"),

@@ -3,8 +3,8 @@
 
 use crate::scene::ImportError;
 
-/// Bytes that every file may unpack to. Pictures, what is needed while it unpacks, and what becomes of a scene
-/// come on top: altogether at most 256 MiB, and 64 bytes for each byte of the file.
+/// Bytes that every file may unpack to. Pictures, what is needed while it unpacks, and what becomes of a
+/// scene come on top: altogether at most 256 MiB, and 64 bytes for each byte of the file.
 #[cfg(any(feature = "collada", feature = "fbx", feature = "obj", feature = "gltf"))]
 const BASE_BYTES: u64 = 112 << 20;
 /// So many bytes more for each of the file's own.

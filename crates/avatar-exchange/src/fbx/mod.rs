@@ -25,8 +25,8 @@ use glam::{Quat, Vec3};
 /// Nesting of nodes that the library accepts.
 const MAX_DEPTH: u32 = 1024;
 /// Memory that the library may take for what it has read, and as much while it reads: this, and 20 bytes for
-/// each byte of the file. Arrays in files are compressed, by a factor of up to a thousand if they are hostile.
-/// What becomes of them here comes on top, within 256 MiB and 64 bytes for each byte.
+/// each byte of the file. Arrays in files are compressed, by a factor of up to a thousand if they are
+/// hostile. What becomes of them here comes on top, within 256 MiB and 64 bytes for each byte.
 const MEMORY_BYTES: usize = 64 << 20;
 const MEMORY_PER_BYTE: usize = 20;
 /// And never more than this.

@@ -60,8 +60,8 @@ impl Scene {
         self.raw.parts.retain(keep);
     }
 
-    /// Takes the mesh of a part, so that what keeps it need not copy it, and leaves an empty one: the scene is
-    /// then good for its nodes, clips, looks and pictures only.
+    /// Takes the mesh of a part, so that what keeps it need not copy it, and leaves an empty one: the scene
+    /// is then good for its nodes, clips, looks and pictures only.
     pub fn take_mesh(&mut self, part: usize) -> Option<Mesh> {
         self.raw.parts.get_mut(part).map(|part| std::mem::take(&mut part.mesh))
     }

@@ -51,8 +51,8 @@ pub struct ImportReport {
     pub shape_sets: Vec<(ShapeSet, usize)>,
     /// Shapes that became controls of their own names, unknown ones.
     pub other_shapes: Vec<String>,
-    /// Shapes that have one name at several nodes, where these differ: the controls that they got, each by its
-    /// node's name and a dot before that of the shape.
+    /// Shapes that have one name at several nodes, where these differ: the controls that they got, each by
+    /// its node's name and a dot before that of the shape.
     pub apart: Vec<String>,
     /// Joints whose turns became controls of their own names.
     pub other_joints: Vec<String>,
