@@ -53,6 +53,10 @@ impl Document<'_> {
         let vertices = found.num_points();
         self.take(place, found.num_faces(), TRIANGLE_COST as usize)?;
         self.take(place, vertices, VERTEX_COST as usize)?;
+        // Also what the file does not name: many primitives may have the same data decoded again.
+        let attributes = (0..found.num_attributes()).filter_map(|id| found.try_attribute(id).ok());
+        let decoded = attributes.map(|attribute| attribute.buffer().data().len()).sum();
+        self.take(place, decoded, 1)?;
 
         let attributes = json.get("attributes").and_then(Value::as_object);
         let of_primitive = &self.root.meshes[mesh].primitives[primitive];
@@ -63,7 +67,7 @@ impl Document<'_> {
             let Some(id) = id.and_then(|id| u32::try_from(id).ok()) else { continue };
             given.push((valid.clone(), *accessor, id));
         }
-        let mut indices = Vec::with_capacity(3 * found.num_faces());
+        let mut indices = Vec::with_capacity(3 * size_of::<u32>() * found.num_faces());
         for corner in found.faces().iter().flatten() {
             indices.extend(corner.0.to_le_bytes());
         }
@@ -79,7 +83,10 @@ impl Document<'_> {
             })?;
             let size = kind.size() * type_.multiplicity();
             self.take(place, vertices, size)?;
-            let bytes = values(attribute, vertices, size);
+            let bytes = values(attribute, vertices, size).map_err(|vertex| {
+                let expected = format!("a value of {} for each vertex", semantic.to_string());
+                ImportError::new(place, expected, format!("none for vertex {vertex}"))
+            })?;
             let new = self.add_accessor(accessor, bytes, kind, type_, vertices)?;
             self.root.meshes[mesh].primitives[primitive].attributes.insert(Checked::Valid(semantic), new);
         }
@@ -158,8 +165,8 @@ fn kind_of(attribute: &PointAttribute) -> Option<(ComponentType, Type)> {
     Some((kind, type_))
 }
 
-/// The value of each vertex, one after the other; zeros where the data lack it.
-fn values(attribute: &PointAttribute, vertices: usize, size: usize) -> Vec<u8> {
+/// The value of each vertex, one after the other, or the first vertex that has none.
+fn values(attribute: &PointAttribute, vertices: usize, size: usize) -> Result<Vec<u8>, u32> {
     let data = attribute.buffer().data();
     let stride = usize::try_from(attribute.byte_stride()).unwrap_or(size);
     let mut values = Vec::with_capacity(vertices * size);
@@ -167,8 +174,8 @@ fn values(attribute: &PointAttribute, vertices: usize, size: usize) -> Vec<u8> {
         let value = attribute.mapped_index(PointIndex(vertex)).0 as usize;
         match value.checked_mul(stride).and_then(|from| data.get(from..from.checked_add(size)?)) {
             Some(bytes) => values.extend_from_slice(bytes),
-            None => values.resize(values.len() + size, 0),
+            None => return Err(vertex),
         }
     }
-    values
+    Ok(values)
 }
