@@ -1,7 +1,7 @@
 //! Takes: the file's own frames, scale that is not inherited, shapes of old files, cycles.
 
 use super::{FACE, close, node, read};
-use crate::support::data::shared_data;
+use crate::support::data::shared_case;
 use avatar_exchange::Scene;
 use avatar_mesh::deform;
 use glam::Vec3;
@@ -180,10 +180,7 @@ Takes:  {
 /// The files that showed what was wrong, where they are.
 #[test]
 fn the_reported_files_are_right() {
-    let open = |case: &str| {
-        let path = shared_data("").unwrap_or_default().join("../cases").join(case);
-        std::fs::read(path).ok()
-    };
+    let open = |case: &str| shared_case(case).map(|path| std::fs::read(path).unwrap());
     if let Some(bytes) = open("fbx-old-morph-animation/maya_blend_shape_cube_6100_ascii.fbx") {
         let scene = read("cube.fbx", &bytes).unwrap();
         let fbx = ufbx::load_memory(&bytes, ufbx::LoadOpts::default()).unwrap();
