@@ -21,6 +21,7 @@ mod clips;
 mod face_args;
 mod picture_args;
 mod cli;
+mod command_line;
 mod offscreen;
 mod film;
 mod config;
@@ -30,12 +31,12 @@ mod window;
 mod script;
 mod verbs;
 
-use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, FromArgMatches};
+use clap::FromArgMatches;
+use command_line::wrong_usage;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let matches = match cli::Cli::command().try_get_matches() {
+    let matches = match command_line::command().try_get_matches() {
         Ok(matches) => matches,
         Err(error) => return wrong_usage(&error),
     };
@@ -51,46 +52,6 @@ fn main() -> ExitCode {
     }
     standard::tell(format_args!("error: {error:#}"));
     if error.is::<usage::UsageError>() { ExitCode::from(2) } else { ExitCode::FAILURE }
-}
-
-/// What clap says, or prints: help and version are errors to it. Names are explained as everywhere else.
-fn wrong_usage(error: &clap::Error) -> ExitCode {
-    let text = |kind| match error.get(kind) {
-        Some(ContextValue::String(text)) => text.as_str(),
-        _ => "",
-    };
-    let command = cli::Cli::command();
-    let verbs = || command.get_subcommands().map(clap::Command::get_name);
-    let names = match error.get(ContextKind::ValidValue) {
-        Some(ContextValue::Strings(names)) => names.as_slice(),
-        _ => &[],
-    };
-    let own = if !names.is_empty() {
-        let option = text(ContextKind::InvalidArg).split(' ').next().unwrap_or_default();
-        let found = text(ContextKind::InvalidValue);
-        Some(usage::unknown_option(option, found, names.iter().map(String::as_str)))
-    } else if error.kind() == ErrorKind::InvalidSubcommand {
-        Some(usage::unknown_option("verb", text(ContextKind::InvalidSubcommand), verbs()))
-    } else {
-        None
-    };
-    match own {
-        Some(error) => standard::tell(format_args!("error: {error}\n\nFor more information, try '--help'.")),
-        // Nothing can be done where nobody reads it.
-        None => drop(error.print()),
-    }
-    let mut words = std::env::args_os().skip(1);
-    let is_verb = |word: &std::ffi::OsString| verbs().any(|verb| word == verb);
-    if error.use_stderr()
-        && words.next().is_some_and(|word| !is_verb(&word))
-        && let Some(verb) = words.find(is_verb)
-    {
-        standard::tell(format_args!(
-            "A verb comes first, its options after it: avatar-viewer {} …",
-            verb.display()
-        ));
-    }
-    ExitCode::from(if error.use_stderr() { 2 } else { 0 })
 }
 
 /// Starts the program anew where Mesa's layer that sorts devices would look for Wayland and print an error of

@@ -11,17 +11,20 @@ mod sheet;
 mod strands;
 mod trace;
 
-use crate::cli::{Cli, PackArg, Verb, WindowArgs};
+use crate::cli::{Cli, PackArg, Verb};
+use crate::command_line::misspelt_verb;
 use crate::files::Files;
-use crate::usage;
 use crate::window;
 use anyhow::Result;
-use clap::{ArgMatches, Command, CommandFactory};
+use clap::ArgMatches;
 
 /// Runs the verb; without a verb it opens the window.
 pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
     let Some(verb) = cli.verb else {
-        no_misspelt_verb(&cli.window)?;
+        let name = cli.window.pack.pack.as_deref().map(|path| path.to_string_lossy());
+        if let Some(error) = name.and_then(|name| misspelt_verb(&name)) {
+            return Err(error);
+        }
         return window::run(&cli.window, matches);
     };
     let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);
@@ -36,19 +39,6 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
         Verb::Trace(args) => trace::run(&args),
         Verb::Info(args) => info::run(&args),
         Verb::Keys(args) => keys::run(&args),
-    }
-}
-
-/// Says which verb is meant by a name of nothing that looks like one.
-fn no_misspelt_verb(args: &WindowArgs) -> Result<()> {
-    let Some(name) = args.pack.pack.as_deref().filter(|path| !path.exists()) else { return Ok(()) };
-    let name = name.to_string_lossy();
-    let command = Cli::command();
-    match usage::did_you_mean(&name, command.get_subcommands().map(Command::get_name)) {
-        hint if hint.is_empty() => Ok(()),
-        hint => Err(usage::usage(format!(
-            "expected a verb, or the folder or file of an avatar, found {name:?}, which is neither{hint}"
-        ))),
     }
 }
 
