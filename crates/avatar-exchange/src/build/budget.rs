@@ -83,12 +83,22 @@ impl Budget {
     /// # Errors
     /// Less is left; nothing is taken then.
     pub(crate) fn take(&mut self, count: usize, size: usize) -> Result<(), Exceeded> {
-        let wanted = (count as u64).saturating_mul(size as u64);
+        self.left = self.after((count as u64).saturating_mul(size as u64))?;
+        Ok(())
+    }
+
+    /// Whether so many units are left, for what goes again.
+    ///
+    /// # Errors
+    /// Less is left.
+    #[cfg(feature = "gltf")]
+    pub(crate) fn check(&self, wanted: usize) -> Result<(), Exceeded> {
+        self.after(wanted as u64).map(|_| ())
+    }
+
+    fn after(&self, wanted: u64) -> Result<u64, Exceeded> {
         match self.left.checked_sub(wanted) {
-            Some(left) => {
-                self.left = left;
-                Ok(())
-            }
+            Some(left) => Ok(left),
             None => Err(match self.unit {
                 #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
                 Unit::Vertices => Exceeded {

@@ -56,15 +56,17 @@ impl<'a> Document<'a> {
         file_bytes: usize,
         resolve: &'a mut Resolve<'_>,
     ) -> Result<Self, ImportError> {
-        let json::Parsed { root, dropped, pointers } = json::parse(container.json)?;
+        let mut budget = Budget::of_bytes(file_bytes);
+        let found = scan(container.json);
+        let json::Parsed { root, dropped, pointers } = json::parse(container.json, &found, &mut budget)?;
         check_versions(&root)?;
         let mut document = Self {
             root,
             pointers,
-            budget: Budget::of_bytes(file_bytes),
+            budget,
             looks: Vec::new(),
             instances: BTreeMap::new(),
-            found: scan(container.json),
+            found,
             stores: Vec::new(),
             buffers: Vec::new(),
             unpacked: BTreeMap::new(),
@@ -191,8 +193,8 @@ impl<'a> Document<'a> {
         }
     }
 
-    pub(super) fn into_notes(self) -> Vec<Note> {
-        self.notes
+    pub(super) fn take_notes(&mut self) -> Vec<Note> {
+        std::mem::take(&mut self.notes)
     }
 
     /// Notes extensions, cameras and other things that are not represented.

@@ -1,4 +1,6 @@
 use super::pointer::{self, Pointers};
+use super::scan::Found;
+use crate::build::budget::Budget;
 use crate::scene::{ImportError, quoted};
 use gltf::json::Root;
 use serde_json::error::Category;
@@ -12,10 +14,12 @@ pub(super) struct Parsed {
     pub(super) pointers: Pointers,
 }
 
-pub(super) fn parse(text: &[u8]) -> Result<Parsed, ImportError> {
+/// Structures of a text take more than the text: their bytes are taken from the budget before they are made.
+pub(super) fn parse(text: &[u8], found: &Found, budget: &mut Budget) -> Result<Parsed, ImportError> {
     if text.is_empty() {
         return Err(ImportError::new("JSON", "glTF 2.0", "nothing"));
     }
+    budget.take(found.bytes, 1).map_err(|exceeded| exceeded.at("JSON"))?;
     let first = match Root::from_slice(text) {
         Ok(root) if !pointer::may_occur(text) => {
             return Ok(Parsed { root, dropped: 0, pointers: Pointers::default() });
@@ -23,6 +27,9 @@ pub(super) fn parse(text: &[u8]) -> Result<Parsed, ImportError> {
         Ok(_) => None,
         Err(error) => Some(error),
     };
+    // The tree is gone when the structures are made.
+    let more_for_tree = found.bytes_of_tree.saturating_sub(found.bytes);
+    budget.check(more_for_tree).map_err(|exceeded| exceeded.at("JSON"))?;
     if let Ok(mut value) = serde_json::from_slice::<Value>(text) {
         if let Some(error) = other_version(&value) {
             return Err(error);
@@ -33,6 +40,7 @@ pub(super) fn parse(text: &[u8]) -> Result<Parsed, ImportError> {
         let dropped = drop_channels_without_node(&mut value);
         let is_changed = add_nodes_to_scenes(&mut value) + dropped > 0 || pointers.changed;
         let text = serde_json::to_vec(&value).unwrap_or_default();
+        drop(value);
         return match (Root::from_slice(&text), first) {
             (Ok(root), _) => Ok(Parsed { root, dropped, pointers }),
             // Places in the file's own text say more than those in a changed one.

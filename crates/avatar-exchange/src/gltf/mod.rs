@@ -74,9 +74,9 @@ pub(crate) struct Extras {
     pub(crate) extensions: serde_json::Map<String, serde_json::Value>,
     /// For each mesh of the file the nodes that show it.
     pub(crate) nodes_of_meshes: Vec<Vec<usize>>,
-    /// For each node its extensions by name.
+    /// For each node its extensions of VRM by name.
     pub(crate) nodes: Vec<serde_json::Map<String, serde_json::Value>>,
-    /// For each material its extensions by name.
+    /// For each material its extensions of VRM by name.
     pub(crate) materials: Vec<serde_json::Map<String, serde_json::Value>>,
     /// For each texture its image.
     pub(crate) textures: Vec<Option<usize>>,
@@ -96,20 +96,31 @@ pub(crate) fn read_with_extras(
         let mesh = node.mesh.and_then(|mesh| nodes_of_meshes.get_mut(mesh.value()));
         mesh.into_iter().for_each(|nodes| nodes.push(number));
     }
-    let nodes = document.root.nodes.iter().map(|node| node.extensions.as_ref());
-    let nodes = nodes.map(|all| all.map(|all| all.others.clone()).unwrap_or_default()).collect();
-    let materials = document.root.materials.iter().map(|material| material.extensions.as_ref());
-    let materials = materials.map(|all| all.map(|all| all.others.clone()).unwrap_or_default()).collect();
+    let nodes = document.root.nodes.iter().map(|node| own(&node.extensions, |all| &all.others)).collect();
+    let materials = document.root.materials.iter();
+    let materials = materials.map(|material| own(&material.extensions, |all| &all.others)).collect();
     let textures = document.root.textures.iter().map(texture::image_of).collect();
-    Ok((read_scene(document)?, Extras { extensions, nodes_of_meshes, nodes, materials, textures }))
+    Ok((read_scene(&mut document)?, Extras { extensions, nodes_of_meshes, nodes, materials, textures }))
+}
+
+/// The extensions of VRM among those of an element.
+#[cfg(feature = "vrm")]
+fn own<T>(
+    extensions: &Option<T>,
+    others: impl Fn(&T) -> &serde_json::Map<String, serde_json::Value>,
+) -> serde_json::Map<String, serde_json::Value> {
+    let all = extensions.iter().flat_map(others);
+    all.filter(|(name, _)| name.starts_with("VRM"))
+        .map(|(name, value)| (name.clone(), value.clone()))
+        .collect()
 }
 
 fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportError> {
     let container = split(bytes)?;
-    read_scene(Document::open(&container, bytes.len(), resolve)?)
+    read_scene(&mut Document::open(&container, bytes.len(), resolve)?)
 }
 
-fn read_scene(mut document: Document<'_>) -> Result<RawScene, ImportError> {
+fn read_scene(document: &mut Document<'_>) -> Result<RawScene, ImportError> {
     let mut scene = RawScene::default();
     let showers = document.showers();
     document.read_nodes(&mut scene)?;
@@ -119,6 +130,6 @@ fn read_scene(mut document: Document<'_>) -> Result<RawScene, ImportError> {
     document.read_parts(&mut scene)?;
     document.read_clips(&mut scene, &showers)?;
     document.note_the_rest();
-    scene.notes = document.into_notes();
+    scene.notes = document.take_notes();
     Ok(scene)
 }

@@ -9,6 +9,10 @@ use glam::Vec3;
 use pose_anim::{Control, ControlTable, Drive, JointMotion, Pace, face};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
+/// Joints without a role that get controls. Each of their controls takes about a kilobyte up to a face that
+/// moves, where a joint takes a few bytes in a file; skeletons of people have some hundred.
+const MOST_JOINTS: usize = 1 << 14;
+
 /// A jaw points forward and 35.75° down, and moves sideways about what is at right angles to that and to its
 /// hinge.
 const JUT: Vec3 = Vec3::new(0.0, 0.811_534_35, 0.584_304_75);
@@ -91,9 +95,14 @@ pub(super) fn controls(
         }
     }
     shape_controls(sliders, report, &mut table);
+    let mut without = 0;
     for &node in scene.order() {
         let has_role = joints.roles.iter().any(|(_, other)| *other == node);
         if has_role || !joints.moves[node] {
+            continue;
+        }
+        if report.other_joints.len() == MOST_JOINTS {
+            without += 1;
             continue;
         }
         let joint = &joints.names[node];
@@ -102,6 +111,10 @@ pub(super) fn controls(
             table.add(&format!("{joint}.{axis_name}"), drives, -180.0, 180.0, 0.0);
         }
         report.other_joints.push(joint.clone());
+    }
+    if without > 0 {
+        let most = MOST_JOINTS;
+        report.notes.push(format!("{without} joints beyond the first {most} have no controls of their own"));
     }
     Ok(ControlTable::new(table.controls)?)
 }

@@ -197,3 +197,199 @@ fn pictures_of_one_colour() {
         assert!(outcome.is_read(), "without the picture, with a note: {outcome:?}");
     }
 }
+
+/// Lists of a glTF file, and the shortest of their elements that mean something.
+const LISTS: [(&str, &str); 13] = [
+    ("nodes", "{}"),
+    ("materials", "{}"),
+    ("accessors", r#"{"componentType":5126,"count":1,"type":"SCALAR"}"#),
+    ("animations", r#"{"channels":[],"samplers":[]}"#),
+    ("buffers", r#"{"byteLength":0,"uri":"data:,"}"#),
+    ("bufferViews", r#"{"buffer":0,"byteLength":0}"#),
+    ("cameras", r#"{"type":"orthographic"}"#),
+    ("images", "{}"),
+    ("meshes", r#"{"primitives":[]}"#),
+    ("samplers", "{}"),
+    ("scenes", "{}"),
+    ("skins", r#"{"joints":[0]}"#),
+    ("textures", "{}"),
+];
+
+/// Most elements of such a list.
+const MOST: u64 = 1 << 19;
+
+fn list(name: &str, element: &str, count: u64) -> Vec<u8> {
+    let elements = vec![element; count.min(MOST) as usize].join(",");
+    let node = if name == "nodes" { "" } else { r#""nodes":[{}],"# };
+    format!(r#"{{"asset":{{"version":"2.0"}},{node}"{name}":[{elements}]}}"#).into_bytes()
+}
+
+/// Structures take more than the text that they stand in, whatever becomes of them.
+#[test]
+fn dense_lists() {
+    for (name, element) in LISTS {
+        growing(&format!("{name}.gltf"), |count| list(name, element, count));
+    }
+}
+
+/// What the structures keep as it is: extensions, extras, smallest and largest values.
+#[test]
+fn dense_values() {
+    for element in [r#"{"":0}"#, "[]", "0", r#""""#, "{}", "[0]"] {
+        let values = |count: u64| vec![element; count.min(MOST) as usize].join(",");
+        growing("extensions of a node.gltf", |count| {
+            list("nodes", &format!(r#"{{"extensions":{{"X":[{}]}}}}"#, values(count)), 1)
+        });
+        growing("extensions of nodes.gltf", |count| {
+            list("nodes", &format!(r#"{{"extensions":{{"X":{element}}}}}"#), count)
+        });
+        growing("extras of a mesh.gltf", |count| {
+            list(
+                "meshes",
+                &format!(r#"{{"primitives":[],"extras":{{"targetNames":[{}]}}}}"#, values(count)),
+                1,
+            )
+        });
+        growing("bounds of an accessor.gltf", |count| {
+            let bounds = values(count);
+            let accessor = format!(
+                r#"{{"componentType":5126,"count":1,"type":"SCALAR","max":[{bounds}],"min":[{bounds}]}}"#
+            );
+            list("accessors", &accessor, 1)
+        });
+    }
+    growing("extensions.gltf", |count| list("extensionsUsed", r#""x""#, count));
+    growing("distinct extensions.gltf", |count| {
+        let names: Vec<String> = (0..count.min(MOST)).map(|name| format!(r#""{name:x}""#)).collect();
+        list("extensionsUsed", &names.join(","), 1)
+    });
+    let names = |count: u64| (0..count.min(MOST)).map(|name| format!(r#"{{"name":"{name:x}"}}"#));
+    growing("names.gltf", |count| list("nodes", &names(count).collect::<Vec<_>>().join(","), 1));
+    growing("primitives.gltf", |count| {
+        let primitives = vec![r#"{"attributes":{}}"#; count.min(MOST) as usize].join(",");
+        list("meshes", &format!(r#"{{"primitives":[{primitives}]}}"#), 1)
+    });
+    growing("channels.gltf", |count| {
+        // One that has no node makes a tree of all.
+        for target in [r#"{"path":"scale"}"#, r#"{"node":0,"path":"scale"}"#] {
+            let channels = vec![format!(r#"{{"sampler":0,"target":{target}}}"#); count.min(MOST) as usize];
+            let animation = format!(r#"{{"samplers":[],"channels":[{}]}}"#, channels.join(","));
+            measured("channel.gltf", &list("animations", &animation, 1), &[], 0);
+        }
+        list("nodes", "{}", 1)
+    });
+}
+
+/// VRM of both versions: what its extensions list.
+#[test]
+fn dense_avatars() {
+    let file = |extension: &str, value: &str| {
+        let bones = r#"{"humanoid":{"humanBones":[{"bone":"head","node":0}]},"#;
+        let value = if value.contains("humanoid") { value.to_owned() } else { value.replacen('{', bones, 1) };
+        format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}],"extensions":{{"{extension}":{value}}}}}"#)
+            .into_bytes()
+    };
+    let many = |element: &str, count: u64| vec![element; count.min(MOST) as usize].join(",");
+    for element in ["{}", r#"{"presetName":"joy","binds":[{}]}"#, r#"{"presetName":"joy"}"#] {
+        growing("groups.vrm", |count| {
+            let value =
+                format!(r#"{{"blendShapeMaster":{{"blendShapeGroups":[{}]}}}}"#, many(element, count));
+            file("VRM", &value)
+        });
+    }
+    for (list, element) in [
+        ("secondaryAnimation\":{\"boneGroups", r#"{"bones":[0]}"#),
+        ("secondaryAnimation\":{\"colliderGroups", r#"{"node":0,"colliders":[{}]}"#),
+        ("humanoid\":{\"humanBones", r#"{"bone":"head","node":0}"#),
+        ("firstPerson\":{\"meshAnnotations", r#"{"mesh":0}"#),
+    ] {
+        growing(&format!("{}.vrm", list.replace("\":{\"", ".")), |count| {
+            let list = list.replace('\\', "");
+            file("VRM", &format!(r#"{{"{list}":[{}]}}}}"#, many(element, count)))
+        });
+    }
+    growing("materials.vrm", |count| {
+        file("VRM", &format!(r#"{{"materialProperties":[{}]}}"#, many("{}", count)))
+    });
+    for (list, element) in [
+        ("springs", r#"{"joints":[{"node":0}]}"#),
+        ("colliders", r#"{"node":0,"shape":{"sphere":{}}}"#),
+        ("colliderGroups", r#"{"colliders":[0]}"#),
+    ] {
+        growing(&format!("{list}.vrm"), |count| {
+            format!(
+                r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}],"extensions":{{
+                "VRMC_vrm":{{"specVersion":"1.0","humanoid":{{"humanBones":{{"head":{{"node":0}}}}}}}},
+                "VRMC_springBone":{{"specVersion":"1.0","{list}":[{}]}}}}}}"#,
+                many(element, count)
+            )
+            .into_bytes()
+        });
+    }
+    // Kept beside the structures for the reader of VRM.
+    growing("constraints.vrm", |count| {
+        let node = format!(r#"{{"extensions":{{"VRMC_unknown":[{}]}}}}"#, many(r#"{"":0}"#, count));
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"nodes":[{node}],"extensions":{{
+            "VRMC_vrm":{{"specVersion":"1.0","humanoid":{{"humanBones":{{"head":{{"node":0}}}}}}}}}}}}"#
+        )
+        .into_bytes()
+    });
+    growing("custom.vrm", |count| {
+        let custom: Vec<String> = (0..count.min(MOST)).map(|name| format!(r#""{name:x}":{{}}"#)).collect();
+        file(
+            "VRMC_vrm",
+            &format!(
+                r#"{{"specVersion":"1.0","humanoid":{{"humanBones":{{"head":{{"node":0}}}}}},"expressions":{{"custom":{{{}}}}}}}"#,
+                custom.join(",")
+            ),
+        )
+    });
+}
+
+/// Instances of a node: as many as accessors without data claim.
+#[test]
+fn instances() {
+    growing("instances.gltf", |count| {
+        let all = r#"{"TRANSLATION":1,"ROTATION":2,"SCALE":1}"#;
+        let (count, node) = (
+            count - count % 3,
+            format!(r#"{{"mesh":0,"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{all}}}}}}}"#),
+        );
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{node}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"accessors":[{},{},{}]}}"#,
+            vec3(3),
+            vec3(count),
+            accessor("VEC4", 5126, count)
+        )
+        .into_bytes()
+    });
+}
+
+/// A pyramid of five corners with texture coordinates and colours, packed by Draco.
+const DRACO: &str = "445241434f02020100000006050100010200020300040101040202040303040001030009030000030902000102020400020202010001\
+     01000c03cd0c2335330304e082f83f0000000000fcffff0000000003f03f00000000ff070000000101000b036926cd0c1bcd0c0305f5\
+     9da4fc2f2000000000ff030000000101000903cd0c9919139d1903de90b0698061c6bc5c76d6cc8c0600000000ff0000000000000000\
+     00000000000000000000400b00000000000000000000803f0a";
+
+/// The same few packed bytes, unpacked for each primitive.
+#[test]
+fn packed_data_that_many_share() {
+    let bytes: Vec<u8> = (0..DRACO.len() / 2)
+        .map(|at| u8::from_str_radix(&DRACO[2 * at..2 * at + 2], 16).expect("hex"))
+        .collect();
+    let padded: Vec<u8> = bytes.iter().copied().chain(vec![0; (3 - bytes.len() % 3) % 3]).collect();
+    let buffer = format!(
+        r#""buffers":[{{"byteLength":{0},"uri":"data:application/octet-stream;base64,{1}"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":{0}}}]"#,
+        bytes.len(),
+        base64(&padded)
+    );
+    let primitive = r#"{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,
+        "attributes":{"POSITION":0}}}}"#;
+    growing("draco.gltf", |count| {
+        let primitives = vec![primitive; count.min(1 << 15) as usize].join(",");
+        file(&format!(r#"{{"primitives":[{primitives}]}}"#), &[vec3(5)], &format!(",{buffer}"))
+    });
+}

@@ -64,15 +64,34 @@ fn measured(name: &str, bytes: &[u8], further: &[(&str, &[u8])], beside: u64) ->
     outcome
 }
 
-/// Reads files that claim more and more, eight times as much each time, until they are refused: the largest
-/// that is read is what takes most.
+/// Reads files that claim more and more, eight times as much each time, until one is refused, then between
+/// the largest that was read and that one: the largest that is read is what takes most.
 fn growing(name: &str, file: impl Fn(u64) -> Vec<u8>) {
-    let mut was_read = false;
-    for step in 1..11 {
-        let count = 1 << (3 * step);
-        let outcome = measured(&format!("{count}.{name}"), &file(count), &[], 0);
-        was_read |= outcome.is_read();
-        if !outcome.is_read() && was_read {
+    growing_beside(name, file, |_| 0);
+}
+
+/// As [`growing`], with what is held where it is not counted.
+fn growing_beside(name: &str, file: impl Fn(u64) -> Vec<u8>, beside: impl Fn(&[u8]) -> u64) {
+    let is_read = |count: u64| {
+        let bytes = file(count);
+        let is_read = measured(&format!("{count}.{name}"), &bytes, &[], beside(&bytes)).is_read();
+        (is_read, bytes.len())
+    };
+    let (mut largest, mut size) = (0, 0);
+    for count in (1..11).map(|step| 1 << (3 * step)) {
+        let (was_read, new_size) = is_read(count);
+        if was_read {
+            // A file that cannot grow any more is the largest.
+            if size == new_size {
+                return;
+            }
+            (largest, size) = (count, new_size);
+        } else if largest > 0 {
+            let mut refused = count;
+            for _ in 0..4 {
+                let between = largest + (refused - largest) / 2;
+                if is_read(between).0 { largest = between } else { refused = between }
+            }
             return;
         }
     }

@@ -1,7 +1,7 @@
 //! OBJ, MakeHuman targets, COLLADA, MD5, BVH and FBX.
 
 use crate::bytes::zlib_zeros;
-use crate::{MIB, growing, measured};
+use crate::{MIB, growing, growing_beside, measured};
 
 /// What the library that reads FBX may hold of its own beside a scene.
 fn beside(file: &[u8]) -> u64 {
@@ -233,4 +233,61 @@ impl Node {
         let end = (file.len() as u32).to_le_bytes();
         file[start..start + 4].copy_from_slice(&end);
     }
+}
+
+/// Joints that take a few bytes of a file each.
+#[test]
+fn dense_joints() {
+    growing("joints.bvh", |count| {
+        let joints = "JOINT a\n{\nOFFSET 0 0 0\nCHANNELS 0\nEnd Site\n{\nOFFSET 0 0 0\n}\n}\n";
+        let joints = joints.repeat(count.min(1 << 18) as usize);
+        format!("HIERARCHY\nROOT a\n{{\nOFFSET 0 0 0\nCHANNELS 0\n{joints}}}\nMOTION\nFrames: 0\nFrame Time: 0.01\n")
+            .into_bytes()
+    });
+    growing("chain.bvh", |count| {
+        let count = count.min(1 << 17) as usize;
+        let joints = "JOINT a\n{\nOFFSET 0 0 0\nCHANNELS 0\n".repeat(count);
+        let ends = "}\n".repeat(count);
+        format!(
+            "HIERARCHY\nROOT a\n{{\nOFFSET 0 0 0\nCHANNELS 0\n{joints}End Site\n{{\nOFFSET 0 0 0\n}}\n{ends}}}\nMOTION\nFrames: 0\nFrame Time: 0.01\n"
+        )
+        .into_bytes()
+    });
+    growing("joints.md5mesh", |count| {
+        let count = count.min(1 << 18);
+        let joints: String = (0..count).map(|k| format!("\"{k:x}\" -1 ( 0 0 0 ) ( 0 0 0 )\n")).collect();
+        format!("MD5Version 10\ncommandline \"\"\nnumJoints {count}\nnumMeshes 0\njoints {{\n{joints}}}\n")
+            .into_bytes()
+    });
+    growing("empty nodes.dae", |count| {
+        dae(&triangles(3, 3, 1), &"<node/>".repeat(count.min(1 << 18) as usize), "")
+    });
+    growing("empty joints.dae", |count| {
+        format!(
+            r##"<?xml version="1.0"?><COLLADA version="1.4.1"><library_visual_scenes><visual_scene id="s">{}</visual_scene></library_visual_scenes>
+            <scene><instance_visual_scene url="#s"/></scene></COLLADA>"##,
+            r#"<node type="JOINT"/>"#.repeat(count.min(1 << 18) as usize)
+        )
+        .into_bytes()
+    });
+    growing("elements.dae", |count| dae(&"<a/>".repeat(count.min(1 << 20) as usize), "<node/>", ""));
+    growing("materials.dae", |count| {
+        let materials = "<material/>".repeat(count.min(1 << 18) as usize);
+        dae(&triangles(3, 3, 1), "<node/>", &format!("<library_materials>{materials}</library_materials>"))
+    });
+    growing("materials.obj", |count| {
+        let count = count.min(1 << 17);
+        let faces: String = (0..count).map(|k| format!("usemtl {k:x}\nf 1 2 3\n")).collect();
+        format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}").into_bytes()
+    });
+    growing_beside(
+        "models.fbx",
+        |count| {
+            let count = count.min(1 << 17);
+            let models: String =
+                (1..=count).map(|k| format!("Model: {k}, \"Model::a\", \"Null\" {{\n}}\n")).collect();
+            format!("; FBX 7.4.0 project file\nFBXHeaderExtension: {{\nFBXVersion: 7400\n}}\nObjects: {{\n{models}}}\n").into_bytes()
+        },
+        beside,
+    );
 }
