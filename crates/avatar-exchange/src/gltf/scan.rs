@@ -1,5 +1,5 @@
-//! What the structures of the JSON drop without a word, and what memory they will take, found in a pass of its
-//! own before they are made.
+//! What the structures of the JSON drop without a word, and what memory they will take, found in a pass of
+//! its own before they are made.
 
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::collections::BTreeSet;
@@ -59,8 +59,8 @@ fn bytes_of_element(list: &str) -> usize {
 /// Members of a target that the structures have, or that say nothing of geometry.
 const MOVED: [&str; 4] = ["POSITION", "NORMAL", "TANGENT", "extensions"];
 
-/// Allocates no more than the names. What is wrong in the text ends the pass early, and is an error elsewhere:
-/// whoever reads the text stops at the same place.
+/// Allocates no more than the names. What is wrong in the text ends the pass early, and is an error
+/// elsewhere: whoever reads the text stops at the same place.
 pub(super) fn scan(text: &[u8]) -> Found {
     let mut found = Found::default();
     let mut json = serde_json::Deserializer::from_slice(text);
