@@ -8,9 +8,9 @@ use std::path::Path;
 /// Ends of names (without the dot) and what each of them stands for; the first is that of what has no name.
 pub(crate) type Endings<'a, F> = &'a [(&'a str, F)];
 
-/// The format of a file to be written: by the end of its name, in whichever case. Standard output and devices
-/// have no name; there it is the one that was asked for as `--format`, or else the first. `or` says what else
-/// can be written, for the error message.
+/// The format of a file to be written: by the end of its name, in whichever case. Standard output and most
+/// devices have no such end; there it is the one that was asked for as `--format`, or else the first. `or`
+/// says what else can be written, for the error message.
 pub(crate) fn format<F: Copy + PartialEq>(
     out: &Path,
     asked: Option<&str>,
@@ -25,12 +25,13 @@ pub(crate) fn format<F: Copy + PartialEq>(
         None => Err(usage::unknown_option("--format", name, endings.iter().map(|(ending, _)| *ending))),
     });
     let asked = asked.transpose()?;
-    if is_nameless(out) {
+    let found = out.extension().and_then(|ending| of_ending(&ending.to_string_lossy()));
+    // A pipe may have a name that says the format, too.
+    if found.is_none() && is_nameless(out) {
         let first = endings.first().map(|(_, format)| *format);
         let format = asked.map(|(_, format)| format).or(first);
         return format.ok_or_else(|| usage("expected a format that can be written, found none"));
     }
-    let found = out.extension().and_then(|ending| of_ending(&ending.to_string_lossy()));
     let found = found.ok_or_else(|| {
         let names = listed(endings.iter().map(|(ending, _)| *ending));
         usage(format!(

@@ -60,6 +60,9 @@ impl OutputFile {
             let Some(target) = std::fs::read_link(&path).ok().filter(|_| !is_nameless(&path)) else { break };
             path = folder_of(&path).join(target);
         }
+        if std::fs::read_link(&path).is_ok() && !is_nameless(&path) {
+            bail!("{}: expected the name of a file to write, found links in a circle", named.display());
+        }
         let kind = match std::fs::metadata(&path) {
             Ok(metadata) if metadata.is_dir() => {
                 bail!("{}: expected the name of a file to write, found a folder", named.display())
@@ -73,10 +76,7 @@ impl OutputFile {
             }
             Err(_) => Kind::File(None),
         };
-        let folder = folder_of(&path);
-        if !folder.is_dir() {
-            bail!("{}: expected a folder to write to, found none", folder.display());
-        }
+        check_folder(&folder_of(&path))?;
         Ok(Self { path, kind, contents })
     }
 
@@ -193,15 +193,14 @@ impl OutputFolder {
                 }
             }
             Err(error) if error.kind() == ErrorKind::NotFound => {}
+            // Below a file: the folder that was to hold this one is at fault.
+            Err(_) if !path.exists() => {}
             Err(_) if !path.is_dir() => {
                 bail!("{}: expected a new or an empty folder, found a file", named.display())
             }
             Err(error) => Err(error).with_context(|| format!("{}: expected a folder", named.display()))?,
         }
-        let folder = folder_of(&path);
-        if !folder.is_dir() {
-            bail!("{}: expected a folder to write to, found none", folder.display());
-        }
+        check_folder(&folder_of(&path))?;
         Ok(Self(path))
     }
 
@@ -232,6 +231,15 @@ impl OutputFolder {
     pub(crate) fn expected(&self) -> String {
         format!("{}: expected a folder that can be written", self.0.display())
     }
+}
+
+/// Checks that there is a folder to write to.
+fn check_folder(folder: &Path) -> Result<()> {
+    if !folder.is_dir() {
+        let found = if folder.exists() { "a file" } else { "none" };
+        bail!("{}: expected a folder to write to, found {found}", folder.display());
+    }
+    Ok(())
 }
 
 /// How many links in a row are followed; a longer chain is taken for a circle.

@@ -5,7 +5,7 @@ use crate::look_args::LookArgs;
 use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
-use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_for_surface_blocking};
+use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking, open_for_surface_blocking};
 use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, Targets};
 use avatar_stage::{Framing, SAMPLES, View, upload_with_hair};
 use image::RgbaImage;
@@ -65,8 +65,14 @@ impl Stage {
     ) -> Result<Self> {
         let instance =
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
-        let surface =
-            instance.create_surface(window.clone()).context("expected a surface to draw on, found none")?;
+        let surface = match instance.create_surface(window.clone()) {
+            Ok(surface) => surface,
+            // Where no driver is found there is no surface either, for a reason that helps nobody.
+            Err(error) => {
+                open_blocking(GpuOptions::default()).map_err(adapter::explained)?;
+                return Err(error).context("expected a surface to draw on, found none");
+            }
+        };
         let gpu = open_for_surface_blocking(instance, &surface, GpuOptions::default());
         let gpu = gpu.map_err(adapter::explained)?;
 

@@ -19,6 +19,7 @@ mod import;
 mod look;
 mod mirrored;
 mod outputs;
+mod places;
 mod record;
 #[cfg(unix)]
 mod safety;

@@ -3,8 +3,10 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a test may panic")]
 
 use crate::common;
-use crate::common::copy_of_golden_pack;
-use crate::desk::{A_WHILE, Desk, PATIENCE, can_run, difference, errors, render, save_as_editors_do};
+use crate::common::{copy_of_golden_pack, golden_pack, viewer};
+use crate::desk::{
+    A_WHILE, Desk, PATIENCE, can_run, difference, ends_without_a_window, errors, render, save_as_editors_do,
+};
 use notify::event::AccessKind;
 use notify::{EventKind, RecursiveMode, Watcher};
 use std::fs;
@@ -154,5 +156,23 @@ fn the_look_of_the_command_line_is_the_windows() {
         desk.close_button();
         desk.closes();
         pictures.push(expected);
+    }
+}
+
+/// The window says what to install, as `render` does, and not that it found no surface.
+#[cfg(target_os = "linux")]
+#[test]
+fn no_driver() {
+    if !can_run() {
+        return;
+    }
+    for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+        for file in ["/dev/null", "/nonexistent.json"] {
+            let mut command = viewer();
+            command.arg(golden_pack()).env_remove("VK_DRIVER_FILES").env(variable, file);
+            let named = format!("{variable}={file} names the only Vulkan drivers that are looked at");
+            let install = "Debian, Ubuntu, Mint   apt install mesa-vulkan-drivers";
+            ends_without_a_window(&mut command).fails(1, &["expected a GPU adapter", &named, install]);
+        }
     }
 }

@@ -3,7 +3,7 @@
 
 mod drop;
 
-use crate::common::{self, finish, has_adapter, viewer};
+use crate::common::{self, Run, finish, finish_soon, has_adapter, viewer};
 use image::RgbImage;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -44,6 +44,29 @@ pub(crate) struct Desk {
 
 static TURN: Mutex<()> = Mutex::new(());
 
+/// A virtual display, and its name.
+fn display() -> (Process, String) {
+    let mut server = Command::new("Xvfb");
+    // Without -noreset the display starts anew whenever its last client leaves, under the feet of the
+    // next one.
+    server.args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp", "-noreset"]);
+    let mut server =
+        Process(server.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb starts"));
+    let mut number = String::new();
+    let stdout = server.0.stdout.take().expect("a pipe");
+    BufReader::new(stdout).read_line(&mut number).expect("the display's number");
+    let display = format!(":{}", number.trim());
+    (server, display)
+}
+
+/// Runs the program to its end on a display on which no window can open.
+pub(crate) fn ends_without_a_window(command: &mut Command) -> Run {
+    let _turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    let (_server, display) = display();
+    command.env("DISPLAY", &display);
+    finish_soon(command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET"))
+}
+
 impl Desk {
     /// Opens a window that shows nothing but the face.
     pub(crate) fn open(arguments: &[&str]) -> Self {
@@ -57,17 +80,7 @@ impl Desk {
 
     fn start(command: &mut Command) -> Self {
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut server = Command::new("Xvfb");
-        // Without -noreset the display starts anew whenever its last client leaves, under the feet of the
-        // next one.
-        server.args(["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp", "-noreset"]);
-        let mut server =
-            Process(server.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("Xvfb starts"));
-        let mut number = String::new();
-        let stdout = server.0.stdout.take().expect("a pipe");
-        BufReader::new(stdout).read_line(&mut number).expect("the display's number");
-        let display = format!(":{}", number.trim());
-
+        let (server, display) = display();
         command.env("DISPLAY", &display);
         command.env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
         let stderr = NamedTempFile::new().expect("a temporary file");
