@@ -150,8 +150,9 @@ impl Keys {
         for key in self.values.as_chunks_mut::<12>().0 {
             let length = length(&key[4..8]);
             if length > 0.0 && !is_unit(&key[4..8]) {
-                // The tangents are speeds of the same numbers.
-                *key = key.map(|x| (f64::from(x) / length) as f32);
+                // The tangents are speeds of the same numbers, as far as 32 bits can hold them.
+                let most = f64::from(f32::MAX);
+                *key = key.map(|x| (f64::from(x) / length).clamp(-most, most) as f32);
             } else if length == 0.0 {
                 key[4..8].copy_from_slice(&[0.0, 0.0, 0.0, 1.0]);
             }
