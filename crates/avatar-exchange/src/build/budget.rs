@@ -91,7 +91,7 @@ impl Budget {
     ///
     /// # Errors
     /// Less is left.
-    #[cfg(feature = "gltf")]
+    #[cfg(any(feature = "fbx", feature = "gltf"))]
     pub(crate) fn check(&self, wanted: usize) -> Result<(), Exceeded> {
         self.after(wanted as u64).map(|_| ())
     }

@@ -1,6 +1,6 @@
 //! Takes. The library evaluates them; which times it is asked for is the matter of [`super::curves`].
 
-use super::curves::{Curves, Moment, Source, connections};
+use super::curves::{Curves, MAX_CYCLES, MAX_FRAMES_BETWEEN, Moment, Source, connections};
 use super::shapes::Blend;
 use super::{note, quat, vec3};
 use crate::build::budget::{Budget, Exceeded};
@@ -59,11 +59,26 @@ pub(super) fn read(
             channels.extend(weights(blend, &keys, budget).map_err(wrong)?);
         }
         note_what_is_lost(&curves, &place, scene);
+        if let Some((begin, end)) = range {
+            last_until(&mut channels, end - begin);
+        }
         if !channels.is_empty() {
             scene.clips.push(Clip { name: stack.element.name.to_string(), channels });
         }
     }
     Ok(())
+}
+
+/// A take lasts as long as the file says, also where its curves end earlier: they hold from there, so one key
+/// more says it.
+fn last_until(channels: &mut [Channel], duration_secs: f64) {
+    let last = |channel: &Channel| channel.times.last().copied().unwrap_or(0.0);
+    let longest = channels.iter_mut().max_by(|a, b| last(a).total_cmp(&last(b)));
+    let Some(channel) = longest.filter(|channel| last(channel) < duration_secs) else { return };
+    let width = channel.values.len() / channel.times.len().max(1);
+    let held = channel.values.len() - width;
+    channel.times.push(duration_secs);
+    channel.values.extend_from_within(held..);
 }
 
 fn note_what_is_lost(curves: &Curves<'_>, place: &str, scene: &mut RawScene) {
@@ -72,6 +87,12 @@ fn note_what_is_lost(curves: &Curves<'_>, place: &str, scene: &mut RawScene) {
         let text = format!(
             "{} curves go on beyond their keys (cycles or slopes): they do so until the take ends, and hold there",
             curves.going_on.len()
+        );
+        note(&mut scene.notes, place, Finding::Converted(text));
+    }
+    if curves.is_thinned {
+        let text = format!(
+            "of more than {MAX_FRAMES_BETWEEN} frames between two keys only every second one or fewer are kept, and of repetitions beyond the keys the first {MAX_CYCLES}"
         );
         note(&mut scene.notes, place, Finding::Converted(text));
     }
@@ -236,6 +257,11 @@ mod tests {
             read(&fbx, &[], &mut scene, &mut Budget::with_vertices_left(left)).map(|()| scene.clips.len())
         };
         assert_eq!(read_with(1000), Ok(1));
+        // A key counts once, however many curves and properties share its time.
+        let scene = crate::fbx::read("face.fbx", bytes, &mut |_| Err("no files".to_owned())).expect("good");
+        let keys: usize =
+            scene.clips.iter().flat_map(|clip| &clip.channels).map(|channel| channel.times.len()).sum();
+        assert_eq!(read_with(keys as u64), Ok(1));
         assert_eq!(read_with(1).expect_err("too many keys").place, "take 0 'nod'");
     }
 }

@@ -6,9 +6,9 @@ use crate::build::budget::{Budget, Exceeded};
 use std::collections::{HashMap, HashSet};
 
 /// Frames between two keys at most; where there are more, only every second one is sampled, or every fourth.
-const MAX_FRAMES_BETWEEN: f64 = 16384.0;
+pub(super) const MAX_FRAMES_BETWEEN: f64 = 16384.0;
 /// Repetitions of a curve beyond its keys at most.
-const MAX_CYCLES: f64 = 4096.0;
+pub(super) const MAX_CYCLES: f64 = 4096.0;
 
 /// A time, and from which side of a jump it is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +55,8 @@ pub(super) struct Curves<'a> {
     used: HashSet<(u32, &'a str)>,
     /// Curves that go on beyond their keys.
     pub(super) going_on: HashSet<u32>,
+    /// Whether some frames or repetitions were passed over, since there are too many.
+    pub(super) is_thinned: bool,
 }
 
 /// Properties that are read from properties of other elements, as weights of shapes in old files are.
@@ -82,7 +84,15 @@ impl<'a> Curves<'a> {
                 of_property.entry(key).or_default().push((layer, &*property.anim_value));
             }
         }
-        Self { of_property, connections, rate, range, used: HashSet::new(), going_on: HashSet::new() }
+        Self {
+            of_property,
+            connections,
+            rate,
+            range,
+            used: HashSet::new(),
+            going_on: HashSet::new(),
+            is_thinned: false,
+        }
     }
 
     /// When to evaluate what depends on these properties, in order; nothing where the take moves none of
@@ -126,18 +136,15 @@ impl<'a> Curves<'a> {
         moments.retain(|moment| moment.time.is_finite());
         moments.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.side.cmp(&b.side)));
         moments.dedup();
-        if let Some((begin, _)) = self.range {
-            // What lies before the take is over when it begins.
-            let before = moments.partition_point(|moment| moment.time < begin);
-            if before > 0 {
-                moments.drain(..before);
-                moments.insert(0, Moment::at(begin));
-                moments.dedup();
-            }
+        if let Some((begin, end)) = self.range {
+            cut(&mut moments, begin, end);
         }
         if moments.is_empty() {
             moments.push(Moment::at(self.range.map_or(0.0, |range| range.0)));
         }
+        // A key of what depends on them for each. Many curves share most of their moments, so these are
+        // counted here, and not where they are gathered.
+        budget.take(moments.len(), 1)?;
         Ok(Some(moments))
     }
 
@@ -168,14 +175,14 @@ impl<'a> Curves<'a> {
     }
 
     fn curve(
-        &self,
+        &mut self,
         curve: &ufbx::AnimCurve,
         bends: bool,
         moments: &mut Vec<Moment>,
         budget: &mut Budget,
     ) -> Result<(), Exceeded> {
         let first_moment = moments.len();
-        budget.take(curve.keyframes.len(), 2)?;
+        budget.check(moments.len() + 2 * curve.keyframes.len())?;
         for key in &curve.keyframes {
             moments.push(Moment::at(key.time));
         }
@@ -216,7 +223,7 @@ impl<'a> Curves<'a> {
     /// The keys of a curve's repetitions before or after it.
     #[allow(clippy::too_many_arguments, reason = "a helper of one caller")]
     fn cycles(
-        &self,
+        &mut self,
         way: &ufbx::Extrapolation,
         own: &[Moment],
         (first, last): (f64, f64),
@@ -230,9 +237,10 @@ impl<'a> Curves<'a> {
             return Ok(());
         }
         let told = if way.repeat_count > 0 { f64::from(way.repeat_count) } else { f64::INFINITY };
-        let cycles = (length / duration).ceil().min(told).min(MAX_CYCLES) as u32;
-        for cycle in 1..=cycles {
-            budget.take(own.len() + 2, 1)?;
+        let all = (length / duration).ceil().min(told);
+        self.is_thinned |= all > MAX_CYCLES;
+        for cycle in 1..=all.min(MAX_CYCLES) as u32 {
+            budget.check(moments.len() + own.len() + 2)?;
             let start = if before {
                 first - f64::from(cycle) * duration
             } else {
@@ -256,7 +264,7 @@ impl<'a> Curves<'a> {
 
     /// All frames between two times, without these.
     fn frames(
-        &self,
+        &mut self,
         from: f64,
         to: f64,
         moments: &mut Vec<Moment>,
@@ -266,15 +274,33 @@ impl<'a> Curves<'a> {
         let mut step = 1.0;
         while (last - first) / step > MAX_FRAMES_BETWEEN {
             step *= 2.0;
+            self.is_thinned = true;
         }
         let count = ((last - first) / step).floor() + 1.0;
         if count.is_nan() || count < 1.0 {
             return Ok(());
         }
-        budget.take(count as usize, 1)?;
+        budget.check(moments.len() + count as usize)?;
         let time = |frame: u32| (first + f64::from(frame) * step) / self.rate;
         moments.extend((0..count as u32).map(time).filter(|time| from < *time && *time < to).map(Moment::at));
         Ok(())
+    }
+}
+
+/// Leaves what lies within a take, and puts its limits in the place of what lies beyond: what comes before it
+/// is over when it begins.
+fn cut(moments: &mut Vec<Moment>, begin: f64, end: f64) {
+    let count = moments.len();
+    let is_before = |it: &Moment| it.time < begin || (it.time == begin && it.side == Side::Before);
+    moments.drain(..moments.partition_point(is_before));
+    if moments.len() < count && moments.first().is_none_or(|first| *first != Moment::at(begin)) {
+        moments.insert(0, Moment::at(begin));
+    }
+    let count = moments.len();
+    moments
+        .truncate(moments.partition_point(|it| it.time < end || (it.time == end && it.side != Side::After)));
+    if moments.len() < count && moments.last().is_none_or(|last| last.time < end) {
+        moments.push(Moment::at(end));
     }
 }
 
