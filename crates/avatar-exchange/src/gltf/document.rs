@@ -59,7 +59,7 @@ impl<'a> Document<'a> {
         let mut budget = Budget::of_bytes(file_bytes);
         let found = scan(container.json);
         let json::Parsed { root, dropped, pointers } = json::parse(container.json, &found, &mut budget)?;
-        check_versions(&root)?;
+        check_versions(&root, &found)?;
         let mut document = Self {
             root,
             pointers,
@@ -229,7 +229,7 @@ pub(super) fn in_range<'a, T>(list: &str, items: &'a [T], number: usize) -> Resu
     })
 }
 
-fn check_versions(root: &Root) -> Result<(), ImportError> {
+fn check_versions(root: &Root, found: &Found) -> Result<(), ImportError> {
     let asset = &root.asset;
     let (needed, place) = match &asset.min_version {
         Some(version) => (version, "asset.minVersion"),
@@ -242,7 +242,11 @@ fn check_versions(root: &Root) -> Result<(), ImportError> {
     if !readable {
         return Err(ImportError::new(place, "glTF 2.0", format!("'{needed}'")));
     }
-    let is_unread = |name: &&String| support_of(name).is_none_or(|support| support == Support::Refused);
+    // What is not known concerns only looks where nothing that geometry is made of has it.
+    let is_unread = |name: &&String| match support_of(name) {
+        Some(support) => support == Support::Refused,
+        None => found.of_geometry.contains(*name),
+    };
     let unread: Vec<_> = root.extensions_required.iter().filter(is_unread).map(|name| quoted(name)).collect();
     if unread.is_empty() {
         return Ok(());

@@ -10,6 +10,8 @@ use std::fmt;
 pub(super) struct Found {
     /// All extensions that some object has, whether the file lists them or not.
     pub(super) extensions: BTreeSet<String>,
+    /// Those that something has which geometry or motion is made of.
+    pub(super) of_geometry: BTreeSet<String>,
     /// What morph targets move beside positions, normals and tangents.
     pub(super) target_attributes: BTreeSet<String>,
     /// Bytes that the structures of the text take at most, with what becomes of them in a scene.
@@ -56,6 +58,9 @@ fn bytes_of_element(list: &str) -> usize {
     3 * structure + in_scene
 }
 
+/// Lists of the file that geometry and motion are made of.
+const GEOMETRY: [&str; 7] = ["accessors", "animations", "bufferViews", "buffers", "meshes", "nodes", "skins"];
+
 /// Members of a target that the structures have, or that say nothing of geometry.
 const MOVED: [&str; 4] = ["POSITION", "NORMAL", "TANGENT", "extensions"];
 
@@ -64,7 +69,7 @@ const MOVED: [&str; 4] = ["POSITION", "NORMAL", "TANGENT", "extensions"];
 pub(super) fn scan(text: &[u8]) -> Found {
     let mut found = Found::default();
     let mut json = serde_json::Deserializer::from_slice(text);
-    let _ = Walk { found: &mut found, at: At::Root }.deserialize(&mut json);
+    let _ = Walk { found: &mut found, at: At::Root, is_geometry: false }.deserialize(&mut json);
     found
 }
 
@@ -90,6 +95,8 @@ enum At {
 struct Walk<'f> {
     found: &'f mut Found,
     at: At,
+    /// Whether it is in one of the lists that geometry and motion are made of.
+    is_geometry: bool,
 }
 
 /// What a value is.
@@ -168,7 +175,8 @@ impl<'de> Visitor<'de> for Walk<'_> {
     fn visit_seq<A: SeqAccess<'de>>(mut self, mut list: A) -> Result<(), A::Error> {
         self.count(Kind::Plain);
         let at = if self.at == At::Targets { At::Target } else { self.at };
-        while list.next_element_seed(Walk { found: &mut *self.found, at })?.is_some() {}
+        let is_geometry = self.is_geometry;
+        while list.next_element_seed(Walk { found: &mut *self.found, at, is_geometry })?.is_some() {}
         Ok(())
     }
 
@@ -186,8 +194,12 @@ impl<'de> Visitor<'de> for Walk<'_> {
                 (At::List(_), _) => At::Value,
                 (at, _) => at,
             };
+            let is_geometry = self.is_geometry || (self.at == At::Root && GEOMETRY.contains(&key.as_str()));
             match self.at {
                 At::Extensions => {
+                    if is_geometry {
+                        self.found.of_geometry.insert(key.clone());
+                    }
                     self.found.extensions.insert(key);
                 }
                 At::Target if at != At::Loose && !MOVED.contains(&key.as_str()) => {
@@ -195,7 +207,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
                 }
                 _ => {}
             }
-            object.next_value_seed(Walk { found: &mut *self.found, at })?;
+            object.next_value_seed(Walk { found: &mut *self.found, at, is_geometry })?;
         }
         Ok(())
     }

@@ -248,14 +248,17 @@ fn versions_and_extensions_that_are_not_read() {
     let error = wrong(r#"{"asset": {"version": "2.1", "minVersion": "2.1"}}"#);
     assert_eq!(error.place, "asset.minVersion");
     let error = wrong(
-        r#"{"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization", "KHR_gaussian_splatting", "ACME_anvil"]}"#,
+        r#"{"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization", "KHR_gaussian_splatting", "ACME_anvil"],
+        "nodes": [{"extensions": {"ACME_anvil": {}}}]}"#,
     );
     assert_eq!(
         (error.place.as_str(), error.found.as_str()),
         ("extensionsRequired", "'KHR_gaussian_splatting', 'ACME_anvil'")
     );
     let many = vec![r#""ACME_anvil""#; 1000].join(", ");
-    let error = wrong(&format!(r#"{{"asset": {{"version": "2.0"}}, "extensionsRequired": [{many}]}}"#));
+    let error = wrong(&format!(
+        r#"{{"asset": {{"version": "2.0"}}, "extensionsRequired": [{many}], "nodes": [{{"extensions": {{"ACME_anvil": {{}}}}}}]}}"#
+    ));
     assert!(error.found.ends_with(" and 992 more") && error.found.len() < 200, "{error}");
 }
 
