@@ -124,32 +124,43 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
     }
 }
 
+/// How wide a column of names is: as the longest of them, within reason.
+fn width<'a>(head: &str, names: impl Iterator<Item = &'a str>) -> usize {
+    const USUAL: usize = 15;
+    const MOST: usize = 40;
+    names.map(|name| name.chars().count()).chain([head.len(), USUAL]).max().unwrap_or(USUAL).min(MOST)
+}
+
 fn text(report: &Report<'_>) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "part            vertices  triangles      bytes  bounds");
+    let wide = width("part", report.parts.iter().map(|part| part.name));
+    let _ = writeln!(out, "{:<wide$} vertices  triangles      bytes  bounds", "part");
     for part in &report.parts {
         let ([x0, y0, z0], [x1, y1, z1]) = (part.min, part.max);
         let _ = writeln!(
             out,
-            "{:<15} {:>8} {:>10} {:>10}  {x0:.3} {y0:.3} {z0:.3} … {x1:.3} {y1:.3} {z1:.3}",
+            "{:<wide$} {:>8} {:>10} {:>10}  {x0:.3} {y0:.3} {z0:.3} … {x1:.3} {y1:.3} {z1:.3}",
             part.name, part.vertices, part.triangles, part.bytes
         );
     }
     let _ = writeln!(out, "\njoints: {}", report.joints.join(", "));
-    let _ = writeln!(out, "\ncontrol             min     max  default");
+    let wide = width("control", report.controls.iter().map(|control| control.name.as_str()));
+    let _ = writeln!(out, "\n{:<wide$}     min     max  default", "control");
     for control in &report.controls {
         let (min, max, default) = (control.min, control.max, control.default);
-        let _ = writeln!(out, "{:<16} {min:>6} {max:>7} {default:>8}", control.name);
+        let _ = writeln!(out, "{:<wide$} {min:>7} {max:>7} {default:>8}", control.name);
     }
-    let _ = writeln!(out, "\npose            key");
+    let wide = width("pose", report.poses.iter().map(|pose| pose.name.as_str()));
+    let _ = writeln!(out, "\n{:<wide$} key", "pose");
     for pose in &report.poses {
-        let _ = writeln!(out, "{:<15} {}", pose.name, pose.key.as_deref().unwrap_or("-"));
+        let _ = writeln!(out, "{:<wide$} {}", pose.name, pose.key.as_deref().unwrap_or("-"));
     }
+    let wide = width("clip", report.clips.iter().map(|clip| clip.name.as_str()));
     if !report.clips.is_empty() {
-        let _ = writeln!(out, "\nclip            seconds");
+        let _ = writeln!(out, "\n{:<wide$} seconds", "clip");
     }
     for clip in &report.clips {
-        let _ = writeln!(out, "{:<15} {:.3}", clip.name, clip.seconds);
+        let _ = writeln!(out, "{:<wide$} {:.3}", clip.name, clip.seconds);
     }
     if let Some(import) = &report.import {
         out.push('\n');
@@ -176,4 +187,16 @@ fn text(report: &Report<'_>) -> String {
         let _ = writeln!(out, "\nwarning: {warning}");
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::width;
+
+    #[test]
+    fn columns_are_as_wide_as_their_names_within_reason() {
+        assert_eq!(width("pose", ["smile"].into_iter()), 15);
+        assert_eq!(width("control", ["smile", "expression.relaxed"].into_iter()), 18);
+        assert_eq!(width("part", ["x".repeat(500).as_str()].into_iter()), 40);
+    }
 }
