@@ -91,12 +91,11 @@ fn unknown_option(command: &Command, verb: Option<&Command>, found: &str) -> any
     let has = |command: &Command| options(command).any(|option| option == bare);
     let (place, own) = verb.map_or(("the window", command), |verb| (verb.get_name(), verb));
     let others: Vec<_> = command.get_subcommands().filter(|verb| has(verb)).map(Command::get_name).collect();
+    let is_whole = found.starts_with("--");
     let hint = match placed_toml::nearest(bare, options(own)) {
+        _ if is_whole && !others.is_empty() => format!(", an option of {}", others.join(", ")),
+        _ if is_whole && has(command) => ", an option of the window".to_owned(),
         Some(name) => format!(" (did you mean \"--{name}\"?)"),
-        None if found.starts_with("--") && !others.is_empty() => {
-            format!(", an option of {}", others.join(", "))
-        }
-        None if found.starts_with("--") && has(command) => ", an option of the window".to_owned(),
         None => String::new(),
     };
     usage(format!("expected an option of {place}, found {found:?}{hint}"))
