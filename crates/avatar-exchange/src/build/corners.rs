@@ -7,6 +7,7 @@ use super::normals::{NormalSums, Weighting};
 use avatar_mesh::{Mesh, Offsets, Shape, Skinning};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
+use std::hash::BuildHasher;
 
 /// One corner of a triangle.
 #[derive(Clone, Copy, Debug, Default)]
@@ -19,12 +20,45 @@ pub(crate) struct Corner {
     pub(crate) normal: Option<Vec3>,
     /// Empty (w = 0) where the file has none.
     pub(crate) tangent: Vec4,
+    /// Second texture coordinates, if the file has some.
+    pub(crate) uv_1: Option<Vec2>,
+    /// Linear colour and opacity. Without: white.
+    pub(crate) color: Option<Vec4>,
+}
+
+impl Corner {
+    /// Equal for corners that become one vertex.
+    fn bits(&self) -> [u32; 16] {
+        const NONE: u32 = u32::MAX;
+        let mut bits = [NONE; 16];
+        let [point, rest @ ..] = &mut bits;
+        *point = self.point;
+        let (uv, rest) = rest.split_at_mut(2);
+        let (normal, rest) = rest.split_at_mut(3);
+        let (tangent, rest) = rest.split_at_mut(4);
+        let (uv_1, color) = rest.split_at_mut(2);
+        uv.copy_from_slice(&self.uv.to_array().map(f32::to_bits));
+        tangent.copy_from_slice(&self.tangent.to_array().map(f32::to_bits));
+        if let Some(value) = self.normal {
+            normal.copy_from_slice(&value.to_array().map(f32::to_bits));
+        }
+        if let Some(value) = self.uv_1 {
+            uv_1.copy_from_slice(&value.to_array().map(f32::to_bits));
+        }
+        if let Some(value) = self.color {
+            color.copy_from_slice(&value.to_array().map(f32::to_bits));
+        }
+        bits
+    }
 }
 
 /// A mesh in the making.
 #[derive(Debug, Default)]
 pub(crate) struct Corners {
-    known: HashMap<[u32; 10], u32>,
+    /// The last vertex of those whose bits have a hash.
+    known: HashMap<u64, u32>,
+    /// For each vertex, the one before it with the same hash.
+    earlier: Vec<Option<u32>>,
     /// The vertices, each a corner that stands for all like it.
     pub(crate) vertices: Vec<Corner>,
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -38,26 +72,21 @@ impl Corners {
     }
 
     fn vertex(&mut self, corner: Corner) -> u32 {
-        let normal = corner.normal.map_or([u32::MAX; 3], |normal| normal.to_array().map(f32::to_bits));
-        let uv = corner.uv.to_array().map(f32::to_bits);
-        let tangent = corner.tangent.to_array().map(f32::to_bits);
-        let key = [
-            corner.point,
-            uv[0],
-            uv[1],
-            normal[0],
-            normal[1],
-            normal[2],
-            tangent[0],
-            tangent[1],
-            tangent[2],
-            tangent[3],
-        ];
-        let vertices = &mut self.vertices;
-        *self.known.entry(key).or_insert_with(|| {
-            vertices.push(corner);
-            (vertices.len() - 1) as u32
-        })
+        let bits = corner.bits();
+        let hash = self.known.hasher().hash_one(bits);
+        let last = self.known.get(&hash).copied();
+        let mut candidate = last;
+        while let Some(vertex) = candidate {
+            if self.vertices.get(vertex as usize).is_some_and(|known| known.bits() == bits) {
+                return vertex;
+            }
+            candidate = self.earlier.get(vertex as usize).copied().flatten();
+        }
+        let vertex = self.vertices.len() as u32;
+        self.vertices.push(corner);
+        self.earlier.push(last);
+        self.known.insert(hash, vertex);
+        vertex
     }
 
     /// Whether some normals are to be computed.
@@ -70,7 +99,8 @@ impl Corners {
         self.triangles.is_empty()
     }
 
-    /// The mesh, with tangents where all corners have one. Points beyond `points` were checked before.
+    /// The mesh, with tangents where all corners have one, second texture coordinates where some have them,
+    /// and colours where some are not white. Points beyond `points` were checked before.
     pub(crate) fn mesh(&self, points: &[Vec3]) -> Mesh {
         let point = |corner: &Corner| points.get(corner.point as usize).copied().unwrap_or_default();
         let smooth = if self.lacks_normals() { self.smooth_normals(points) } else { HashMap::new() };
@@ -80,8 +110,14 @@ impl Corners {
         };
         let complete = self.vertices.iter().all(|corner| corner.tangent.w != 0.0);
         let tangents = self.vertices.iter().filter(|_| complete).map(|corner| corner.tangent);
+        let has_second = self.vertices.iter().any(|corner| corner.uv_1.is_some());
+        let seconds = self.vertices.iter().filter(|_| has_second).map(|corner| corner.uv_1);
+        let color = |corner: &Corner| corner.color.unwrap_or(Vec4::ONE);
+        let is_colored = self.vertices.iter().any(|corner| color(corner) != Vec4::ONE);
         Mesh {
             positions: self.vertices.iter().map(point).collect(),
+            uvs_1: seconds.map(Option::unwrap_or_default).collect(),
+            colors: self.vertices.iter().filter(|_| is_colored).map(color).collect(),
             uvs: self.vertices.iter().map(|corner| corner.uv).collect(),
             normals: self.vertices.iter().map(normal).collect(),
             tangents: tangents.collect(),

@@ -2,7 +2,7 @@
 //!
 //! `text` decodes bytes and reads numbers with their lines, `path` keeps references inside the file's folder,
 //! `budget` bounds memory, `names` tells equal names apart; `normals`, `influences`, `shape`, `polygon` and
-//! `corners` make meshes.
+//! `corners` make meshes; `srgb` decodes colours.
 
 #[cfg(any(feature = "collada", feature = "fbx", feature = "gltf", feature = "obj"))]
 pub(crate) mod budget;
@@ -20,5 +20,7 @@ pub(crate) mod path;
 pub(crate) mod polygon;
 #[cfg(feature = "gltf")]
 pub(crate) mod shape;
+#[cfg(any(feature = "fbx", feature = "vrm"))]
+pub(crate) mod srgb;
 #[cfg(any(feature = "collada", feature = "obj", feature = "bvh", feature = "md5"))]
 pub(crate) mod text;

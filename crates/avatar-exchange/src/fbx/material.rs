@@ -1,11 +1,17 @@
+use super::coordinates::Coordinates;
 use super::note;
 use crate::build::path::{beside, image, mime_of};
-use crate::scene::{AlphaMode, Finding, Material, RawScene, Resolve, SceneImage, TextureRef};
+use crate::scene::{AlphaMode, Finding, Material, RawScene, Resolve, SceneImage, TextureRef, UvSet, quoted};
 use std::collections::HashMap;
 
 /// Reads all materials in the file's order, with the images that they use.
-pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut RawScene) {
-    let mut images = Images { resolve, of_texture: HashMap::new() };
+pub(super) fn read(
+    fbx: &ufbx::Scene,
+    coordinates: &Coordinates,
+    resolve: &mut Resolve<'_>,
+    scene: &mut RawScene,
+) {
+    let mut images = Images { resolve, coordinates, of_texture: HashMap::new() };
     for material in &fbx.materials {
         let pbr = &material.pbr;
         let number = |map: &ufbx::MaterialMap, default: f32| match map.has_value {
@@ -17,11 +23,17 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
                 .map(|x| finite(x as f32) * factor),
             false => [default; 3],
         };
-        let base_color_texture = images.of(&pbr.base_color, scene).map(TextureRef::from);
+        let base_color_texture = images.of(material, &pbr.base_color, scene);
         // A texture replaces the colour of FBX, it is not multiplied.
         let [r, g, b] = match base_color_texture {
             Some(_) => [1.0; 3],
             None => color(&pbr.base_color, number(&pbr.base_factor, 1.0), 1.0),
+        };
+        let emissive_texture = images.of(material, &pbr.emission_color, scene);
+        let emission_factor = number(&pbr.emission_factor, 1.0);
+        let emissive = match emissive_texture {
+            Some(_) => [emission_factor; 3],
+            None => color(&pbr.emission_color, emission_factor, 0.0),
         };
         let opacity = number(&pbr.opacity, 1.0);
         // The opacity of the picture that is its colour as well is that picture's alpha.
@@ -37,9 +49,9 @@ pub(super) fn read(fbx: &ufbx::Scene, resolve: &mut Resolve<'_>, scene: &mut Raw
             base_color_texture,
             metallic: number(&pbr.metalness, 0.0),
             roughness: number(&pbr.roughness, 1.0),
-            normal_texture: images.of(&pbr.normal_map, scene).map(TextureRef::from),
-            emissive: color(&pbr.emission_color, number(&pbr.emission_factor, 1.0), 0.0),
-            emissive_texture: images.of(&pbr.emission_color, scene).map(TextureRef::from),
+            normal_texture: images.of(material, &pbr.normal_map, scene),
+            emissive,
+            emissive_texture,
             alpha_mode: if opacity < 1.0 || is_alpha { AlphaMode::Blend } else { AlphaMode::Opaque },
             // Most materials of FBX do not say it, and are seen from both sides.
             double_sided: material.features.double_sided.enabled
@@ -64,25 +76,45 @@ fn finite(x: f32) -> f32 {
 /// Images read so far, by the number of their texture.
 struct Images<'a, 'b> {
     resolve: &'a mut Resolve<'b>,
+    coordinates: &'a Coordinates,
     of_texture: HashMap<u32, Option<usize>>,
 }
 
 impl Images<'_, '_> {
-    fn of(&mut self, map: &ufbx::MaterialMap, scene: &mut RawScene) -> Option<usize> {
+    fn of(
+        &mut self,
+        material: &ufbx::Material,
+        map: &ufbx::MaterialMap,
+        scene: &mut RawScene,
+    ) -> Option<TextureRef> {
         let texture = map.texture.as_ref().filter(|_| map.texture_enabled)?;
+        if let Some(name) = self.coordinates.unread(material, texture) {
+            let place = format!("material {:?}", material.element.name.to_string());
+            let text = format!("its texture uses the first texture coordinates, not {}", quoted(name));
+            note(&mut scene.notes, place, Finding::Converted(text));
+        }
+        let is_second = self.coordinates.is_second(material, texture);
+        let uvs = if is_second { UvSet::Second } else { UvSet::First };
         // Of a layered or computed texture, the first picture.
         let texture = texture.file_textures.first().unwrap_or(texture);
         let key = texture.element.typed_id;
-        if let Some(known) = self.of_texture.get(&key) {
-            return *known;
-        }
-        let image = self.read(texture, scene);
-        self.of_texture.insert(key, image);
-        image
+        let image = match self.of_texture.get(&key) {
+            Some(known) => *known,
+            None => {
+                let image = self.read(texture, scene);
+                self.of_texture.insert(key, image);
+                image
+            }
+        };
+        Some(TextureRef { image: image?, uvs })
     }
 
     fn read(&mut self, texture: &ufbx::Texture, scene: &mut RawScene) -> Option<usize> {
         let place = format!("texture '{}'", &*texture.element.name);
+        if texture.has_uv_transform {
+            let text = "its shift, turn and scale of texture coordinates are left out";
+            note(&mut scene.notes, place.as_str(), Finding::left_out(text));
+        }
         let names = [&texture.relative_filename, &texture.filename, &texture.absolute_filename];
         let name = names.into_iter().find(|name| !name.is_empty()).map_or("", |name| &**name);
         let video = texture.video.as_ref().map_or(&[][..], |video| &video.content);

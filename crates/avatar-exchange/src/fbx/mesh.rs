@@ -1,17 +1,20 @@
 //! Parts: for each node with a mesh, one for each of the mesh's materials.
 
+use super::coordinates::Coordinates;
 use super::shapes::Blend;
 use super::skin::BoundSkin;
 use super::{note, place_of, vec3};
 use crate::build::budget::{Budget, Exceeded};
 use crate::build::corners::{Corner, Corners};
+use crate::build::srgb;
 use crate::scene::{Finding, ImportError, RawScene, ScenePart};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
 /// Reads all parts, and their skins, shapes and weights on the way. Returns the shapes of nodes that have
 /// any.
 pub(super) fn read<'a>(
     fbx: &'a ufbx::Scene,
+    coordinates: &Coordinates,
     scene: &mut RawScene,
     budget: &mut Budget,
 ) -> Result<Vec<Blend<'a>>, ImportError> {
@@ -23,10 +26,11 @@ pub(super) fn read<'a>(
         budget.take(mesh.vertices.len(), 1).map_err(wrong)?;
         let points: Vec<Vec3> = mesh.vertices.iter().map(|point| vec3(*point)).collect();
         let blend = Blend::of(node, mesh, &mut scene.notes);
+        let second = coordinates.second(mesh);
         let mut skin = None;
         let parts_before = scene.parts.len();
         for (primitive, segment) in mesh.material_parts.iter().enumerate() {
-            let corners = corners(mesh, segment, budget, &place)?;
+            let corners = corners(mesh, second, segment, budget, &place)?;
             if corners.is_empty() {
                 continue;
             }
@@ -56,12 +60,13 @@ pub(super) fn read<'a>(
             let text = "it is a subdivision surface, of which the cage is read";
             note(&mut scene.notes, place.as_str(), Finding::converted(text));
         }
-        if !mesh.color_sets.is_empty() {
-            note(&mut scene.notes, place.as_str(), Finding::left_out("colours of vertices are left out"));
-        }
-        if mesh.uv_sets.len() > 1 {
-            let text = format!("{} further sets of texture coordinates are left out", mesh.uv_sets.len() - 1);
-            note(&mut scene.notes, place.as_str(), Finding::LeftOut(text));
+        for (what, count, read) in
+            [("colours", mesh.color_sets.len(), 1), ("texture coordinates", mesh.uv_sets.len(), 2)]
+        {
+            if count > read {
+                let text = format!("{} further sets of {what} are left out", count - read);
+                note(&mut scene.notes, place.as_str(), Finding::LeftOut(text));
+            }
         }
         if let Some(blend) = blend {
             if scene.parts.len() > parts_before {
@@ -86,6 +91,7 @@ fn material_of(node: &ufbx::Node, mesh: &ufbx::Mesh, index: u32) -> Option<usize
 
 fn corners(
     mesh: &ufbx::Mesh,
+    second: Option<&ufbx::UvSet>,
     segment: &ufbx::MeshPart,
     budget: &mut Budget,
     place: &str,
@@ -105,20 +111,22 @@ fn corners(
         let count = mesh.triangulate_face(&mut triangles, face) as usize;
         budget.take(count, 1).map_err(|exceeded| exceeded.at(place))?;
         for triangle in triangles.as_chunks::<3>().0.iter().take(count) {
-            corners.triangle(triangle.map(|index| corner(mesh, index as usize)));
+            corners.triangle(triangle.map(|index| corner(mesh, second, index as usize)));
         }
     }
     Ok(corners)
 }
 
-fn corner(mesh: &ufbx::Mesh, index: usize) -> Corner {
+fn corner(mesh: &ufbx::Mesh, second: Option<&ufbx::UvSet>, index: usize) -> Corner {
     let value = |values: &ufbx::VertexVec3| {
         let at = *values.indices.get(index)?;
         Some(vec3(*values.values.get(at as usize)?)).filter(|value| value.is_finite())
     };
-    let uv = mesh.vertex_uv.indices.get(index).and_then(|at| mesh.vertex_uv.values.get(*at as usize));
     // Origin bottom left in FBX.
-    let uv = uv.map(|uv| Vec2::new(uv.x as f32, 1.0 - uv.y as f32)).filter(|uv| uv.is_finite());
+    let coordinates = |uvs: &ufbx::VertexVec2| {
+        let uv = uvs.values.get(*uvs.indices.get(index)? as usize)?;
+        Some(Vec2::new(uv.x as f32, 1.0 - uv.y as f32)).filter(|uv| uv.is_finite())
+    };
     let normal = value(&mesh.vertex_normal).and_then(Vec3::try_normalize);
     let tangent = value(&mesh.vertex_tangent).and_then(Vec3::try_normalize);
     let bitangent = value(&mesh.vertex_bitangent);
@@ -129,8 +137,25 @@ fn corner(mesh: &ufbx::Mesh, index: usize) -> Corner {
             let hand = if normal.cross(tangent).dot(bitangent) < 0.0 { -1.0 } else { 1.0 };
             tangent.extend(hand)
         }
-        _ => glam::Vec4::ZERO,
+        _ => Vec4::ZERO,
     };
     let point = mesh.vertex_indices.get(index).copied().unwrap_or(0);
-    Corner { point, uv: uv.unwrap_or_default(), normal, tangent }
+    Corner {
+        point,
+        uv: coordinates(&mesh.vertex_uv).unwrap_or_default(),
+        normal,
+        tangent,
+        uv_1: second.map(|set| coordinates(&set.vertex_uv).unwrap_or_default()),
+        color: color(mesh, index),
+    }
+}
+
+/// FBX does not say how colours of vertices are encoded. Blender writes and reads them as sRGB unless it is
+/// told otherwise (`io_scene_fbx`, `colors_type`), and three.js's FBXLoader reads them so.
+fn color(mesh: &ufbx::Mesh, index: usize) -> Option<Vec4> {
+    let at = *mesh.vertex_color.indices.get(index)?;
+    let color = mesh.vertex_color.values.get(at as usize)?;
+    let encoded = [color.x, color.y, color.z].map(|x| x as f32);
+    let [r, g, b] = srgb::linear(encoded);
+    Some(Vec4::new(r, g, b, (color.w as f32).clamp(0.0, 1.0))).filter(|color| color.is_finite())
 }

@@ -12,12 +12,14 @@
 //! the file's own frames where straight lines between keys do not do, and each take begins at 0.
 
 mod clips;
+mod coordinates;
 mod curves;
 mod material;
 mod mesh;
 mod shapes;
 mod skin;
 
+use self::coordinates::Coordinates;
 use crate::build::budget::Budget;
 use crate::scene::{Finding, ImportError, Node, Note, RawScene, Resolve, Scene, Transform, Trs};
 use glam::{Quat, Vec3};
@@ -66,9 +68,10 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     let mut scene = RawScene::default();
     note_conversion(&fbx, &mut scene.notes);
     read_nodes(&fbx, &mut scene)?;
-    material::read(&fbx, resolve, &mut scene);
+    let coordinates = Coordinates::of(&fbx);
+    material::read(&fbx, &coordinates, resolve, &mut scene);
     let mut budget = Budget::of_vertices(bytes.len());
-    let blends = mesh::read(&fbx, &mut scene, &mut budget)?;
+    let blends = mesh::read(&fbx, &coordinates, &mut scene, &mut budget)?;
     clips::read(&fbx, &blends, &mut scene, &mut budget)?;
     note_the_rest(&fbx, &mut scene.notes);
     Ok(scene)

@@ -13,30 +13,29 @@ pub(super) struct BoundSkin {
 }
 
 impl BoundSkin {
-    /// Adds the skin of a mesh to the scene, if the mesh has a skin.
+    /// Adds the skin of a mesh to the scene, if the mesh has a skin. Several skins of a mesh become one that
+    /// has the bones of all, as in Autodesk's viewer (`ComputeSkinDeformation` in the sample `ViewScene` of
+    /// the FBX SDK): it adds up the weighted motion of all clusters of all skins and divides by the sum of
+    /// the weights.
     pub(super) fn read(
         node: &ufbx::Node,
         mesh: &ufbx::Mesh,
         scene: &mut RawScene,
     ) -> Result<Option<Self>, ImportError> {
-        let Some(deformer) = mesh.skin_deformers.first() else { return Ok(None) };
-        if deformer.clusters.is_empty() {
-            return Ok(None);
-        }
+        let deformers = || mesh.skin_deformers.iter().filter(|deformer| !deformer.clusters.is_empty());
+        let Some(first) = deformers().next() else { return Ok(None) };
         let place = place_of(node);
-        if mesh.skin_deformers.len() > 1 {
-            note(&mut scene.notes, place.as_str(), Finding::left_out("all skins but the first are left out"));
+        if deformers().count() > 1 {
+            let text = format!("its {} skins became one with the bones of all", deformers().count());
+            note(&mut scene.notes, place.as_str(), Finding::Converted(text));
         }
-        if deformer.num_dq_weights > 0 {
-            note(
-                &mut scene.notes,
-                place.as_str(),
-                Finding::converted("dual quaternion skinning became linear"),
-            );
+        if deformers().any(|deformer| is_dual(deformer)) {
+            let text = "dual quaternion skinning became linear";
+            note(&mut scene.notes, place.as_str(), Finding::converted(text));
         }
         let own = node.element.typed_id as usize;
-        let mut skin = Skin { name: deformer.element.name.to_string(), ..Skin::default() };
-        for cluster in &deformer.clusters {
+        let mut skin = Skin { name: first.element.name.to_string(), ..Skin::default() };
+        for cluster in deformers().flat_map(|deformer| &deformer.clusters) {
             let bone = cluster.bone_node.as_ref().map_or(own, |bone| bone.element.typed_id as usize);
             skin.joints.push(bone);
             skin.inverse_binds.push(affine(&cluster.geometry_to_bone));
@@ -44,7 +43,7 @@ impl BoundSkin {
         let Ok(own_bone) = u16::try_from(skin.joints.len()) else {
             return Err(ImportError::new(place, "at most 65535 bones", skin.joints.len().to_string()));
         };
-        let influences = influences(mesh, deformer, own_bone);
+        let influences = influences(mesh, own_bone);
         if influences.unweighted > 0 {
             // FBX: vertices that no cluster moves follow the mesh's own node.
             skin.joints.push(own);
@@ -60,17 +59,33 @@ impl BoundSkin {
     }
 }
 
-fn influences(mesh: &ufbx::Mesh, deformer: &ufbx::SkinDeformer, own: u16) -> Influences {
+/// Whether a skin rotates by dual quaternions, at least at some points.
+fn is_dual(deformer: &ufbx::SkinDeformer) -> bool {
+    match deformer.skinning_method {
+        ufbx::SkinningMethod::DualQuaternion => true,
+        ufbx::SkinningMethod::BlendedDqLinear => deformer.dq_weights.iter().any(|weight| *weight != 0.0),
+        ufbx::SkinningMethod::Linear | ufbx::SkinningMethod::Rigid => false,
+    }
+}
+
+/// Bones and weights of points; `own` is the bone behind those of all skins.
+fn influences(mesh: &ufbx::Mesh, own: u16) -> Influences {
     let mut influences = Influences::default();
     let mut bones = Vec::new();
     for point in 0..mesh.num_vertices {
         bones.clear();
-        if let Some(at) = deformer.vertices.get(point) {
-            let begin = at.weight_begin as usize;
-            let weights = deformer.weights.get(begin..begin.saturating_add(at.num_weights as usize));
-            let weights =
-                weights.unwrap_or(&[]).iter().filter(|weight| weight.cluster_index < u32::from(own));
-            bones.extend(weights.map(|weight| (weight.cluster_index as u16, weight.weight)));
+        let mut first = 0;
+        for deformer in &mesh.skin_deformers {
+            let count = deformer.clusters.len();
+            if let Some(at) = deformer.vertices.get(point) {
+                let begin = at.weight_begin as usize;
+                let weights = deformer.weights.get(begin..begin.saturating_add(at.num_weights as usize));
+                let weights = weights.unwrap_or(&[]).iter().map(|it| (it.cluster_index as usize, it.weight));
+                // Below the number of the mesh's own bone, which fits.
+                let weights = weights.filter(|(cluster, _)| *cluster < count);
+                bones.extend(weights.map(|(cluster, weight)| ((first + cluster) as u16, weight)));
+            }
+            first += count;
         }
         influences.push(&mut bones, own);
     }

@@ -10,6 +10,7 @@
 
 use super::note;
 use super::place::Place;
+use crate::build::srgb::linear;
 use crate::scene::{AlphaMode, Finding, ImportError, Material, RawScene, TextureRef, ToonMaterial};
 
 /// Properties that [`Material`] and [`ToonMaterial`] do not hold, each with the value at which it changes
@@ -196,12 +197,4 @@ impl Properties<'_> {
 /// A texture at the coordinates of another one: the properties say none, the file's own material may.
 fn same_place(texture: TextureRef, other: Option<TextureRef>) -> TextureRef {
     TextureRef { uvs: other.map_or(texture.uvs, |other| other.uvs), ..texture }
-}
-
-/// From colours encoded as sRGB to linear ones (IEC 61966-2-1). What is out of range is brought into it.
-fn linear(encoded: [f32; 3]) -> [f32; 3] {
-    encoded.map(|x| {
-        let x = x.clamp(0.0, 1.0);
-        if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
-    })
 }

@@ -2,6 +2,7 @@
 
 mod others;
 mod reference;
+mod surface;
 mod takes;
 
 use crate::support::damage::read_any;
@@ -58,32 +59,15 @@ fn a_square_becomes_two_triangles_with_flipped_uvs_and_normals() {
 }
 
 #[test]
-fn colours_of_vertices_and_cages_of_subdivision_are_told() {
-    let told = |text: &str, finding: &str| {
+fn cages_of_subdivision_are_told() {
+    let is_told = |text: &str| {
         let scene = read("face.fbx", text.as_bytes()).unwrap();
+        let finding = "a subdivision surface, of which the cage is read";
         scene.notes.iter().any(|note| note.to_string().contains(finding))
     };
-    let colored = FACE
-        .replace("\t\tLayerElementUV: 0 {", COLORS)
-        .replace("Type: \"LayerElementUV\"", "Type: \"LayerElementColor\"");
     let smooth = FACE.replacen("GeometryVersion: 124", "GeometryVersion: 124\n\t\tSmoothness: 2", 1);
-    for (text, finding) in [
-        (colored, "colours of vertices are left out"),
-        (smooth, "a subdivision surface, of which the cage is read"),
-    ] {
-        assert!(told(&text, finding) && !told(FACE, finding), "{finding}");
-    }
+    assert!(is_told(&smooth) && !is_told(FACE));
 }
-
-/// A layer of one colour in front of the texture coordinates.
-const COLORS: &str = "\t\tLayerElementColor: 0 {
-			Version: 101
-			Name: \"colors\"
-			MappingInformationType: \"AllSame\"
-			ReferenceInformationType: \"Direct\"
-			Colors: *4 { a: 1,0,0,1 }
-		}
-		LayerElementUV: 0 {";
 
 #[test]
 fn joints_move_points_and_points_without_weights_follow_the_mesh() {
