@@ -1,20 +1,17 @@
 //! Uses all that a scene says.
 
-use avatar_exchange::{Scene, glb, gltf};
+use avatar_exchange::{Scene, glb, gltf, memory};
 use avatar_mesh::deform;
 use avatar_pack::{FaceState, Import, Pack, Textures, export};
 
 /// Clips that are looked at: one reader makes all of a scene's clips, so a few stand for the others.
 const CLIPS: usize = 4;
 
-/// What reading and importing may take: 64 times the input and this many bytes.
-const MEMORY: u64 = 256 << 20;
-
 /// Runs a part of a target and checks the memory that it has at one time.
 pub(crate) fn within_memory<T>(input: usize, what: &str, run: impl FnOnce() -> T) -> T {
     let mut result = None;
     let taken = allocation_counter::measure(|| result = Some(run())).bytes_max;
-    let allowed = MEMORY + 64 * input as u64;
+    let allowed = memory::most(input as u64);
     assert!(taken <= allowed, "{what} took {taken} bytes of memory, {allowed} are allowed");
     match result {
         Some(result) => result,

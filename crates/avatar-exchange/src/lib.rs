@@ -36,6 +36,7 @@
 //!
 //! This crate knows no files: readers take bytes, and a function that brings what a file refers to.
 
+pub mod memory;
 mod scene;
 pub mod look_at;
 mod build;

@@ -2,14 +2,9 @@
 
 use crate::Warning;
 use crate::textures::{bytes_while_decoding, decoder, kept_bytes, rgba};
-use avatar_exchange::{Scene, SceneImage, TextureRef};
+use avatar_exchange::{Scene, SceneImage, TextureRef, memory};
 use image::{ImageDecoder, RgbaImage};
 use std::collections::BTreeSet;
-
-/// Bytes that the pictures of any scene may take.
-const FREE_BYTES: u64 = 128 << 20;
-/// Bytes that they may take in addition for each byte that they have in the file.
-const PER_ENCODED_BYTE: u64 = 24;
 
 /// The pictures of a scene by their places there; those that nothing uses are not decoded.
 pub(crate) struct Pictures {
@@ -28,7 +23,7 @@ impl Pictures {
             warnings: Vec::new(),
         };
         let encoded: u64 = scene.images.iter().map(|image| image.bytes.len() as u64).sum();
-        let mut room = FREE_BYTES.saturating_add(encoded.saturating_mul(PER_ENCODED_BYTE));
+        let mut room = memory::share(memory::PICTURES, encoded);
         for (place, image) in scene.images.iter().enumerate().filter(|(place, _)| used.contains(place)) {
             match decoded(image, &mut room) {
                 Ok(picture) => {
@@ -77,8 +72,9 @@ fn decoded(image: &SceneImage, room: &mut u64) -> Result<RgbaImage, String> {
     let decoder = decoder(&image.name, &image.bytes).map_err(not_read)?;
     let ((width, height), kept) = (decoder.dimensions(), kept_bytes(&decoder));
     if bytes_while_decoding(&decoder) > *room {
+        let (free, per_byte) = memory::PICTURES;
         return Err(format!(
-            "expected pictures of at most {FREE_BYTES} bytes and {PER_ENCODED_BYTE} for each byte of the file, found one of {width}×{height} pixels beyond that; its plain colour shows"
+            "expected pictures of at most {free} bytes and {per_byte} for each byte of the file, found one of {width}×{height} pixels beyond that; its plain colour shows"
         ));
     }
     let picture = rgba(decoder).map_err(not_read)?;

@@ -1,4 +1,5 @@
 use crate::{Source, Warning};
+use avatar_exchange::memory;
 use avatar_mesh::PartKind;
 use image::error::{LimitError, LimitErrorKind};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
@@ -108,10 +109,9 @@ pub(crate) struct OwnImages {
 /// Larger pictures than this on a side are refused before they are decoded.
 const MAX_SIDE: u32 = 16_384;
 
-/// Bytes that the pictures of any pack may take.
-const FREE_BYTES: u64 = 256 << 20;
-/// Bytes that they may take in addition for each byte that they have in their files.
-const PER_ENCODED_BYTE: u64 = 64;
+/// Bytes that the pictures of any pack may take, and in addition for each byte that they have in their files.
+const FREE_BYTES: u64 = memory::BASE;
+const PER_ENCODED_BYTE: u64 = memory::PER_BYTE;
 
 impl Textures {
     /// Loads all textures that the source has. Nothing fails here: what does not decode is reported.

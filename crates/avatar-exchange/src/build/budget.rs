@@ -1,15 +1,9 @@
 //! Limits of what a file may unpack to. A few bytes can describe gigabytes: accessors without data, many
 //! parts that share one mesh, the same mesh at thousands of nodes.
 
+use crate::memory::{self, UNPACKED};
 use crate::scene::ImportError;
 
-/// Bytes that every file may unpack to. Pictures, what is needed while it unpacks, and what becomes of a
-/// scene come on top: altogether at most 256 MiB, and 64 bytes for each byte of the file.
-#[cfg(any(feature = "collada", feature = "fbx", feature = "obj", feature = "gltf"))]
-const BASE_BYTES: u64 = 112 << 20;
-/// So many bytes more for each of the file's own.
-#[cfg(any(feature = "collada", feature = "fbx", feature = "obj", feature = "gltf"))]
-const BYTES_PER_BYTE: u64 = 32;
 /// What a vertex takes, or one that a shape moves, where these are counted.
 #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
 const BYTES_PER_VERTEX: u64 = 64;
@@ -48,7 +42,7 @@ impl Budget {
     /// [`Budget::of_bytes`] hold.
     #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
     pub(crate) fn of_vertices(input_bytes: usize) -> Self {
-        let bytes = BASE_BYTES.saturating_add((input_bytes as u64).saturating_mul(BYTES_PER_BYTE));
+        let bytes = memory::share(UNPACKED, input_bytes as u64);
         Self { left: bytes / BYTES_PER_VERTEX, unit: Unit::Vertices }
     }
 
@@ -58,12 +52,16 @@ impl Budget {
         Self { left, ..Self::of_vertices(0) }
     }
 
-    /// Counts bytes: [`BASE_BYTES`], and [`BYTES_PER_BYTE`] for each of the file.
+    /// Counts bytes: the share that [`UNPACKED`] says.
     #[cfg(feature = "gltf")]
     pub(crate) fn of_bytes(input_bytes: usize) -> Self {
-        let mut budget = Self { left: BASE_BYTES, unit: Unit::Bytes };
-        budget.grow(input_bytes);
-        budget
+        Self { left: memory::share(UNPACKED, input_bytes as u64), unit: Unit::Bytes }
+    }
+
+    /// As [`Budget::of_bytes`], with so many left.
+    #[cfg(all(test, feature = "gltf"))]
+    pub(crate) fn with_bytes_left(left: u64) -> Self {
+        Self { left, ..Self::of_bytes(0) }
     }
 
     /// How much may still be unpacked.
@@ -75,7 +73,7 @@ impl Budget {
     /// Another file of so many bytes was read.
     #[cfg(feature = "gltf")]
     pub(crate) fn grow(&mut self, input_bytes: usize) {
-        self.left = self.left.saturating_add((input_bytes as u64).saturating_mul(BYTES_PER_BYTE));
+        self.left = memory::share((self.left, UNPACKED.1), input_bytes as u64);
     }
 
     /// Takes `count` times `size` units, before what they stand for is allocated.

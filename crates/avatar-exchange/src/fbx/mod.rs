@@ -21,17 +21,13 @@ mod skin;
 
 use self::coordinates::Coordinates;
 use crate::build::budget::Budget;
+use crate::memory;
 use crate::scene::{Finding, ImportError, Node, Note, RawScene, Resolve, Scene, Transform, Trs};
 use glam::{Quat, Vec3};
 
 /// Nesting of nodes that the library accepts.
 const MAX_DEPTH: u32 = 1024;
-/// Memory that the library may take for what it has read, and as much while it reads: this, and 20 bytes for
-/// each byte of the file. Arrays in files are compressed, by a factor of up to a thousand if they are
-/// hostile. What becomes of them here comes on top, within 256 MiB and 64 bytes for each byte.
-const MEMORY_BYTES: usize = 64 << 20;
-const MEMORY_PER_BYTE: usize = 20;
-/// And never more than this.
+/// The library never takes more memory than this, whatever the file's size.
 const MAX_MEMORY_BYTES: usize = 2 << 30;
 /// How often the library tells where it is: what errors name as their place.
 const PROGRESS_BYTES: u64 = 1024;
@@ -77,9 +73,11 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
     Ok(scene)
 }
 
-/// What the library may take for a file of so many bytes.
-fn memory(bytes: usize) -> usize {
-    bytes.saturating_mul(MEMORY_PER_BYTE).saturating_add(MEMORY_BYTES).min(MAX_MEMORY_BYTES)
+/// What the library may take for what it has read of a file of so many bytes, and as much while it reads.
+/// Arrays in files are compressed, by a factor of up to a thousand if they are hostile.
+fn library_memory(bytes: usize) -> usize {
+    let share = memory::share(memory::FBX_LIBRARY, bytes as u64);
+    usize::try_from(share).unwrap_or(usize::MAX).min(MAX_MEMORY_BYTES)
 }
 
 fn allocator(memory_limit: usize) -> ufbx::AllocatorOpts {
@@ -96,7 +94,7 @@ fn load(bytes: &[u8]) -> Result<ufbx::SceneRoot, ImportError> {
         ufbx::ProgressResult::Continue
     };
     let axes = ufbx::CoordinateAxes::right_handed_y_up();
-    let limit = memory(bytes.len());
+    let limit = library_memory(bytes.len());
     let options = ufbx::LoadOpts {
         temp_allocator: allocator(limit),
         result_allocator: allocator(limit),

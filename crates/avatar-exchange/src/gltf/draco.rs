@@ -179,3 +179,79 @@ fn values(attribute: &PointAttribute, vertices: usize, size: usize) -> Result<Ve
     }
     Ok(values)
 }
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "a test may panic")]
+mod tests {
+    use super::super::container::Container;
+    use super::super::document::Document;
+    use super::values;
+    use crate::build::budget::Budget;
+    use draco_core::{AttributeValueIndex, DataType, GeometryAttributeType, PointAttribute, PointIndex};
+    use serde_json::{Value, json};
+
+    /// A pyramid of five corners and six triangles: places, texture coordinates and four bytes of colour, by
+    /// Google's Draco 1.5.7.
+    const PYRAMID: &str = "445241434f02020100000006050100010200020300040101040202040303040001030009030000030902000102020400020202010\
+        00101000c03cd0c2335330304e082f83f0000000000fcffff0000000003f03f00000000ff070000000101000b036926cd0c1bcd0\
+        c0305f59da4fc2f2000000000ff030000000101000903cd0c9919139d1903de90b0698061c6bc5c76d6cc8c0600000000ff00000\
+        0000000000000000000000000000000400b00000000000000000000803f0a";
+
+    fn pyramid() -> Vec<u8> {
+        let digit = |digit: u8| char::from(digit).to_digit(16).and_then(|digit| u8::try_from(digit).ok());
+        let digits: Vec<u8> = PYRAMID.bytes().filter_map(digit).collect();
+        digits.chunks(2).map(|pair| 16 * pair[0] + pair[1]).collect()
+    }
+
+    /// What is decoded counts also where the primitive names nothing of it, and what is named counts again,
+    /// since it is copied for each vertex.
+    #[test]
+    fn all_that_is_decoded_counts_against_the_budget() {
+        let bin = pyramid();
+        let json = json!({
+            "asset": {"version": "2.0"},
+            "buffers": [{"byteLength": bin.len()}],
+            "bufferViews": [{"buffer": 0, "byteLength": bin.len()}],
+            "accessors": [{"componentType": 5126, "count": 5, "type": "VEC3"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]
+        })
+        .to_string();
+        let container = Container { json: json.as_bytes(), bin: Some(&bin) };
+        let mut resolve = |_: &str| Err("no files".to_owned());
+        let mut document = Document::open(&container, 0, &mut resolve).expect("a good file");
+        let mut unpack = |left: u64, attributes: Value| {
+            document.budget = Budget::with_bytes_left(left);
+            let extension = json!({"bufferView": 0, "attributes": attributes});
+            let outcome = document.unpack_primitive("p", 0, 0, &extension);
+            outcome.map(|()| left - document.budget.left()).map_err(|error| error.expected)
+        };
+        // Triangles and vertices, then 12, 8 and 4 bytes for each of the five.
+        let decoded = 6 * 64 + 5 * 16 + 5 * (12 + 8 + 4);
+        let plenty = 1 << 20;
+        assert_eq!(unpack(plenty, json!({})), Ok(decoded));
+        assert_eq!(unpack(plenty, json!({"POSITION": 0})), Ok(decoded + 5 * 12));
+        assert_eq!(unpack(decoded + 5 * 12, json!({"POSITION": 0})), Ok(decoded + 5 * 12));
+        let error = unpack(decoded + 5 * 12 - 1, json!({"POSITION": 0})).expect_err("one byte less");
+        assert_eq!(error, "at most 59 bytes more in a file of this size");
+        assert!(unpack(decoded - 1, json!({})).is_err());
+    }
+
+    /// Data that the decoder accepts may still lack the value of a vertex: that is told, and is no zero.
+    #[test]
+    fn a_value_that_is_missing_is_told() {
+        let mut colors = PointAttribute::new();
+        colors.init(GeometryAttributeType::Color, 4, DataType::Uint8, true, 2);
+        colors.buffer_mut().data_mut().copy_from_slice(&[1, 2, 3, 4, 5, 6, 7, 8]);
+        assert_eq!(values(&colors, 2, 4), Ok(vec![1, 2, 3, 4, 5, 6, 7, 8]));
+        assert_eq!(values(&colors, 3, 4), Err(2));
+        colors.set_explicit_mapping(3);
+        for (vertex, value) in [(0, 1), (1, 0), (2, 1)] {
+            colors.set_point_map_entry(PointIndex(vertex), AttributeValueIndex(value));
+        }
+        assert_eq!(values(&colors, 3, 4), Ok(vec![5, 6, 7, 8, 1, 2, 3, 4, 5, 6, 7, 8]));
+        colors.set_point_map_entry(PointIndex(1), AttributeValueIndex(2));
+        assert_eq!(values(&colors, 3, 4), Err(1));
+        // Beyond those that have one at all.
+        assert_eq!(values(&colors, 4, 4), Err(1));
+    }
+}

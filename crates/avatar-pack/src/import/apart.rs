@@ -2,8 +2,11 @@
 
 use super::shape_sets::ShapeSet;
 use super::spellings;
-use avatar_exchange::{ChannelTarget, Interpolation, Scene, ScenePart};
+use avatar_exchange::{ChannelTarget, Interpolation, Scene};
+use avatar_mesh::Mesh;
+use glam::Vec3;
 use std::collections::{HashMap, HashSet};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A slider, or a shape that is its own: what a control is made for.
 #[derive(Debug)]
@@ -229,32 +232,51 @@ fn motion(channels: &[(usize, &avatar_exchange::Channel)], shape: usize, shapes:
 
 /// The nodes that have the same meshes with shapes, two or more of each.
 fn same_meshes(scene: &Scene) -> Vec<Vec<usize>> {
-    let mut parts: HashMap<usize, Vec<&ScenePart>> = HashMap::new();
+    let mut parts: HashMap<usize, Vec<&Mesh>> = HashMap::new();
     for part in scene.parts.iter().filter(|part| !part.mesh.shapes.is_empty()) {
-        parts.entry(part.node).or_default().push(part);
+        parts.entry(part.node).or_default().push(&part.mesh);
     }
-    // Numbers that are soon told apart, then the meshes themselves.
-    let mut by_size: HashMap<Vec<usize>, Vec<Vec<usize>>> = HashMap::new();
     let mut nodes: Vec<usize> = parts.keys().copied().collect();
     nodes.sort_unstable();
+    // By a number of all that the meshes have, so that only those are compared which are most likely the
+    // same.
+    let mut by_number: HashMap<u64, Vec<Vec<usize>>> = HashMap::new();
     for node in nodes {
-        let of_node = &parts[&node];
-        let size = |part: &&ScenePart| {
-            [part.mesh.positions.len(), part.mesh.triangles.len(), part.mesh.shapes.len()]
-        };
-        let groups = by_size.entry(of_node.iter().flat_map(size).collect()).or_default();
+        let meshes = &parts[&node];
+        let groups = by_number.entry(number(meshes)).or_default();
         let is_same = |other: &usize| {
-            of_node.iter().zip(&parts[other]).all(|(a, b)| {
-                let (a, b) = (&a.mesh, &b.mesh);
-                a.positions == b.positions && a.triangles == b.triangles && a.shapes == b.shapes
-            })
+            let others = &parts[other];
+            meshes.len() == others.len() && meshes.iter().zip(others).all(|(a, b)| is_same_mesh(a, b))
         };
         match groups.iter_mut().find(|group| group.first().is_some_and(is_same)) {
             Some(group) => group.push(node),
             None => groups.push(vec![node]),
         }
     }
-    let mut same: Vec<Vec<usize>> = by_size.into_values().flatten().filter(|group| group.len() > 1).collect();
+    let mut same: Vec<Vec<usize>> =
+        by_number.into_values().flatten().filter(|group| group.len() > 1).collect();
     same.sort();
     same
+}
+
+fn is_same_mesh(a: &Mesh, b: &Mesh) -> bool {
+    a.positions == b.positions && a.triangles == b.triangles && a.shapes == b.shapes
+}
+
+/// A number that is the same for meshes that are, and another one for nearly all others.
+fn number(meshes: &[&Mesh]) -> u64 {
+    // Zero is zero.
+    let bits = |at: Vec3| at.to_array().map(|x| (x + 0.0).to_bits());
+    let mut hasher = DefaultHasher::new();
+    for mesh in meshes {
+        mesh.positions.len().hash(&mut hasher);
+        mesh.positions.iter().for_each(|at| bits(*at).hash(&mut hasher));
+        mesh.triangles.hash(&mut hasher);
+        for shape in &mesh.shapes {
+            shape.name.hash(&mut hasher);
+            let offsets = shape.positions.iter();
+            offsets.for_each(|(vertex, by)| (vertex, bits(by)).hash(&mut hasher));
+        }
+    }
+    hasher.finish()
 }

@@ -69,6 +69,31 @@ pub(crate) fn black_png(side: u32) -> Vec<u8> {
     file
 }
 
+/// A WebP of one colour: codes of one symbol each take no bits, so that pixels take none (RFC 9649, 3.7).
+pub(crate) fn plain_webp(side: u32) -> Vec<u8> {
+    let mut bits = Bits { bytes: vec![0x2f], used: 8 };
+    for length in [side - 1, side - 1] {
+        bits.put(length, 14);
+    }
+    // No alpha, version 0, no transform, no cache of colours, one group of codes for all.
+    bits.put(0, 1 + 3 + 1 + 1 + 1);
+    // Green, red, blue, alpha and distance: a simple code of one symbol of one bit, which is 0.
+    (0..5).for_each(|_| bits.put(0b0001, 4));
+    let mut data = bits.bytes;
+    data.resize(data.len().next_multiple_of(2), 0);
+    let length = |bytes: usize| u32::try_from(bytes).unwrap_or(u32::MAX).to_le_bytes();
+    [&b"RIFF"[..], &length(12 + data.len()), b"WEBPVP8L", &length(data.len()), &data].concat()
+}
+
+/// Zeros of so many vertices, packed by the first version of meshoptimizer's codec for vertices: a header,
+/// for each byte of each block of 256 vertices two bits for a group of 16 of them, and the first vertex.
+pub(crate) fn meshopt_zeros(vertices: usize, stride: usize) -> Vec<u8> {
+    assert!(vertices.is_multiple_of(256) && stride <= 32);
+    let mut bytes = vec![0; 1 + vertices / 256 * stride * 4 + 32];
+    bytes[0] = 0xa0;
+    bytes
+}
+
 /// The cyclic redundancy check of PNG, annex D.
 fn crc(bytes: &[u8]) -> u32 {
     let step = |crc: u32| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };

@@ -1,10 +1,10 @@
-//! glTF: counts of accessors without data, sparse ones, buffers and URIs, meshes at many nodes, pictures.
+//! glTF: counts of accessors without data, sparse ones, buffers and URIs, meshes at many nodes.
 
-use crate::bytes::{base64, black_png};
+use crate::bytes::base64;
 use crate::{growing, measured};
 
 /// A scene of one node with a mesh, of these accessors: 0 is POSITION, of `count`; the rest is given.
-fn file(mesh: &str, accessors: &[String], more: &str) -> Vec<u8> {
+pub(crate) fn file(mesh: &str, accessors: &[String], more: &str) -> Vec<u8> {
     let accessors = accessors.join(",");
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
@@ -17,7 +17,7 @@ fn accessor(kind: &str, component: u32, count: u64) -> String {
     format!(r#"{{"componentType":{component},"count":{count},"type":"{kind}","min":[0,0,0],"max":[0,0,0]}}"#)
 }
 
-fn vec3(count: u64) -> String {
+pub(crate) fn vec3(count: u64) -> String {
     accessor("VEC3", 5126, count)
 }
 
@@ -177,25 +177,6 @@ fn skins_and_animations_without_data() {
             &accessors,
         )
     });
-}
-
-#[test]
-fn pictures_of_one_colour() {
-    for (side, copies) in [(16_384, 1), (4_096, 12)] {
-        let png = base64(&black_png(side));
-        let images = vec![format!(r#"{{"uri":"data:image/png;base64,{png}"}}"#); copies].join(",");
-        let list = |what: &dyn Fn(usize) -> String| (0..copies).map(what).collect::<Vec<_>>().join(",");
-        let textures = list(&|image| format!(r#"{{"source":{image}}}"#));
-        let materials = list(&|image| {
-            format!(r#"{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":{image}}}}}}}"#)
-        });
-        let primitives =
-            list(&|material| format!(r#"{{"attributes":{{"POSITION":0}},"material":{material}}}"#));
-        let mesh = format!(r#"{{"primitives":[{primitives}]}}"#);
-        let more = format!(r#","images":[{images}],"textures":[{textures}],"materials":[{materials}]"#);
-        let outcome = measured("picture.gltf", &file(&mesh, &[vec3(3)], &more), &[], 0);
-        assert!(outcome.is_read(), "without the picture, with a note: {outcome:?}");
-    }
 }
 
 /// Lists of a glTF file, and the shortest of their elements that mean something.
@@ -364,32 +345,5 @@ fn instances() {
             accessor("VEC4", 5126, count)
         )
         .into_bytes()
-    });
-}
-
-/// A pyramid of five corners with texture coordinates and colours, packed by Draco.
-const DRACO: &str = "445241434f02020100000006050100010200020300040101040202040303040001030009030000030902000102020400020202010001\
-     01000c03cd0c2335330304e082f83f0000000000fcffff0000000003f03f00000000ff070000000101000b036926cd0c1bcd0c0305f5\
-     9da4fc2f2000000000ff030000000101000903cd0c9919139d1903de90b0698061c6bc5c76d6cc8c0600000000ff0000000000000000\
-     00000000000000000000400b00000000000000000000803f0a";
-
-/// The same few packed bytes, unpacked for each primitive.
-#[test]
-fn packed_data_that_many_share() {
-    let bytes: Vec<u8> = (0..DRACO.len() / 2)
-        .map(|at| u8::from_str_radix(&DRACO[2 * at..2 * at + 2], 16).expect("hex"))
-        .collect();
-    let padded: Vec<u8> = bytes.iter().copied().chain(vec![0; (3 - bytes.len() % 3) % 3]).collect();
-    let buffer = format!(
-        r#""buffers":[{{"byteLength":{0},"uri":"data:application/octet-stream;base64,{1}"}}],
-        "bufferViews":[{{"buffer":0,"byteLength":{0}}}]"#,
-        bytes.len(),
-        base64(&padded)
-    );
-    let primitive = r#"{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,
-        "attributes":{"POSITION":0}}}}"#;
-    growing("draco.gltf", |count| {
-        let primitives = vec![primitive; count.min(1 << 15) as usize].join(",");
-        file(&format!(r#"{{"primitives":[{primitives}]}}"#), &[vec3(5)], &format!(",{buffer}"))
     });
 }

@@ -13,14 +13,12 @@
 mod bytes;
 mod gltf;
 mod others;
+mod packed;
 
-use avatar_exchange::TextFile;
+use avatar_exchange::{TextFile, memory};
 use avatar_pack::Import;
 
 const MIB: u64 = 1 << 20;
-/// What reading may take whatever the file's size is, and for each of its bytes.
-const BASE: u64 = 256 * MIB;
-const PER_BYTE: u64 = 64;
 
 /// What became of a file.
 #[derive(Debug)]
@@ -54,7 +52,7 @@ fn measured(name: &str, bytes: &[u8], further: &[(&str, &[u8])], beside: u64) ->
         });
     });
     let outcome = outcome.expect("it was read");
-    let (peak, limit) = (info.bytes_max + beside, BASE + PER_BYTE * size);
+    let (peak, limit) = (info.bytes_max + beside, memory::most(size));
     let what = match &outcome {
         Outcome::Read => "read".to_owned(),
         Outcome::Refused(why) => format!("refused: {}", why.chars().take(150).collect::<String>()),
@@ -95,6 +93,13 @@ fn growing_beside(name: &str, file: impl Fn(u64) -> Vec<u8>, beside: impl Fn(&[u
             return;
         }
     }
+}
+
+#[test]
+fn the_limit_is_the_one_that_is_promised() {
+    assert_eq!(memory::most(0), 256 * MIB);
+    assert_eq!(memory::most(1_000_000), 256 * MIB + 64_000_000);
+    assert_eq!(memory::most(u64::MAX), u64::MAX);
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! OBJ, MakeHuman targets, COLLADA, MD5, BVH and FBX.
 
 use crate::bytes::zlib_zeros;
-use crate::{MIB, growing, growing_beside, measured};
+use crate::{growing, growing_beside, measured};
+use avatar_exchange::memory;
 
 /// What the library that reads FBX may hold of its own beside a scene.
 fn beside(file: &[u8]) -> u64 {
-    64 * MIB + 20 * file.len() as u64
+    memory::share(memory::FBX_LIBRARY, file.len() as u64)
 }
 
 #[test]
@@ -164,6 +165,40 @@ fn fbx_arrays() {
         let file = packed_fbx(count);
         measured(&format!("{count}.fbx"), &file, &[], beside(&file));
     }
+}
+
+/// One curve that moves the places of very many nodes: it is sampled for each of them.
+#[test]
+fn fbx_curves_that_many_share() {
+    const KEYS: usize = 2_000;
+    let list = |number: &dyn Fn(usize) -> usize| {
+        (0..KEYS).map(|key| number(key).to_string()).collect::<Vec<_>>().join(",")
+    };
+    let (times, values) = (list(&|key| key * 1_000), list(&|key| key % 7));
+    let curve = format!(
+        "AnimationStack: 1, \"AnimStack::take\", \"\" {{\n}}\nAnimationLayer: 2, \"AnimLayer::l\", \"\" {{\n}}\n\
+         AnimationCurve: 3, \"AnimCurve::\", \"\" {{\nKeyTime: *{KEYS} {{\na: {times}\n}}\nKeyValueFloat: *{KEYS} {{\na: {values}\n}}\n\
+         KeyAttrFlags: *1 {{\na: 4\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\nKeyAttrRefCount: *1 {{\na: {KEYS}\n}}\n}}\n"
+    );
+    growing_beside(
+        "curves.fbx",
+        |count| {
+            let (mut objects, mut links) = (curve.clone(), "C: \"OO\",2,1\n".to_owned());
+            for model in 0..count.min(1 << 14) {
+                let (model, moved) = (10 + 2 * model, 11 + 2 * model);
+                objects += &format!("Model: {model}, \"Model::a\", \"Null\" {{\n}}\n");
+                objects += &format!("AnimationCurveNode: {moved}, \"AnimCurveNode::T\", \"\" {{\n}}\n");
+                links += &format!(
+                    "C: \"OO\",{model},0\nC: \"OO\",{moved},2\nC: \"OP\",{moved},{model}, \"Lcl Translation\"\nC: \"OP\",3,{moved}, \"d|X\"\n"
+                );
+            }
+            format!(
+                "; FBX 7.4.0 project file\nFBXHeaderExtension: {{\nFBXVersion: 7400\n}}\nObjects: {{\n{objects}}}\nConnections: {{\n{links}}}\n"
+            )
+            .into_bytes()
+        },
+        beside,
+    );
 }
 
 /// A binary FBX of one mesh of so many numbers, all zero, its corners too.
