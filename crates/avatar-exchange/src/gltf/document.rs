@@ -6,7 +6,7 @@ use super::pointer::Pointers;
 use super::scan::{Found, scan};
 use super::uri::Uri;
 use crate::build::budget::Budget;
-use crate::scene::{Finding, ImportError, Note, Resolve, quoted};
+use crate::scene::{Finding, ImportError, Note, Resolve, TextureRef, quoted};
 use gltf::json::{Index, Root, buffer};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -23,8 +23,14 @@ pub(super) struct Document<'a> {
     pub(super) root: Root,
     pub(super) pointers: Pointers,
     pub(super) budget: Budget,
+    /// How many pictures the file has, which leave the structures when they are read.
+    pub(super) images: usize,
     /// For each material, which texture coordinates it needs.
     pub(super) looks: Vec<Looks>,
+    /// An extension of materials and its member that is a texture, which needs coordinates as well.
+    pub(super) further: Option<(&'static str, &'static str)>,
+    /// For each material the texture that this member says.
+    pub(super) further_textures: Vec<Option<TextureRef>>,
     /// Nodes that stand for the instances of a node, at the end of the scene's.
     pub(super) instances: BTreeMap<usize, Range<usize>>,
     /// What the structures do not have.
@@ -61,10 +67,13 @@ impl<'a> Document<'a> {
         let json::Parsed { root, dropped, pointers } = json::parse(container.json, &found, &mut budget)?;
         check_versions(&root, &found)?;
         let mut document = Self {
+            images: root.images.len(),
             root,
             pointers,
             budget,
             looks: Vec::new(),
+            further: None,
+            further_textures: Vec::new(),
             instances: BTreeMap::new(),
             found,
             stores: Vec::new(),

@@ -89,9 +89,13 @@ impl Document<'_> {
             });
             let (normal_use, occlusion_use) = (normal_use.transpose()?, occlusion_use.transpose()?);
             // The first two that differ get coordinates, so the most visible ones come first.
-            let uses = [&base.texture, &normal_use, &base.metallic_roughness, &emissive, &occlusion_use];
+            let further = self.further_use(&place, extensions)?;
+            let uses =
+                [&base.texture, &further, &normal_use, &base.metallic_roughness, &emissive, &occlusion_use];
             let looks = Looks::of(uses.into_iter().flatten().map(|used| used.source));
             self.looks.push(looks);
+            let further = self.texture(&place, &looks, further.as_ref())?;
+            self.further_textures.push(further);
             let mut texture = |used: &Option<Use>| self.texture(&place, &looks, used.as_ref());
             scene.materials.push(Material {
                 base_color: base.color,

@@ -32,6 +32,8 @@ mod uri;
 mod vertex;
 mod weights;
 
+#[cfg(feature = "vrm")]
+use crate::scene::TextureRef;
 use crate::scene::{ImportError, RawScene, Resolve, Scene};
 use document::Document;
 
@@ -80,16 +82,21 @@ pub(crate) struct Extras {
     pub(crate) materials: Vec<serde_json::Map<String, serde_json::Value>>,
     /// For each texture its image.
     pub(crate) textures: Vec<Option<usize>>,
+    /// For each material the texture that its extension says, with the place of its coordinates in meshes.
+    pub(crate) further_textures: Vec<Option<TextureRef>>,
 }
 
-/// As [`read_raw()`], with what the scene lacks; the JSON is parsed once.
+/// As [`read_raw()`], with what the scene lacks; the JSON is parsed once. `further` is an extension of materials
+/// and its member that is a texture: meshes get its coordinates, too.
 #[cfg(feature = "vrm")]
 pub(crate) fn read_with_extras(
     bytes: &[u8],
+    further: (&'static str, &'static str),
     resolve: &mut Resolve<'_>,
 ) -> Result<(RawScene, Extras), ImportError> {
     let container = split(bytes)?;
     let mut document = Document::open(&container, bytes.len(), resolve)?;
+    document.further = Some(further);
     let extensions = document.root.extensions.take().map(|extensions| extensions.others).unwrap_or_default();
     let mut nodes_of_meshes = vec![Vec::new(); document.root.meshes.len()];
     for (number, node) in document.root.nodes.iter().enumerate() {
@@ -99,8 +106,12 @@ pub(crate) fn read_with_extras(
     let nodes = document.root.nodes.iter().map(|node| own(&node.extensions, |all| &all.others)).collect();
     let materials = document.root.materials.iter();
     let materials = materials.map(|material| own(&material.extensions, |all| &all.others)).collect();
-    let textures = document.root.textures.iter().map(texture::image_of).collect();
-    Ok((read_scene(&mut document)?, Extras { extensions, nodes_of_meshes, nodes, materials, textures }))
+    let images = document.images;
+    let textures = document.root.textures.iter();
+    let textures = textures.map(|texture| texture::image_of(texture, images)).collect();
+    let scene = read_scene(&mut document)?;
+    let further_textures = std::mem::take(&mut document.further_textures);
+    Ok((scene, Extras { extensions, nodes_of_meshes, nodes, materials, textures, further_textures }))
 }
 
 /// The extensions of VRM among those of an element.

@@ -109,40 +109,70 @@ impl Document<'_> {
 
     /// As [`image_of`], with notes.
     fn image(&mut self, place: &str, texture: Index<Texture>) -> Result<Option<usize>, ImportError> {
+        let images = self.images;
         let texture = in_range("textures", &self.root.textures, texture.value())?;
-        let image = image_of(texture);
-        let unread: Vec<String> = extensions_of(texture).map(|(name, _)| name.clone()).collect();
+        let image = image_of(texture, images);
         let is_other =
-            image.is_some() && OTHER_PICTURES.into_iter().any(|name| source(texture, name) == image);
-        for name in unread.into_iter().filter(|name| name != WEBP) {
-            let finding = match (OTHER_PICTURES.contains(&name.as_str()), is_other) {
-                (true, false) => Finding::Converted(format!("its picture without {name} is taken")),
-                (true, true) => Finding::Converted(format!("its only picture is one of {name}")),
-                (false, _) => Finding::Extension(name),
-            };
-            self.note(place, finding);
+            image.is_some() && OTHER_PICTURES.into_iter().any(|name| source(texture, name, images) == image);
+        let mut findings = Vec::new();
+        for (name, extension) in extensions_of(texture) {
+            let is_picture = name == WEBP || OTHER_PICTURES.contains(&name.as_str());
+            if is_picture && source(texture, name, images).is_none() {
+                let found = extension.get("source").map_or_else(|| "none".to_owned(), shortened);
+                let text = format!("{name}: expected an image below {images}, found {found}");
+                findings.push(Finding::Missing(text));
+            } else if is_picture && name != WEBP {
+                findings.push(Finding::Converted(match is_other {
+                    false => format!("its picture without {name} is taken"),
+                    true => format!("its only picture is one of {name}"),
+                }));
+            } else if !is_picture {
+                findings.push(Finding::Extension(name.clone()));
+            }
         }
+        findings.into_iter().for_each(|finding| self.note(place, finding));
         if image.is_none() {
             self.note(place, Finding::missing("has no image"));
         }
         Ok(image)
     }
+
+    /// The use of a texture that a member of a material's extension says; `None` where it says none, or one
+    /// that the file does not have, which whoever reads the extension tells.
+    pub(super) fn further_use(
+        &self,
+        place: &str,
+        extensions: Option<&Map<String, Value>>,
+    ) -> Result<Option<Use>, ImportError> {
+        let Some((extension, what)) = self.further else { return Ok(None) };
+        let json = extensions.and_then(|all| all.get(extension)?.get(what));
+        let index = json.and_then(|json| u32::try_from(json.get("index")?.as_u64()?).ok());
+        let (Some(json), Some(index)) = (json, index.map(Index::new)) else { return Ok(None) };
+        if index.value() >= self.root.textures.len() {
+            return Ok(None);
+        }
+        let uv_set = json.get("texCoord").and_then(Value::as_f64).map_or(0, |set| set as u32);
+        let extensions = json.get("extensions").and_then(Value::as_object);
+        Use::with(place, what, index, uv_set, extensions).map(Some)
+    }
 }
 
-/// The picture of a texture: WebP, which the extension wants preferred to the plain one, then the plain one,
-/// then those of formats that fewer programs know.
-pub(super) fn image_of(texture: &Texture) -> Option<usize> {
+/// The picture of a texture in a file with so many: WebP, which the extension wants preferred to the plain
+/// one, then the plain one, then those of formats that fewer programs know. An extension that names none of
+/// the file's pictures does not count.
+pub(super) fn image_of(texture: &Texture, images: usize) -> Option<usize> {
     // The structures' word for no image.
     let plain = Some(texture.source.value()).filter(|source| *source != u32::MAX as usize);
-    let other = || OTHER_PICTURES.into_iter().find_map(|name| source(texture, name));
-    source(texture, WEBP).or(plain).or_else(other)
+    let other = || OTHER_PICTURES.into_iter().find_map(|name| source(texture, name, images));
+    source(texture, WEBP, images).or(plain).or_else(other)
 }
 
 fn extensions_of(texture: &Texture) -> impl Iterator<Item = (&String, &Value)> {
     texture.extensions.iter().flat_map(|extensions| extensions.others.iter())
 }
 
-fn source(texture: &Texture, extension: &str) -> Option<usize> {
+fn source(texture: &Texture, extension: &str, images: usize) -> Option<usize> {
     let (_, extension) = extensions_of(texture).find(|(name, _)| *name == extension)?;
-    usize::try_from(extension.get("source")?.as_u64()?).ok()
+    let source = usize::try_from(extension.get("source")?.as_u64()?).ok()?;
+    (source < images).then_some(source)
 }

@@ -161,7 +161,7 @@ const REPRESENTED: [&str; 6] = [
 /// JSON.
 pub fn read(file: &str, bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<VrmModel, ImportError> {
     let in_file = |error: ImportError| error.in_file(file);
-    let (mut raw, extras) = gltf::read_with_extras(bytes, resolve).map_err(in_file)?;
+    let (mut raw, extras) = gltf::read_with_extras(bytes, mtoon::SHADE_TEXTURE, resolve).map_err(in_file)?;
     let vrm = read_vrm(&mut raw, extras).map_err(in_file)?;
     let scene = Scene::from_raw(raw).map_err(in_file)?;
     Ok(VrmModel { scene, vrm })
@@ -178,7 +178,7 @@ fn read_vrm(raw: &mut RawScene, extras: gltf::Extras) -> Result<Vrm, ImportError
             let springs = extension("VRMC_springBone")?.map(|place| spring::read(&place, raw)).transpose()?;
             vrm.springs = springs.unwrap_or_default();
             vrm.constraints = constraint::read(&extras.nodes, raw)?;
-            mtoon::read(&extras.materials, &extras.textures, raw)?;
+            mtoon::read(&extras.materials, &extras.textures, &extras.further_textures, raw)?;
             (vrm, &REPRESENTED[..])
         }
         (None, Some(vrm)) => (v0::read(&vrm, &extras.nodes_of_meshes, &extras.textures, raw)?, &["VRM"][..]),

@@ -3,11 +3,14 @@
 
 use super::note;
 use super::place::Place;
-use crate::scene::{Finding, ImportError, RawScene, TextureRef, ToonMaterial, UvSet};
+use crate::scene::{Finding, ImportError, RawScene, TextureRef, ToonMaterial};
 use serde_json::{Map, Value};
 
 /// The name of the extension.
 pub(super) const EXTENSION: &str = "VRMC_materials_mtoon";
+
+/// The one texture of the extension that is read, whose coordinates the reader of glTF has to keep.
+pub(super) const SHADE_TEXTURE: (&str, &str) = (EXTENSION, "shadeMultiplyTexture");
 
 /// An extension of betas of VRM 1.0: a factor on the light that a surface gives off.
 pub(super) const EMISSION: &str = "VRMC_materials_hdr_emissiveMultiplier";
@@ -31,10 +34,11 @@ const OTHERS: [(&str, &str); 13] = [
 ];
 
 /// Fills in [`crate::scene::Material::toon`]. `extensions` are those of each material, `textures` the image
-/// of each texture.
+/// of each texture, `shades` the texture of each material's shade.
 pub(super) fn read(
     extensions: &[Map<String, Value>],
     textures: &[Option<usize>],
+    shades: &[Option<TextureRef>],
     raw: &mut RawScene,
 ) -> Result<(), ImportError> {
     for (material, extension) in extensions.iter().enumerate().take(raw.materials.len()) {
@@ -49,7 +53,8 @@ pub(super) fn read(
         }
         let Some(value) = extension.get(EXTENSION) else { continue };
         let place = Place::new(value, &format!("material {material}, {EXTENSION}"));
-        let toon = toon(&place, textures, raw)?;
+        let shade = shades.get(material).copied().flatten();
+        let toon = toon(&place, textures.len(), shade, raw)?;
         raw.materials[material].toon = Some(toon);
         // It stands there for programs that do not know the extension.
         raw.materials[material].is_unlit = false;
@@ -59,7 +64,8 @@ pub(super) fn read(
 
 fn toon(
     place: &Place<'_>,
-    textures: &[Option<usize>],
+    textures: usize,
+    shade_texture: Option<TextureRef>,
     raw: &mut RawScene,
 ) -> Result<ToonMaterial, ImportError> {
     place.version_1("specVersion")?;
@@ -81,8 +87,9 @@ fn toon(
             return Err(place.need("outlineWidthMode")?.wrong(expected));
         }
     };
-    let shade_texture = place.get("shadeMultiplyTexture")?;
-    let shade_texture = shade_texture.map(|used| texture(&used, textures, raw)).transpose()?.flatten();
+    if let Some(used) = place.get(SHADE_TEXTURE.1)? {
+        check_texture(&used, textures)?;
+    }
     note_the_rest(place, outline_width, raw)?;
     Ok(ToonMaterial {
         shade_color: place.floats_or("shadeColorFactor", rest.shade_color)?,
@@ -94,32 +101,14 @@ fn toon(
     })
 }
 
-/// A texture, as glTF's materials name them.
-fn texture(
-    place: &Place<'_>,
-    textures: &[Option<usize>],
-    raw: &mut RawScene,
-) -> Result<Option<TextureRef>, ImportError> {
-    let image = textures[place.need("index")?.index("a texture", textures.len())?];
-    let uvs = match place.float_or("texCoord", 0.0)? {
-        0.0 => UvSet::First,
-        1.0 => UvSet::Second,
-        other => {
-            let text = format!("TEXCOORD_{other} is not represented: TEXCOORD_0 is used");
-            note(raw, place.path(), Finding::LeftOut(text));
-            UvSet::First
-        }
-    };
-    let extensions = place.get("extensions")?;
-    let transform = extensions.map(|extensions| extensions.get("KHR_texture_transform")).transpose()?;
-    if transform.flatten().is_some() {
-        let text = "its transform is taken as that of the base colour's texture";
-        note(raw, place.path(), Finding::converted(text));
+/// A texture is named as glTF's materials name them, in a file with so many.
+fn check_texture(place: &Place<'_>, textures: usize) -> Result<(), ImportError> {
+    place.need("index")?.index("a texture", textures)?;
+    place.float_or("texCoord", 0.0)?;
+    if let Some(extensions) = place.get("extensions")? {
+        extensions.all_members()?;
     }
-    if image.is_none() {
-        note(raw, place.path(), Finding::missing("has no image"));
-    }
-    Ok(image.map(|image| TextureRef { image, uvs }))
+    Ok(())
 }
 
 /// One note for all that is left out.

@@ -225,6 +225,31 @@ fn pictures_of_extensions_have_their_order() {
     }
 }
 
+/// A picture is a matter of looks: what an extension says wrongly of it costs neither the file nor the plain one.
+#[test]
+fn an_extension_that_names_no_picture_of_the_file_leaves_the_plain_one() {
+    for name in ["EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"] {
+        for (wrong, found) in [
+            (r#"{"source": 2}"#, "2"),
+            (r#"{"source": -1}"#, "-1"),
+            (r#"{"source": "a.png"}"#, r#""a.png""#),
+            ("{}", "none"),
+            ("7", "none"),
+        ] {
+            let note =
+                format!("material 0, baseColorTexture: {name}: expected an image below 2, found {found}");
+            let both = textured(&format!(r#"{{"source": 1, "extensions": {{"{name}": {wrong}}}}}"#));
+            let image = both.materials[0].base_color_texture.map(|texture| texture.image);
+            assert!(image == Some(1) && notes(&both).contains(&note), "{:?}", both.notes);
+            let alone = textured(&format!(r#"{{"extensions": {{"{name}": {wrong}}}}}"#));
+            let none = "material 0, baseColorTexture: has no image".to_owned();
+            let notes = notes(&alone);
+            assert!(notes.contains(&note) && notes.contains(&none), "{notes:?}");
+            assert_eq!(alone.materials[0].base_color_texture, None);
+        }
+    }
+}
+
 fn specular(members: &str, plain: &str) -> (Material, Vec<String>) {
     let json = format!(
         r#"{{"asset": {{"version": "2.0"}}, "images": [{{"uri": "data:,a"}}], "textures": [{{"source": 0}}], "materials": [{{{plain}

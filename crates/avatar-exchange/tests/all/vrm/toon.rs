@@ -3,6 +3,7 @@
 use super::{read, scene};
 use avatar_exchange::vrm::VrmModel;
 use avatar_exchange::{AlphaMode, Material, TextureRef, ToonMaterial, UvSet};
+use glam::Vec2;
 use serde_json::{Value, json};
 
 /// With two pictures, of which the second texture shows the first.
@@ -106,6 +107,53 @@ fn mtoon_of_version_1_becomes_a_toon_material() {
         assert!(notes.iter().any(|note| note == text), "{text}: {notes:?}");
     }
     assert!(!notes.iter().any(|note| note.contains("mtoon is not represented")), "{notes:?}");
+}
+
+/// The texture coordinates of the first vertex that the shade, the base colour and the normals of a material
+/// use, in a file whose own are all 0.
+fn coordinates(base: Value, shade: Value, normals: Value) -> (VrmModel, [Option<Vec2>; 3]) {
+    let mut json = v1();
+    let zeros = json!({ "componentType": 5126, "type": "VEC2", "count": 3 });
+    json["accessors"].as_array_mut().expect("a list").push(zeros);
+    let primitive = &mut json["meshes"][0]["primitives"][0];
+    primitive["material"] = json!(0);
+    primitive["attributes"] = json!({ "POSITION": 0, "TEXCOORD_0": 1 });
+    json["materials"][0]["pbrMetallicRoughness"] = json!({ "baseColorTexture": base });
+    json["materials"][0]["normalTexture"] = normals;
+    json["materials"][0]["extensions"]["VRMC_materials_mtoon"]["shadeMultiplyTexture"] = shade;
+    let model = read(&json).expect("a VRM");
+    let (mesh, material) = (&model.scene.parts[0].mesh, &model.scene.materials[0]);
+    let shade = material.toon.as_ref().expect("a toon").shade_texture;
+    let found = [shade, material.base_color_texture, material.normal_texture].map(|used| {
+        used.map(|used| match used.uvs {
+            UvSet::First => mesh.uvs[0],
+            UvSet::Second => mesh.uvs_1[0],
+        })
+    });
+    (model, found)
+}
+
+/// Each texture of the standard has coordinates of its own, with a transform or without one.
+#[test]
+fn a_shade_texture_keeps_its_coordinates_beside_others() {
+    let moved = |index: u32, offset: [f32; 2]| json!({ "index": index, "extensions": { "KHR_texture_transform": { "offset": offset } } });
+    let plain = |index: u32| json!({ "index": index });
+    let (base, shade) = ([0.5, 0.25], [0.125, 0.75]);
+    for (base_texture, shade_texture, expected) in [
+        (moved(0, base), plain(1), [Vec2::ZERO, Vec2::from(base)]),
+        (plain(0), moved(1, shade), [Vec2::from(shade), Vec2::ZERO]),
+        (moved(0, base), moved(1, shade), [Vec2::from(shade), Vec2::from(base)]),
+        (moved(0, base), moved(1, base), [Vec2::from(base); 2]),
+        (plain(0), plain(1), [Vec2::ZERO; 2]),
+    ] {
+        // Of three that differ, the normals' have no place.
+        let (model, found) = coordinates(base_texture, shade_texture, moved(0, [0.0, 9.0]));
+        assert_eq!(found[..2], expected.map(Some));
+        let has_place = expected[0] == expected[1];
+        assert_eq!(found[2], has_place.then_some(Vec2::new(0.0, 9.0)));
+        let note = "material 0, normalTexture: needs a third set of texture coordinates and is left out";
+        assert_eq!(notes(&model).iter().any(|text| text == note), !has_place);
+    }
 }
 
 fn near(found: &[f32], expected: &[f32]) {
