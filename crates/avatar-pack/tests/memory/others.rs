@@ -167,38 +167,49 @@ fn fbx_arrays() {
     }
 }
 
-/// One curve that moves the places of very many nodes: it is sampled for each of them.
-#[test]
-fn fbx_curves_that_many_share() {
-    const KEYS: usize = 2_000;
+/// A take of one curve, which moves places, angles and sizes of many nodes along all axes.
+fn shared_curve(keys: usize, nodes: u64) -> Vec<u8> {
     let list = |number: &dyn Fn(usize) -> usize| {
-        (0..KEYS).map(|key| number(key).to_string()).collect::<Vec<_>>().join(",")
+        (0..keys).map(|key| number(key).to_string()).collect::<Vec<_>>().join(",")
     };
     let (times, values) = (list(&|key| key * 1_000), list(&|key| key % 7));
-    let curve = format!(
+    let mut objects = format!(
         "AnimationStack: 1, \"AnimStack::take\", \"\" {{\n}}\nAnimationLayer: 2, \"AnimLayer::l\", \"\" {{\n}}\n\
-         AnimationCurve: 3, \"AnimCurve::\", \"\" {{\nKeyTime: *{KEYS} {{\na: {times}\n}}\nKeyValueFloat: *{KEYS} {{\na: {values}\n}}\n\
-         KeyAttrFlags: *1 {{\na: 4\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\nKeyAttrRefCount: *1 {{\na: {KEYS}\n}}\n}}\n"
+         AnimationCurve: 3, \"AnimCurve::\", \"\" {{\nKeyTime: *{keys} {{\na: {times}\n}}\nKeyValueFloat: *{keys} {{\na: {values}\n}}\n\
+         KeyAttrFlags: *1 {{\na: 4\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\nKeyAttrRefCount: *1 {{\na: {keys}\n}}\n}}\n"
     );
-    growing_beside(
-        "curves.fbx",
-        |count| {
-            let (mut objects, mut links) = (curve.clone(), "C: \"OO\",2,1\n".to_owned());
-            for model in 0..count.min(1 << 14) {
-                let (model, moved) = (10 + 2 * model, 11 + 2 * model);
-                objects += &format!("Model: {model}, \"Model::a\", \"Null\" {{\n}}\n");
-                objects += &format!("AnimationCurveNode: {moved}, \"AnimCurveNode::T\", \"\" {{\n}}\n");
-                links += &format!(
-                    "C: \"OO\",{model},0\nC: \"OO\",{moved},2\nC: \"OP\",{moved},{model}, \"Lcl Translation\"\nC: \"OP\",3,{moved}, \"d|X\"\n"
-                );
+    let mut links = "C: \"OO\",2,1\n".to_owned();
+    for model in (0..nodes).map(|node| 10 + 4 * node) {
+        objects += &format!("Model: {model}, \"Model::a\", \"Null\" {{\n}}\n");
+        links += &format!("C: \"OO\",{model},0\n");
+        for (moved, name) in (model + 1..).zip(["Translation", "Rotation", "Scaling"]) {
+            objects += &format!("AnimationCurveNode: {moved}, \"AnimCurveNode::{name}\", \"\" {{\n}}\n");
+            links += &format!("C: \"OO\",{moved},2\nC: \"OP\",{moved},{model}, \"Lcl {name}\"\n");
+            for axis in ["X", "Y", "Z"] {
+                links += &format!("C: \"OP\",3,{moved}, \"d|{axis}\"\n");
             }
-            format!(
-                "; FBX 7.4.0 project file\nFBXHeaderExtension: {{\nFBXVersion: 7400\n}}\nObjects: {{\n{objects}}}\nConnections: {{\n{links}}}\n"
-            )
-            .into_bytes()
-        },
-        beside,
-    );
+        }
+    }
+    format!(
+        "; FBX 7.4.0 project file\nFBXHeaderExtension: {{\nFBXVersion: 7400\n}}\nObjects: {{\n{objects}}}\nConnections: {{\n{links}}}\n"
+    )
+    .into_bytes()
+}
+
+/// It is sampled for each of the nodes.
+#[test]
+fn fbx_curves_that_many_share() {
+    growing_beside("curves.fbx", |count| shared_curve(2_000, count.min(1 << 14)), beside);
+}
+
+/// Sixty bones for some minutes, in less than a megabyte: keys count by what becomes of them, not for each
+/// curve that asks for their times.
+#[test]
+fn a_long_take_of_fbx_is_read() {
+    let file = shared_curve(10_000, 60);
+    assert!(file.len() < 1 << 20);
+    let outcome = measured("long.fbx", &file, &[], beside(&file));
+    assert!(outcome.is_read(), "{outcome:?}");
 }
 
 /// A binary FBX of one mesh of so many numbers, all zero, its corners too.
