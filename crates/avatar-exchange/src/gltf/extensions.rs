@@ -27,8 +27,8 @@ pub struct Extension {
 }
 
 /// What reading does with an extension of this name; `None` for one that is not in [`EXTENSIONS`]. An unknown
-/// one is treated as [`Support::Refused`] where a node, mesh, accessor, buffer, view, skin or animation of the
-/// file has it, and as [`Support::Noted`] otherwise: only the former can change geometry and motion.
+/// one is treated as [`Support::Refused`] where a node, mesh, accessor, buffer, view, skin or animation has
+/// it, and as [`Support::Noted`] otherwise: only the former can change geometry and motion.
 pub fn support_of(name: &str) -> Option<Support> {
     EXTENSIONS.iter().find(|known| known.name == name).map(|known| known.support)
 }

@@ -86,8 +86,8 @@ pub(crate) struct Extras {
     pub(crate) further_textures: Vec<Option<TextureRef>>,
 }
 
-/// As [`read_raw()`], with what the scene lacks; the JSON is parsed once. `further` is an extension of materials
-/// and its member that is a texture: meshes get its coordinates, too.
+/// As [`read_raw()`], with what the scene lacks; the JSON is parsed once. `further` is an extension of
+/// materials and its member that is a texture: meshes get its coordinates, too.
 #[cfg(feature = "vrm")]
 pub(crate) fn read_with_extras(
     bytes: &[u8],

@@ -225,7 +225,8 @@ fn pictures_of_extensions_have_their_order() {
     }
 }
 
-/// A picture is a matter of looks: what an extension says wrongly of it costs neither the file nor the plain one.
+/// A picture is a matter of looks: what an extension says wrongly of it costs neither the file nor the plain
+/// picture.
 #[test]
 fn an_extension_that_names_no_picture_of_the_file_leaves_the_plain_one() {
     for name in ["EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"] {
