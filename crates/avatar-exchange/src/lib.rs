@@ -70,5 +70,5 @@ pub use read::{FRAMES_PER_SECOND, Format, read};
 pub use scene::{
     AlphaMode, Channel, ChannelTarget, Clip, Finding, ImportError, Interpolation, Material, Node,
     NodeDrivers, Note, Palette, PaletteEntry, RawScene, Resolve, Scene, SceneGraph, SceneImage, ScenePart,
-    ScenePose, Skin, TextFile, TextureRef, ToonMaterial, Transform, Trs, UvSet,
+    ScenePose, Skin, TextFile, TextureRef, ToonMaterial, Transform, Trs, UvSet, Wrap,
 };

@@ -274,7 +274,7 @@ fn of_standard<'a>(
 ) -> Material {
     let mut texture = |picture, what, is_second| {
         let uvs = if is_second { UvSet::Second } else { UvSet::First };
-        take(picture, what).map(|image| TextureRef { image, uvs })
+        take(picture, what).map(|image| TextureRef { uvs, ..TextureRef::from(image) })
     };
     let second = standard.second_uvs;
     let base_color_texture = texture(pictures.color, "color", second.color);

@@ -1,7 +1,9 @@
 use super::coordinates::Coordinates;
 use super::note;
 use crate::build::path::{beside, image, mime_of};
-use crate::scene::{AlphaMode, Finding, Material, RawScene, Resolve, SceneImage, TextureRef, UvSet, quoted};
+use crate::scene::{
+    AlphaMode, Finding, Material, RawScene, Resolve, SceneImage, TextureRef, UvSet, Wrap, quoted,
+};
 use std::collections::HashMap;
 
 /// Reads all materials in the file's order, with the images that they use.
@@ -106,7 +108,11 @@ impl Images<'_, '_> {
                 image
             }
         };
-        Some(TextureRef { image: image?, uvs })
+        let wrap = [texture.wrap_u, texture.wrap_v].map(|mode| match mode {
+            ufbx::WrapMode::Repeat => Wrap::Repeat,
+            ufbx::WrapMode::Clamp => Wrap::Clamp,
+        });
+        Some(TextureRef { image: image?, uvs, wrap })
     }
 
     fn read(&mut self, texture: &ufbx::Texture, scene: &mut RawScene) -> Option<usize> {

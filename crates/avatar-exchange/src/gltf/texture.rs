@@ -3,7 +3,7 @@
 use super::coordinates::{Looks, UvSource, UvTransform};
 use super::document::{Document, in_range};
 use super::json::{float, shortened};
-use crate::scene::{Finding, ImportError, TextureRef};
+use crate::scene::{Finding, ImportError, TextureRef, Wrap};
 use glam::Vec2;
 use gltf::json::texture::{Info, Texture, WrappingMode};
 use gltf::json::validation::Checked;
@@ -87,18 +87,13 @@ impl Document<'_> {
             Some(sampler) => Some(in_range("samplers", &self.root.samplers, sampler.value())?),
             None => None,
         };
-        let repeats = |mode: &Checked<WrappingMode>| *mode == Checked::Valid(WrappingMode::Repeat);
-        let wraps_otherwise =
-            sampler.is_some_and(|sampler| !(repeats(&sampler.wrap_s) && repeats(&sampler.wrap_t)));
-        if wraps_otherwise {
-            self.note(&place, Finding::converted("is repeated, not clamped or mirrored"));
-        }
+        let wrap = sampler.map_or([Wrap::Repeat; 2], |sampler| [&sampler.wrap_s, &sampler.wrap_t].map(wrap));
         for name in &used.unread {
             self.note(&place, Finding::Extension(name.clone()));
         }
         let Some(image) = image else { return Ok(None) };
         match looks.place_of(used.source) {
-            Some(uvs) => Ok(Some(TextureRef { image, uvs })),
+            Some(uvs) => Ok(Some(TextureRef { image, uvs, wrap })),
             None => {
                 let text = "needs a third set of texture coordinates and is left out";
                 self.note(&place, Finding::left_out(text));
@@ -154,6 +149,15 @@ impl Document<'_> {
         let uv_set = json.get("texCoord").and_then(Value::as_f64).map_or(0, |set| set as u32);
         let extensions = json.get("extensions").and_then(Value::as_object);
         Use::with(place, what, index, uv_set, extensions).map(Some)
+    }
+}
+
+/// Unknown modes are as none: repetition.
+fn wrap(mode: &Checked<WrappingMode>) -> Wrap {
+    match mode {
+        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
     }
 }
 

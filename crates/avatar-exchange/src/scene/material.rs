@@ -45,12 +45,26 @@ pub struct TextureRef {
     pub image: usize,
     /// Which texture coordinates of the mesh it uses.
     pub uvs: UvSet,
+    /// What lies beyond the picture along `u` and along `v`.
+    pub wrap: [Wrap; 2],
+}
+
+/// What is seen where texture coordinates leave a picture, along one of its sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// The picture again.
+    #[default]
+    Repeat,
+    /// The colours of its edge.
+    Clamp,
+    /// The picture again, every second one mirrored.
+    Mirror,
 }
 
 impl From<usize> for TextureRef {
-    /// A picture by the first texture coordinates.
+    /// A picture by the first texture coordinates, which repeats.
     fn from(image: usize) -> Self {
-        Self { image, uvs: UvSet::First }
+        Self { image, uvs: UvSet::First, wrap: [Wrap::Repeat; 2] }
     }
 }
 

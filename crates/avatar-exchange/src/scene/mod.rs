@@ -13,7 +13,7 @@ pub use error::ImportError;
 pub use evaluate::{SceneGraph, ScenePose};
 pub use freeze::{Palette, PaletteEntry, Scene};
 pub use input::{Resolve, TextFile};
-pub use material::{AlphaMode, Material, SceneImage, TextureRef, ToonMaterial, UvSet};
+pub use material::{AlphaMode, Material, SceneImage, TextureRef, ToonMaterial, UvSet, Wrap};
 pub use note::{Finding, Note};
 pub use raw::{
     Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, RawScene, ScenePart, Skin, Transform, Trs,

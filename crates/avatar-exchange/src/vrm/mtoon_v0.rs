@@ -196,5 +196,6 @@ impl Properties<'_> {
 
 /// A texture at the coordinates of another one: the properties say none, the file's own material may.
 fn same_place(texture: TextureRef, other: Option<TextureRef>) -> TextureRef {
-    TextureRef { uvs: other.map_or(texture.uvs, |other| other.uvs), ..texture }
+    let other = other.unwrap_or(texture);
+    TextureRef { uvs: other.uvs, wrap: other.wrap, ..texture }
 }

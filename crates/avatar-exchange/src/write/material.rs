@@ -1,16 +1,20 @@
 use super::buffer::Buffer;
-use crate::scene::{AlphaMode, Material, Scene, SceneImage, TextureRef, UvSet};
+use crate::scene::{AlphaMode, Material, Scene, SceneImage, TextureRef, UvSet, Wrap};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
 const UNLIT: &str = "KHR_materials_unlit";
 const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
 
-/// The images that the file has: those with bytes.
+/// The images that the file has, those with bytes, and the ways in which textures wrap.
 #[derive(Debug)]
 pub(super) struct Images {
     /// Per image of the scene its position in the file.
     places: Vec<Option<usize>>,
+    /// Pairs that samplers say; repetition needs none.
+    wraps: Vec<[Wrap; 2]>,
+    /// Positions of images in the file and of their samplers: textures after those that repeat.
+    wrapped: Vec<(usize, usize)>,
 }
 
 impl Images {
@@ -21,19 +25,47 @@ impl Images {
             count += usize::from(has_bytes);
             has_bytes.then(|| count - 1)
         };
-        let places = scene.images.iter().map(place).collect();
-        Self { places }
+        let places: Vec<Option<usize>> = scene.images.iter().map(place).collect();
+        let (mut wraps, mut wrapped) = (Vec::new(), Vec::new());
+        for texture in scene.materials.iter().flat_map(Material::textures) {
+            let place = places.get(texture.image).copied().flatten();
+            let Some(place) = place.filter(|_| texture.wrap != [Wrap::Repeat; 2]) else { continue };
+            let sampler = wraps.iter().position(|wrap| *wrap == texture.wrap).unwrap_or_else(|| {
+                wraps.push(texture.wrap);
+                wraps.len() - 1
+            });
+            if !wrapped.contains(&(place, sampler)) {
+                wrapped.push((place, sampler));
+            }
+        }
+        Self { places, wraps, wrapped }
     }
 
-    /// One texture for each image, which repeats. Other pictures than PNG and JPEG are those of an extension.
+    pub(super) fn samplers(&self) -> Vec<Value> {
+        let code = |wrap: Wrap| match wrap {
+            Wrap::Repeat => 10497,
+            Wrap::Clamp => 33071,
+            Wrap::Mirror => 33648,
+        };
+        self.wraps.iter().map(|[s, t]| json!({ "wrapS": code(*s), "wrapT": code(*t) })).collect()
+    }
+
+    /// One texture for each image, which repeats, then those that do not. Other pictures than PNG and JPEG are
+    /// those of an extension.
     pub(super) fn textures(&self, scene: &Scene) -> Vec<Value> {
         let with_bytes = scene.images.iter().filter(|image| !image.bytes.is_empty()).enumerate();
-        with_bytes
+        let mut textures: Vec<Value> = with_bytes
             .map(|(place, image)| match extension_of(image) {
                 Some(name) => json!({ "extensions": { name: { "source": place } } }),
                 None => json!({ "source": place }),
             })
-            .collect()
+            .collect();
+        for (place, sampler) in &self.wrapped {
+            let mut texture = textures.get(*place).cloned().unwrap_or_default();
+            texture["sampler"] = json!(sampler);
+            textures.push(texture);
+        }
+        textures
     }
 
     /// Adds the extensions that textures need: a program that does not know them has no picture.
@@ -58,7 +90,12 @@ impl Images {
     fn texture(&self, texture: Option<TextureRef>) -> Option<Map<String, Value>> {
         let texture = texture?;
         let place = self.places.get(texture.image).copied().flatten()?;
-        let mut json = Map::from_iter([("index".to_owned(), json!(place))]);
+        let sampler = self.wraps.iter().position(|wrap| *wrap == texture.wrap);
+        let wrapped = sampler.and_then(|sampler| {
+            let at = self.wrapped.iter().position(|known| *known == (place, sampler))?;
+            Some(self.places.iter().flatten().count() + at)
+        });
+        let mut json = Map::from_iter([("index".to_owned(), json!(wrapped.unwrap_or(place)))]);
         if texture.uvs == UvSet::Second {
             json.insert("texCoord".to_owned(), json!(1));
         }

@@ -99,6 +99,7 @@ pub fn write(scene: &Scene) -> Result<Vec<u8>, ExportError> {
         ("meshes", meshes),
         ("skins", skins),
         ("materials", material::materials(scene, &images)),
+        ("samplers", images.samplers()),
         ("textures", images.textures(scene)),
         ("images", images.images(scene, &mut buffer)),
         ("animations", animations),

@@ -74,7 +74,10 @@ fn skin_is_what_is_called_so_and_says_no_more_than_skin_can_show() {
         Material { is_unlit: true, ..plain.clone() },
         Material { toon: Some(ToonMaterial::default()), ..plain.clone() },
         Material { emissive: [0.1, 0.0, 0.0], ..plain.clone() },
-        Material { base_color_texture: Some(TextureRef { image: 0, uvs: UvSet::Second }), ..plain.clone() },
+        Material {
+            base_color_texture: Some(TextureRef { uvs: UvSet::Second, ..TextureRef::from(0) }),
+            ..plain.clone()
+        },
     ] {
         assert_eq!(kind("face", more.clone()), PartKind::Surface, "{more:?}");
     }
@@ -82,7 +85,7 @@ fn skin_is_what_is_called_so_and_says_no_more_than_skin_can_show() {
 
 #[test]
 fn looks_survive_the_way_to_a_scene_and_back() {
-    let second = |image| Some(TextureRef { image, uvs: UvSet::Second });
+    let second = |image| Some(TextureRef { uvs: UvSet::Second, ..TextureRef::from(image) });
     let material = Material {
         name: "plate".to_owned(),
         base_color: [0.5, 0.6, 0.7, 0.8],

@@ -3,7 +3,7 @@
 use super::compressed::{PYRAMID, draco_pyramid, meshopt_pyramid};
 use crate::support::gltf::{Builder, I8, I16, one_primitive, read};
 use avatar_exchange::gltf::{EXTENSIONS, Support, support_of};
-use avatar_exchange::{Finding, ImportError, Scene, TextureRef, UvSet};
+use avatar_exchange::{Finding, ImportError, Scene, TextureRef};
 use glam::{Vec2, Vec3};
 use std::collections::BTreeSet;
 
@@ -222,7 +222,7 @@ fn shows_its_effect(name: &str) {
                 scene.parts[0].mesh.uvs,
                 [Vec2::new(0.5, 0.0), Vec2::new(2.5, 0.0), Vec2::new(0.5, 3.0)]
             );
-            let used = TextureRef { image: 0, uvs: UvSet::First };
+            let used = TextureRef::from(0);
             assert_eq!(scene.materials[0].base_color_texture, Some(used));
         }
         "EXT_mesh_gpu_instancing" => {

@@ -50,7 +50,10 @@ fn two_sets_of_coordinates_are_read_and_further_ones_noted() {
     // Only the second set is used: both keep their places.
     let (file, rest) = with_coordinates(r#""emissiveTexture": {"index": 0, "texCoord": 1}"#);
     let scene = file.scene(&rest);
-    assert_eq!(scene.materials[0].emissive_texture, Some(TextureRef { image: 0, uvs: UvSet::Second }));
+    assert_eq!(
+        scene.materials[0].emissive_texture,
+        Some(TextureRef { uvs: UvSet::Second, ..TextureRef::from(0) })
+    );
     close(&scene.parts[0].mesh.uvs_1, [0.5, 0.5, 0.75, 0.5, 0.5, 0.75]);
     // The third one takes the place of the first, which nothing uses.
     let (file, rest) = with_coordinates(r#""emissiveTexture": {"index": 0, "texCoord": 2}"#);

@@ -2,7 +2,7 @@
 
 use avatar_exchange::{
     AlphaMode, Channel, ChannelTarget, Clip, Interpolation, Material, Node, RawScene, SceneImage, ScenePart,
-    Skin, TextureRef, Transform, Trs, UvSet,
+    Skin, TextureRef, Transform, Trs, UvSet, Wrap,
 };
 use avatar_mesh::{Mesh, Shape, Skinning};
 use glam::{Affine3A, Mat3A, Quat, Vec2, Vec3, Vec3A, Vec4};
@@ -218,7 +218,8 @@ fn of(four: &[u16]) -> [u16; 4] {
 fn material(r: &mut Random, images: usize) -> Material {
     let texture = |r: &mut Random| {
         let uvs = if r.chance(3) { UvSet::Second } else { UvSet::First };
-        r.some(images).map(|image| TextureRef { image, uvs })
+        let wrap = [(); 2].map(|()| [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][r.below(3)]);
+        r.some(images).map(|image| TextureRef { image, uvs, wrap })
     };
     let (normal_texture, occlusion_texture) = (texture(r), texture(r));
     Material {

@@ -87,7 +87,7 @@ fn mtoon_of_version_1_becomes_a_toon_material() {
         skin.toon,
         Some(ToonMaterial {
             shade_color: [0.5, 0.25, 0.125],
-            shade_texture: Some(TextureRef { image: 0, uvs: UvSet::Second }),
+            shade_texture: Some(TextureRef { uvs: UvSet::Second, ..TextureRef::from(0) }),
             shading_shift: -0.25,
             shading_toony: 0.75,
             outline_width: 0.002,
