@@ -20,7 +20,7 @@ pub(crate) mod path;
 pub(crate) mod polygon;
 #[cfg(feature = "gltf")]
 pub(crate) mod shape;
-#[cfg(any(feature = "fbx", feature = "vrm"))]
+#[cfg(any(feature = "collada", feature = "fbx", feature = "obj", feature = "vrm"))]
 pub(crate) mod srgb;
 #[cfg(any(feature = "collada", feature = "obj", feature = "bvh", feature = "md5"))]
 pub(crate) mod text;

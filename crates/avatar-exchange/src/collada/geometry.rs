@@ -5,8 +5,9 @@ use super::source::{Input, Source, inputs};
 use super::xml::At;
 use crate::build::corners::{Corner, Corners};
 use crate::build::polygon::Cutter;
+use crate::build::srgb::linear;
 use crate::scene::{Finding, ImportError};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::rc::Rc;
 
 /// A `<geometry>`.
@@ -24,6 +25,8 @@ pub(super) struct Primitive {
     /// The name that instances bind materials to.
     pub(super) material: String,
     pub(super) corners: Corners,
+    /// The file's numbers of its sets of texture coordinates, in the order of the mesh's.
+    pub(super) uv_sets: Vec<usize>,
 }
 
 /// What the inputs of a primitive mean.
@@ -34,6 +37,10 @@ struct Layout {
     points: Rc<Source>,
     normal: Option<(usize, Rc<Source>)>,
     uv: Option<(usize, Rc<Source>)>,
+    uv_1: Option<(usize, Rc<Source>)>,
+    color: Option<(usize, Rc<Source>)>,
+    /// The file's numbers of the two sets.
+    uv_sets: Vec<usize>,
 }
 
 impl<'a> Reader<'a> {
@@ -63,8 +70,8 @@ impl<'a> Reader<'a> {
             match primitive.name() {
                 "triangles" | "polylist" | "polygons" | "tristrips" | "trifans" => {
                     let material = primitive.attribute("material").unwrap_or("").to_owned();
-                    let corners = self.primitive(primitive, vertices, &geometry.points)?;
-                    geometry.primitives.push(Primitive { material, corners });
+                    let (corners, uv_sets) = self.primitive(primitive, vertices, &geometry.points)?;
+                    geometry.primitives.push(Primitive { material, corners, uv_sets });
                 }
                 "lines" | "linestrips" => self.note(primitive, Finding::left_out("lines are left out")),
                 _ => {}
@@ -85,14 +92,19 @@ impl<'a> Reader<'a> {
         let all: Vec<Input<'a>> = own.into_iter().chain(shared).collect();
         let mut uvs: Vec<&Input<'a>> = all.iter().filter(|input| input.semantic == "TEXCOORD").collect();
         uvs.sort_by_key(|input| input.set);
-        if uvs.len() > 1 {
-            let text = format!("{} further sets of texture coordinates are left out", uvs.len() - 1);
+        if uvs.len() > 2 {
+            let text = format!("{} further sets of texture coordinates are left out", uvs.len() - 2);
             self.note(at, Finding::LeftOut(text));
         }
-        if all.iter().any(|input| input.semantic == "COLOR") {
-            self.note(at, Finding::left_out("colours of vertices are left out"));
+        let mut colors: Vec<&Input<'a>> = all.iter().filter(|input| input.semantic == "COLOR").collect();
+        colors.sort_by_key(|input| input.set);
+        if colors.len() > 1 {
+            let text = format!("{} further sets of colours are left out", colors.len() - 1);
+            self.note(at, Finding::LeftOut(text));
         }
-        let uv = uvs.first().map(|input| (input.offset, input.source));
+        let place = |input: Option<&&Input<'a>>| input.map(|input| (input.offset, input.source));
+        let (uv, uv_1, color) = (place(uvs.first()), place(uvs.get(1)), place(colors.first()));
+        let uv_sets = uvs.iter().take(2).map(|input| input.set).collect();
         let of = |semantic| {
             all.iter().find(|input| input.semantic == semantic).map(|input| (input.offset, input.source))
         };
@@ -100,14 +112,29 @@ impl<'a> Reader<'a> {
             found.map(|(offset, source)| Ok((offset, self.source(source)?))).transpose()
         };
         let Some((point, points)) = open(of("POSITION"))? else { return Ok(None) };
-        Ok(Some(Layout { stride, point, points, normal: open(of("NORMAL"))?, uv: open(uv)? }))
+        Ok(Some(Layout {
+            stride,
+            point,
+            points,
+            normal: open(of("NORMAL"))?,
+            uv: open(uv)?,
+            uv_1: open(uv_1)?,
+            color: open(color)?,
+            uv_sets,
+        }))
     }
 
-    fn primitive(&mut self, at: At<'a>, vertices: At<'a>, points: &[Vec3]) -> Result<Corners, ImportError> {
+    /// The corners of a primitive, and the file's numbers of its sets of texture coordinates.
+    fn primitive(
+        &mut self,
+        at: At<'a>,
+        vertices: At<'a>,
+        points: &[Vec3],
+    ) -> Result<(Corners, Vec<usize>), ImportError> {
         let mut corners = Corners::default();
         let Some(layout) = self.layout(at, vertices)? else {
             self.note(at, Finding::left_out("a primitive without vertices is left out"));
-            return Ok(corners);
+            return Ok((corners, Vec::new()));
         };
         let holes = at.all("ph").count();
         if holes > 0 {
@@ -152,7 +179,7 @@ impl<'a> Reader<'a> {
         if corners.lacks_normals() {
             self.note(at, Finding::mended("normals were computed"));
         }
-        Ok(corners)
+        Ok((corners, layout.uv_sets))
     }
 }
 
@@ -170,27 +197,51 @@ impl Layout {
     /// The corners of a list of indices, each of which was checked.
     fn corners(&self, list: At<'_>) -> Result<Vec<Corner>, ImportError> {
         let indices: Vec<usize> = list.numbers()?;
-        let item = |source: &'_ Source, indices: &[usize], offset: usize| {
-            let index = indices.get(offset).copied().unwrap_or(0);
-            let wrong = || list.error(format!("an index below {}", source.count), index.to_string());
-            let item = source.item(index).ok_or_else(wrong)?;
-            Ok::<_, ImportError>((index, vec3(Some(item))))
+        // Origin bottom left in COLLADA.
+        let uv = |item: &[f64]| {
+            let uv = vec3(Some(item));
+            Vec2::new(uv.x, 1.0 - uv.y)
         };
         let corner = |indices: &[usize]| {
-            let mut corner =
-                Corner { point: item(&self.points, indices, self.point)?.0 as u32, ..Corner::default() };
+            let mut corner = Corner {
+                point: item(list, &self.points, indices, self.point)?.0 as u32,
+                ..Corner::default()
+            };
             if let Some((offset, source)) = &self.normal {
-                corner.normal = item(source, indices, *offset)?.1.try_normalize();
+                corner.normal = vec3(Some(item(list, source, indices, *offset)?.1)).try_normalize();
             }
             if let Some((offset, source)) = &self.uv {
-                let uv = item(source, indices, *offset)?.1;
-                // Origin bottom left in COLLADA.
-                corner.uv = Vec2::new(uv.x, 1.0 - uv.y);
+                corner.uv = uv(item(list, source, indices, *offset)?.1);
+            }
+            if let Some((offset, source)) = &self.uv_1 {
+                corner.uv_1 = Some(uv(item(list, source, indices, *offset)?.1));
+            }
+            if let Some((offset, source)) = &self.color {
+                corner.color = Some(color(item(list, source, indices, *offset)?.1));
             }
             Ok(corner)
         };
         indices.chunks_exact(self.stride).map(corner).collect()
     }
+}
+
+/// The item of a source that a corner has, and its number.
+fn item<'s>(
+    list: At<'_>,
+    source: &'s Source,
+    indices: &[usize],
+    offset: usize,
+) -> Result<(usize, &'s [f64]), ImportError> {
+    let index = indices.get(offset).copied().unwrap_or(0);
+    let wrong = || list.error(format!("an index below {}", source.count), index.to_string());
+    Ok((index, source.item(index).ok_or_else(wrong)?))
+}
+
+/// A colour of a vertex and, behind it, its opacity. Exporters write the colours of the screen, sRGB, as Blender
+/// and three.js have it.
+fn color(item: &[f64]) -> Vec4 {
+    let opacity = item.get(3).map_or(1.0, |x| x.clamp(0.0, 1.0) as f32);
+    Vec3::from(linear(vec3(Some(item)).to_array())).extend(opacity)
 }
 
 /// The first three numbers of an item; missing numbers are 0.

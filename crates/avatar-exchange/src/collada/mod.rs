@@ -24,8 +24,9 @@ use crate::build::budget::Budget;
 use crate::build::polygon::Cutter;
 use crate::scene::{Finding, ImportError, Note, RawScene, Resolve, Scene};
 use geometry::Geometry;
+use material::Names;
 use source::Source;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use xml::{At, Tree};
 
@@ -74,6 +75,8 @@ fn read_all(bytes: &[u8], resolve: &mut Resolve<'_>) -> Result<RawScene, ImportE
         cutter: Cutter::default(),
         sources: HashMap::new(),
         geometries: HashMap::new(),
+        texcoords: Vec::new(),
+        terms: BTreeMap::new(),
     };
     let nodes = reader.read_nodes()?;
     let materials = reader.read_materials(resolve);
@@ -100,6 +103,10 @@ struct Reader<'a> {
     cutter: Cutter,
     sources: HashMap<usize, Rc<Source>>,
     geometries: HashMap<usize, Rc<Geometry>>,
+    /// For each material, how its textures name texture coordinates.
+    texcoords: Vec<Names>,
+    /// What materials have and surfaces have not: how many materials, and the first element.
+    terms: BTreeMap<&'static str, (usize, usize)>,
 }
 
 impl Reader<'_> {

@@ -112,7 +112,10 @@ impl<'a> Reader<'a> {
                 part.mesh.skinning = Some(primitive.corners.skinning(influences));
             }
             part.primitive = number;
-            part.material = bound.get(primitive.material.as_str()).and_then(|at| materials.get(at)).copied();
+            if let Some((target, at)) = bound.get(primitive.material.as_str()) {
+                part.material = materials.get(target).copied();
+                part.material.into_iter().for_each(|material| self.bind(*at, material, primitive));
+            }
             self.scene.parts.push(part);
         }
         if self.scene.parts.len() > before {
@@ -133,9 +136,11 @@ fn skeletons(at: At<'_>, nodes: &Nodes<'_>) -> Vec<usize> {
     found
 }
 
-/// Elements of materials by the names that primitives use.
-fn bound(at: At<'_>) -> HashMap<&str, usize> {
+/// By the names that primitives use: elements of materials, and what binds them.
+fn bound(at: At<'_>) -> HashMap<&str, (usize, At<'_>)> {
     let technique = at.path(&["bind_material", "technique_common"]);
     let instances = technique.into_iter().flat_map(|technique| technique.all("instance_material"));
-    instances.filter_map(|at| Some((at.attribute("symbol")?, at.target("target").ok()?.number))).collect()
+    instances
+        .filter_map(|at| Some((at.attribute("symbol")?, (at.target("target").ok()?.number, at))))
+        .collect()
 }

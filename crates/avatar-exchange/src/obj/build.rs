@@ -7,7 +7,7 @@ use crate::build::polygon::Cutter;
 use crate::build::text::{at_line, shown, stem};
 use crate::scene::{Finding, ImportError, Note};
 use avatar_mesh::Mesh;
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
 
 /// Marks a corner without texture coordinates.
@@ -62,7 +62,12 @@ pub(super) fn build(file: &str, lines: &Lines) -> Result<ObjFile, ImportError> {
                 Normal::Given(index) => given(lines, index).unwrap_or(Vec3::Y),
                 Normal::Computed(group) => sums.normal(group),
             };
+            let color = |key: &Key| lines.colors.get(key.position as usize).copied().unwrap_or(Vec3::ONE);
+            let is_colored = keys.iter().any(|key| color(key) != Vec3::ONE);
+            let colors: Vec<Vec4> =
+                keys.iter().filter(|_| is_colored).map(|key| color(key).extend(1.0)).collect();
             let mesh = Mesh {
+                colors,
                 positions: keys.iter().map(|key| lines.positions[key.position as usize]).collect(),
                 uvs: keys
                     .iter()
@@ -175,11 +180,12 @@ fn notes(lines: &Lines, cutter: &Cutter) -> Vec<Note> {
     for (keyword, (count, line)) in &lines.unknown {
         note(*line, format!("{count} lines {} are left out", shown(keyword)));
     }
-    if let Some(line) = lines.colors {
-        note(line, "colours of vertices are left out".to_owned());
-    }
     if let Some(line) = lines.rational {
         note(line, "weights of vertices, for rational curves, are left out".to_owned());
+    }
+    if let Some(line) = lines.odd_color {
+        let text = "colours of vertices beyond 0 to 1 are brought into it".to_owned();
+        notes.push(Note::new(format!("line {line}"), Finding::Mended(text)));
     }
     notes.extend(cutter.findings().map(|text| Note::new("faces", Finding::Mended(text))));
     notes

@@ -1,5 +1,6 @@
 //! Lines of an OBJ file, one after the other.
 
+use crate::build::srgb::linear;
 use crate::build::text::{at_line, float, number, shown};
 use crate::scene::ImportError;
 use glam::{Vec2, Vec3};
@@ -26,8 +27,11 @@ pub(super) struct Lines {
     pub(super) libraries: Vec<String>,
     /// How many lines of each keyword were passed over, and the first of them.
     pub(super) unknown: BTreeMap<String, (usize, usize)>,
-    /// The first line with a colour of a vertex, and the first with a weight other than 1.
-    pub(super) colors: Option<usize>,
+    /// Linear colours of the first positions; none where no line has one. Those behind the last are white.
+    pub(super) colors: Vec<Vec3>,
+    /// The first line whose colour has a number outside of 0 to 1.
+    pub(super) odd_color: Option<usize>,
+    /// The first line with a weight of a vertex other than 1.
     pub(super) rational: Option<usize>,
     pub(super) last_line: usize,
 }
@@ -196,19 +200,27 @@ fn vertex<'a>(
     let mut next = |what| float(line, what, words.next());
     let position = Vec3::new(next("x of a vertex")?, next("y of a vertex")?, next("z of a vertex")?);
     // After them: nothing, a weight, a colour, or a weight and a colour.
-    let mut more = 0;
-    for word in words.take(4) {
-        let value = float(line, "a weight or colour of a vertex", Some(word))?;
-        if more == 0 && value != 1.0 {
-            lines.rational.get_or_insert(line);
-        }
-        more += 1;
+    let (mut more, mut count) = ([1.0; 4], 0);
+    for (value, word) in more.iter_mut().zip(words) {
+        *value = float(line, "a weight or colour of a vertex", Some(word))?;
+        count += 1;
     }
-    if more >= 3 {
-        lines.colors.get_or_insert(line);
-        if lines.rational == Some(line) {
-            lines.rational = None;
+    let (weight, color) = match (count, more) {
+        (3, [r, g, b, _]) => (1.0, Some([r, g, b])),
+        (4, [weight, r, g, b]) => (weight, Some([r, g, b])),
+        (_, [weight, ..]) => (weight, None),
+    };
+    if weight != 1.0 {
+        lines.rational.get_or_insert(line);
+    }
+    if let Some(color) = color {
+        if color.iter().any(|x| !(0.0..=1.0).contains(x)) {
+            lines.odd_color.get_or_insert(line);
         }
+        lines.colors.resize(lines.positions.len(), Vec3::ONE);
+        // Programs that write colours of vertices write those that the screen shows: sRGB, as Blender and
+        // three.js have it. The format itself has none.
+        lines.colors.push(linear(color).into());
     }
     lines.positions.push(position);
     Ok(())

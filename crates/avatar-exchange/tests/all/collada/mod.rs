@@ -2,6 +2,7 @@
 
 mod others;
 mod puppet;
+mod surface;
 
 use crate::support::damage::{read_any, triangles};
 use avatar_exchange::{ImportError, Scene, ScenePose, collada};
@@ -226,13 +227,6 @@ fn errors_have_places() {
         let error = read_any(read, "bad.dae", text.as_bytes()).unwrap_err();
         assert_eq!((error.place.as_str(), error.expected.as_str()), (place, expected), "{error}");
     }
-}
-
-#[test]
-fn colours_of_vertices_are_told() {
-    let colored = "<triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/>\
-        <input semantic='COLOR' source='#n' offset='1'/><p>0 0 1 0 2 0</p></triangles>";
-    note(&load(&dented(colored)), "colours of vertices are left out");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! OBJ, MTL and sequences of OBJ files.
 
+mod materials;
 mod sequence;
 
 use crate::support::data::shared_data;
@@ -106,6 +107,36 @@ fn a_concave_polygon_is_covered_once() {
     let crossed = good("v 0 0 0\nv 4 3 0\nv 4 0 0\nv 0 3 0\nv -2 5 0\nf 1 2 3 4 5\n");
     let notes: Vec<_> = crossed.notes.iter().map(ToString::to_string).collect();
     assert_eq!(notes, ["faces: 1 polygons cross themselves: some of their triangles overlap"]);
+}
+
+#[test]
+fn colours_of_vertices_are_decoded() {
+    let text = "v 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0 0.5 0.04 0\nv 0 1 0 1 1 0 0.5\nv 2 0 0\nf 1 2 3 4\n\
+        o plain\nv 3 0 0 1 1 1\nf 2 5 6\n";
+    let obj = good(text);
+    let colors: Vec<_> = obj.parts[0].mesh.colors.iter().map(|color| color.to_array()).collect();
+    // By IEC 61966-2-1: ((0.5 + 0.055) / 1.055)^2.4, and 0.04 / 12.92. A vertex without a colour is white.
+    let half = 0.214_041;
+    let expected = [[1.0; 4], [1.0; 4], [half, 0.003_095_98, 0.0, 1.0], [1.0, 0.0, half, 1.0]];
+    assert_eq!(colors.len(), expected.len());
+    for (color, expected) in colors.iter().flatten().zip(expected.iter().flatten()) {
+        assert!((color - expected).abs() < 1e-6, "{colors:?}");
+    }
+    // What is white all over needs no colours.
+    assert_eq!(obj.parts[1].mesh.colors, []);
+    assert_eq!(obj.notes, []);
+    assert_eq!(obj.into_scene().expect("a scene").parts[0].mesh.colors.len(), 4);
+    // A weight before the colour is told, and so are numbers that no colour has.
+    let odd = good("v 0 0 0 2 1 0 0\nv 1 0 0 255 0 -1\nv 1 1 0\nf 1 2 3\n");
+    assert_eq!(odd.parts[0].mesh.colors[..2], [glam::Vec4::new(1.0, 0.0, 0.0, 1.0); 2]);
+    let notes: Vec<_> = odd.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        notes,
+        [
+            "line 1: weights of vertices, for rational curves, are left out",
+            "line 2: colours of vertices beyond 0 to 1 are brought into it",
+        ]
+    );
 }
 
 #[test]
