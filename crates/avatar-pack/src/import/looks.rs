@@ -5,11 +5,8 @@ use crate::Textures;
 use crate::pictures::Pictures;
 use crate::textures::OwnImages;
 use avatar_exchange::{AlphaMode, Scene, ScenePart, TextureRef, UvSet};
-use avatar_look::{Alpha, Cartoon, Lighting, Material, SecondUvs, Standard};
+use avatar_look::{Alpha, Cartoon, Lighting, Material, SOLID, SecondUvs, Standard};
 use avatar_mesh::PartKind;
-
-/// From this opacity on, nothing can be seen through: the last step of eight bits.
-const OPAQUE: f32 = 0.998;
 
 /// The pictures of a scene, and which of them each part is drawn with.
 pub(super) struct Looks {
@@ -81,7 +78,7 @@ impl Looks {
             AlphaMode::Opaque => Alpha::Opaque,
             AlphaMode::Mask if least >= from.alpha_cutoff => Alpha::Opaque,
             AlphaMode::Mask => Alpha::Mask(from.alpha_cutoff),
-            AlphaMode::Blend if least >= OPAQUE => Alpha::Opaque,
+            AlphaMode::Blend if least >= SOLID => Alpha::Opaque,
             AlphaMode::Blend => Alpha::Blend,
         }
     }

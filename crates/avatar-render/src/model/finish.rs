@@ -1,11 +1,8 @@
 //! How a part is drawn that looks as an interchange file says.
 
-use avatar_look::{Alpha, Lighting, Material, Standard};
+use avatar_look::{Alpha, Lighting, Material, SOLID, Standard};
 use avatar_mesh::PartKind;
 use std::sync::atomic::{AtomicU8, Ordering};
-
-/// From this opacity on, what is blended counts as opaque: the last step of eight bits.
-pub(crate) const SOLID: f32 = 0.998;
 
 /// What of a [`Standard`] decides which pipelines draw the part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

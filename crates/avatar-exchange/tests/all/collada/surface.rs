@@ -149,6 +149,17 @@ fn normal_maps_of_exporters_are_read() {
 }
 
 #[test]
+fn terms_are_told_as_documented() {
+    let rows = include_str!("../../../../../docs/formats.md").split_once("| element of COLLADA |").unwrap().1;
+    let rows = rows.lines().skip(2).take_while(|line| line.starts_with('|'));
+    let told = rows.filter_map(|row| row.strip_suffix("| a note |"));
+    let mut names: Vec<&str> = told.flat_map(|row| row.split('`').skip(1).step_by(2)).collect();
+    names.sort_unstable();
+    let tested = ["ambient", "index_of_refraction", "reflective", "reflectivity", "shininess", "specular"];
+    assert_eq!(names, tested);
+}
+
+#[test]
 fn terms_that_surfaces_do_not_have_are_told_once() {
     let color = |name: &str, color: &str| format!("<{name}><color>{color} 1</color></{name}>");
     let number = |name: &str, number: &str| format!("<{name}><float>{number}</float></{name}>");

@@ -66,6 +66,33 @@ fn bump_maps_stand_in_for_normal_maps_with_their_multiplier() {
 }
 
 #[test]
+fn statements_are_read_and_told_as_documented() {
+    let rows = include_str!("../../../../../docs/formats.md").split_once("| statement of MTL |").unwrap().1;
+    let (mut read, mut told) = (0, 0);
+    for row in rows.lines().skip(2).take_while(|line| line.starts_with('|')) {
+        let (names, what) = row.trim_start_matches('|').split_once('|').unwrap();
+        for name in names.split('`').skip(1).step_by(2) {
+            let is_picture =
+                name.starts_with("map_") || ["norm", "bump", "disp", "decal", "refl"].contains(&name);
+            let (found, notes) = material(&format!("{name} {}\n", if is_picture { "a.png" } else { "0.5" }));
+            let is_told = notes.iter().any(|note| note.contains(&format!("{LEFT_OUT}\"{name}\" (1)")));
+            assert_eq!(is_told, what.trim() == "a note", "{name}: {notes:?}");
+            if is_told {
+                told += 1;
+            } else {
+                // Pictures that need another statement beside them tell so.
+                assert!(
+                    found != material("").0 || notes.iter().any(|note| note.contains("texture")),
+                    "{name}"
+                );
+                read += 1;
+            }
+        }
+    }
+    assert_eq!((read, told), (18, 21));
+}
+
+#[test]
 fn every_other_statement_is_told_once() {
     for statement in [
         "Ka 0.2 0.2 0.2",
