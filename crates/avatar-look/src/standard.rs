@@ -26,8 +26,8 @@ pub struct Standard {
     pub second_uvs: SecondUvs,
 }
 
-/// From this opacity on, what is blended counts as opaque, since nothing can be seen through it: the last step of
-/// eight bits.
+/// From this opacity on, what is blended counts as opaque, since nothing can be seen through it: the last
+/// step of eight bits.
 pub const SOLID: f32 = 0.998;
 
 /// What the opacity of a surface means: glTF 2.0, section 3.9.4.

@@ -237,8 +237,8 @@ fn item<'s>(
     Ok((index, source.item(index).ok_or_else(wrong)?))
 }
 
-/// A colour of a vertex and, behind it, its opacity. Exporters write the colours of the screen, sRGB, as Blender
-/// and three.js have it.
+/// A colour of a vertex and, behind it, its opacity. Exporters write the colours of the screen, sRGB, as
+/// Blender and three.js have it.
 fn color(item: &[f64]) -> Vec4 {
     let opacity = item.get(3).map_or(1.0, |x| x.clamp(0.0, 1.0) as f32);
     Vec3::from(linear(vec3(Some(item)).to_array())).extend(opacity)

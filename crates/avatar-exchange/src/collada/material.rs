@@ -11,7 +11,8 @@ use std::collections::HashMap;
 /// A texture of a material.
 type Slot = fn(&mut Material) -> &mut Option<TextureRef>;
 
-/// What a material says beside what [`Material`] holds: by which names its textures ask for texture coordinates.
+/// What a material says beside what [`Material`] holds: by which names its textures ask for texture
+/// coordinates.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     of_slots: Vec<(Slot, String)>,
@@ -148,8 +149,8 @@ impl<'a> Reader<'a> {
         self.texcoords.last_mut().into_iter().for_each(|names| names.of_slots.push((slot, name.clone())));
     }
 
-    /// Gives the textures of a material the sets that an `<instance_material>` binds them to. A material says it
-    /// once for all of its parts: where they differ, the first part counts.
+    /// Gives the textures of a material the sets that an `<instance_material>` binds them to. A material says
+    /// it once for all of its parts: where they differ, the first part counts.
     pub(super) fn bind(&mut self, at: At<'a>, material: usize, primitive: &Primitive) {
         let Some(mut names) = self.texcoords.get_mut(material).map(std::mem::take) else { return };
         for (slot, name) in &names.of_slots {

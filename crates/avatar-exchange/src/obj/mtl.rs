@@ -131,8 +131,8 @@ impl Draft {
     }
 
     /// Pictures of one channel, which have the same value in all: the material takes roughness from green and
-    /// metalness from blue of one picture, so that it can be one for roughness where nothing is metal, or one for
-    /// both.
+    /// metalness from blue of one picture, so that it can be one for roughness where nothing is metal, or one
+    /// for both.
     fn roughness(&self, material: &mut Material, note: &mut impl FnMut(Finding)) {
         match (self.roughness, self.metallic) {
             (None, None) => {}
@@ -251,9 +251,9 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
     Ok(())
 }
 
-/// Whether a statement that is not read is as if it were not there: no reflected, ambient or filtered colour, no
-/// refraction, no sheen or clear coat; `illum` chooses among formulas that are not used here, of which 0 to 2 need
-/// nothing that the others say.
+/// Whether a statement that is not read is as if it were not there: no reflected, ambient or filtered colour,
+/// no refraction, no sheen or clear coat; `illum` chooses among formulas that are not used here, of which 0
+/// to 2 need nothing that the others say.
 fn says_nothing(keyword: &str, rest: &str) -> bool {
     let are_all = |value: f32| {
         let mut words = rest.split_whitespace().map(str::parse::<f32>).peekable();
