@@ -4,7 +4,7 @@ use super::Reader;
 use super::geometry::Primitive;
 use super::xml::At;
 use crate::build::path;
-use crate::scene::{AlphaMode, Finding, Material, Resolve, TextureRef, UvSet};
+use crate::scene::{AlphaMode, Finding, Material, Resolve, TextureRef, UvSet, quoted};
 use percent_encoding::percent_decode_str;
 use std::collections::HashMap;
 
@@ -170,8 +170,9 @@ impl<'a> Reader<'a> {
             let is_other = texture.uvs != uvs || (place.is_none() && !primitive.uv_sets.is_empty());
             if is_other {
                 let taken = if texture.uvs == UvSet::First { "first" } else { "second" };
+                let name = quoted(name);
                 let text =
-                    format!("texture coordinates {name:?} of its material are taken from the {taken} set");
+                    format!("texture coordinates {name} of its material are taken from the {taken} set");
                 self.note(at, Finding::Converted(text));
             }
         }

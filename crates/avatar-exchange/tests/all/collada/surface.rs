@@ -106,7 +106,7 @@ fn textures_use_the_sets_that_they_are_bound_to() {
     // A set that is not read is told.
     let three = looks(&inside, "", &bind(4, 1), &(inputs + &input(4)), "0 0 0 1 0 1 0 0 0 0 2 1 0 0 0");
     note(&three, "1 further sets of texture coordinates are left out");
-    note(&three, "texture coordinates \"U\" of its material are taken from the first set");
+    note(&three, "texture coordinates 'U' of its material are taken from the first set");
     assert_eq!(sets(&three), [UvSet::First; 2]);
 }
 
