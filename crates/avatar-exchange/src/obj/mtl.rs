@@ -210,11 +210,11 @@ fn parse(library: &mut Library, obj: &mut ObjFile, path: &str, text: &str) -> Re
                 draft.has_opacity = true;
             }
             "Tr" if !draft.has_opacity => opacity(material, 1.0 - one("a transparency")?),
-            // Of the same width: B. Karis, "Specular BRDF Reference" (2013), α² = 2 / (n + 2) with α the
-            // roughness squared.
             "Ns" if draft.has_roughness => {
                 one("an exponent")?;
             }
+            // Of the same width: B. Karis, "Specular BRDF Reference" (2013), α² = 2 / (n + 2) with α the
+            // roughness squared.
             "Ns" => material.roughness = (2.0 / (one("an exponent")?.max(0.0) + 2.0)).sqrt().sqrt(),
             "Pr" => {
                 material.roughness = one("a roughness")?.clamp(0.0, 1.0);

@@ -112,7 +112,7 @@ fn a_concave_polygon_is_covered_once() {
 #[test]
 fn colours_of_vertices_are_decoded() {
     let text = "v 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0 0.5 0.04 0\nv 0 1 0 1 1 0 0.5\nv 2 0 0\nf 1 2 3 4\n\
-        o plain\nv 3 0 0 1 1 1\nf 2 5 6\n";
+        o plain\nv 3 1 0 1 1 1\nf 2 5 6\n";
     let obj = good(text);
     let colors: Vec<_> = obj.parts[0].mesh.colors.iter().map(|color| color.to_array()).collect();
     // By IEC 61966-2-1: ((0.5 + 0.055) / 1.055)^2.4, and 0.04 / 12.92. A vertex without a colour is white.
