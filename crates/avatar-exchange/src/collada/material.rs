@@ -100,6 +100,7 @@ impl<'a> Reader<'a> {
             material.alpha_mode = AlphaMode::Blend;
         }
         if let Some((transparent, texture)) = model.child("transparent").and_then(with_texture) {
+            let before = self.scene.images.len();
             let image = self.texture(profile, texture, images, resolve).map(|texture| texture.image);
             let of_color = material.base_color_texture.map(|texture| texture.image);
             let mode = transparent.attribute("opaque").unwrap_or("A_ONE");
@@ -108,6 +109,9 @@ impl<'a> Reader<'a> {
                 material.alpha_mode = AlphaMode::Blend;
             } else if image.is_some() {
                 self.note(transparent, Finding::left_out("its opacity texture is left out"));
+                // Nothing else has shown it so far.
+                self.scene.images.truncate(before);
+                images.retain(|_, image| *image < before);
             }
         }
         self.bump([model, technique.unwrap_or(model), profile, at], profile, material, images, resolve);

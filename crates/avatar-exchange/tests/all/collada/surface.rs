@@ -123,6 +123,7 @@ fn opacity_is_the_alpha_of_the_picture_of_the_colour() {
     let transparent = |mode: &str, picture: &str| {
         let text = format!("{DIFFUSE}<transparent{mode}><texture texture='{picture}-samp'/></transparent>");
         let (scene, read) = material(&text, "");
+        assert_eq!(scene.images.len(), 1, "a picture that nothing shows is not kept");
         (read.alpha_mode, is_told(&scene, "its opacity texture is left out"))
     };
     // Without a mode it is A_ONE: COLLADA 1.4.1, chapter 7, "Determining Transparency".
