@@ -39,4 +39,4 @@ pub use placed_toml::TomlError as LookError;
 pub use reflections::{CUBE_FACES, cube_direction};
 pub use scatter::scatter_table;
 pub use split_sum::{directional_albedo, split_sum};
-pub use standard::{Alpha, Cartoon, Lighting, SOLID, SecondUvs, Standard};
+pub use standard::{Alpha, Cartoon, Lighting, SOLID, SecondUvs, Standard, Wrap, Wraps};

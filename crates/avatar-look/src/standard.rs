@@ -88,6 +88,35 @@ pub struct SecondUvs {
     pub shade: bool,
 }
 
+/// What a texture shows beyond its edges: glTF 2.0, section 5.26.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// The texture again.
+    #[default]
+    Repeat,
+    /// The colour of its edge.
+    Clamp,
+    /// The texture again, every other time mirrored.
+    Mirror,
+}
+
+/// What textures show beyond their edges, in the directions of the first and the second coordinate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wraps {
+    /// That of the base colour.
+    pub color: [Wrap; 2],
+    /// That of the occlusion.
+    pub occlusion: [Wrap; 2],
+    /// That of roughness and metalness.
+    pub metallic_roughness: [Wrap; 2],
+    /// That of the normals.
+    pub normal: [Wrap; 2],
+    /// That of the emitted light.
+    pub emissive: [Wrap; 2],
+    /// That of the colour in the shade.
+    pub shade: [Wrap; 2],
+}
+
 impl Default for Standard {
     /// White, opaque, matte, seen from its front.
     fn default() -> Self {

@@ -1,5 +1,6 @@
 //! An avatar as a scene, for files of interchange formats: the way back from `import`.
 
+use crate::import::wrap_of;
 use crate::textures::decode;
 use crate::{Pack, Part, PartImages, Textures};
 use avatar_exchange::{
@@ -272,13 +273,13 @@ fn of_standard<'a>(
     pictures: PartImages<'a>,
     mut take: impl FnMut(Option<&'a RgbaImage>, &str) -> Option<usize>,
 ) -> Material {
-    let mut texture = |picture, what, is_second| {
+    let mut texture = |picture, what, is_second, wrap: [avatar_look::Wrap; 2]| {
         let uvs = if is_second { UvSet::Second } else { UvSet::First };
-        take(picture, what).map(|image| TextureRef { uvs, ..TextureRef::from(image) })
+        take(picture, what).map(|image| TextureRef { image, uvs, wrap: wrap.map(wrap_of) })
     };
-    let second = standard.second_uvs;
-    let base_color_texture = texture(pictures.color, "color", second.color);
-    let shade_texture = texture(pictures.shade, "shade", second.shade);
+    let (second, wraps) = (standard.second_uvs, pictures.wraps);
+    let base_color_texture = texture(pictures.color, "color", second.color, wraps.color);
+    let shade_texture = texture(pictures.shade, "shade", second.shade, wraps.shade);
     let (alpha_mode, alpha_cutoff) = match standard.alpha {
         Alpha::Opaque => (AlphaMode::Opaque, 0.5),
         Alpha::Mask(cutoff) => (AlphaMode::Mask, cutoff),
@@ -294,13 +295,14 @@ fn of_standard<'a>(
             pictures.metallic_roughness,
             "roughness",
             second.metallic_roughness,
+            wraps.metallic_roughness,
         ),
-        normal_texture: texture(pictures.normal, "normals", second.normal),
+        normal_texture: texture(pictures.normal, "normals", second.normal, wraps.normal),
         normal_scale: if pictures.normal.is_some() { from.normal_strength } else { 1.0 },
-        occlusion_texture: texture(pictures.occlusion, "occlusion", second.occlusion),
+        occlusion_texture: texture(pictures.occlusion, "occlusion", second.occlusion, wraps.occlusion),
         occlusion_strength: standard.occlusion_strength,
         emissive: standard.emissive,
-        emissive_texture: texture(pictures.emissive, "emission", second.emissive),
+        emissive_texture: texture(pictures.emissive, "emission", second.emissive, wraps.emissive),
         alpha_mode,
         alpha_cutoff,
         double_sided: standard.is_double_sided,

@@ -1,5 +1,6 @@
 use crate::{Source, Warning};
 use avatar_exchange::memory;
+use avatar_look::Wraps;
 use avatar_mesh::PartKind;
 use image::error::{LimitError, LimitErrorKind};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
@@ -81,6 +82,8 @@ pub struct PartImages<'a> {
     pub emissive: Option<&'a RgbaImage>,
     /// Colour of a cartoon in the shade, sRGB.
     pub shade: Option<&'a RgbaImage>,
+    /// What lies beyond their edges.
+    pub wraps: Wraps,
 }
 
 /// The decoded textures of a pack.
@@ -104,6 +107,7 @@ pub(crate) struct OwnImages {
     pub(crate) metallic_roughness: Vec<Option<usize>>,
     pub(crate) emissive: Vec<Option<usize>>,
     pub(crate) shade: Vec<Option<usize>>,
+    pub(crate) wraps: Vec<Wraps>,
 }
 
 /// Larger pictures than this on a side are refused before they are decoded.
@@ -144,6 +148,7 @@ impl Textures {
                 metallic_roughness: get(&own.metallic_roughness),
                 emissive: get(&own.emissive),
                 shade: get(&own.shade),
+                wraps: own.wraps.get(part).copied().unwrap_or_default(),
                 ..PartImages::default()
             };
         }

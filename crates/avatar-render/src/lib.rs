@@ -97,6 +97,7 @@ pub use avatar::state::AvatarState;
 pub use avatar_groom;
 pub use avatar_look::{
     Alpha, Cartoon, Environment, Iris, Lamp, Light, Lighting, Material, Panel, SecondUvs, Standard, ToneMap,
+    Wrap, Wraps,
 };
 /// The crate whose meshes are drawn.
 pub use avatar_mesh;

@@ -73,8 +73,8 @@ pub fn upload_with_hair(
             [color, occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade]
         })
         .collect();
-    let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&of_parts))
-        .map(|(part, pictures)| {
+    let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&of_parts).enumerate())
+        .map(|(index, (part, pictures))| {
             let [color, occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade] =
                 pictures.map(|place| place.and_then(|place| images.copies.get(place)));
             PartDesc {
@@ -92,6 +92,7 @@ pub fn upload_with_hair(
                     metallic_roughness,
                     emissive,
                     shade,
+                    wraps: textures.of_part(index, part.kind).wraps,
                 },
             }
         })

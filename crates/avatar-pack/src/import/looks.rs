@@ -5,7 +5,7 @@ use crate::Textures;
 use crate::pictures::Pictures;
 use crate::textures::OwnImages;
 use avatar_exchange::{AlphaMode, Scene, ScenePart, TextureRef, UvSet};
-use avatar_look::{Alpha, Cartoon, Lighting, Material, SOLID, SecondUvs, Standard};
+use avatar_look::{Alpha, Cartoon, Lighting, Material, SOLID, SecondUvs, Standard, Wrap, Wraps};
 use avatar_mesh::PartKind;
 
 /// The pictures of a scene, and which of them each part is drawn with.
@@ -54,6 +54,7 @@ impl Looks {
         self.own.metallic_roughness.push(self.pictures.used(rough));
         self.own.emissive.push(self.pictures.used(of_surface(from.emissive_texture, true)));
         self.own.shade.push(self.pictures.used(of_surface(shade, true)));
+        self.own.wraps.push(wraps(from));
         if !is_surface && from.metallic_roughness_texture.is_some() {
             report
                 .notes
@@ -109,6 +110,27 @@ fn kind_of(from: &avatar_exchange::Material, part: &ScenePart, name: &str, alpha
     }
 }
 
+/// What the textures show beyond their edges.
+fn wraps(from: &avatar_exchange::Material) -> Wraps {
+    let of = |texture: Option<TextureRef>| {
+        texture.map_or([Wrap::Repeat; 2], |texture| {
+            texture.wrap.map(|wrap| match wrap {
+                avatar_exchange::Wrap::Repeat => Wrap::Repeat,
+                avatar_exchange::Wrap::Clamp => Wrap::Clamp,
+                avatar_exchange::Wrap::Mirror => Wrap::Mirror,
+            })
+        })
+    };
+    Wraps {
+        color: of(from.base_color_texture),
+        occlusion: of(from.occlusion_texture),
+        metallic_roughness: of(from.metallic_roughness_texture),
+        normal: of(from.normal_texture),
+        emissive: of(from.emissive_texture),
+        shade: of(from.toon.as_ref().and_then(|toon| toon.shade_texture)),
+    }
+}
+
 fn material(from: &avatar_exchange::Material, kind: PartKind, alpha: Alpha) -> Material {
     let [r, g, b, _] = from.base_color;
     let is_second = |texture: Option<TextureRef>| texture.is_some_and(|texture| texture.uvs == UvSet::Second);
@@ -158,5 +180,14 @@ fn material(from: &avatar_exchange::Material, kind: PartKind, alpha: Alpha) -> M
             standard: Some(standard),
             ..of_kind
         },
+    }
+}
+
+/// The way back, for export.
+pub(crate) fn wrap_of(wrap: Wrap) -> avatar_exchange::Wrap {
+    match wrap {
+        Wrap::Repeat => avatar_exchange::Wrap::Repeat,
+        Wrap::Clamp => avatar_exchange::Wrap::Clamp,
+        Wrap::Mirror => avatar_exchange::Wrap::Mirror,
     }
 }

@@ -27,6 +27,7 @@ use avatar_exchange::Scene;
 use avatar_look::Materials;
 use avatar_mesh::drivers::DriversError;
 use avatar_mesh::{Bounds, DeformError};
+pub(crate) use looks::wrap_of;
 use pose_anim::ControlError;
 use rig_core::{JointId, RigError};
 use std::fmt;

@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "a test may panic")]
 
 use avatar_exchange::{
-    AlphaMode, Material, Node, RawScene, Scene, SceneImage, ScenePart, TextureRef, ToonMaterial, UvSet,
+    AlphaMode, Material, Node, RawScene, Scene, SceneImage, ScenePart, TextureRef, ToonMaterial, UvSet, Wrap,
 };
 use avatar_look::{Alpha, Cartoon, Lighting, Standard};
 use avatar_mesh::{Mesh, PartKind};
@@ -85,7 +85,7 @@ fn skin_is_what_is_called_so_and_says_no_more_than_skin_can_show() {
 
 #[test]
 fn looks_survive_the_way_to_a_scene_and_back() {
-    let second = |image| Some(TextureRef { uvs: UvSet::Second, ..TextureRef::from(image) });
+    let second = |image| Some(TextureRef { image, uvs: UvSet::Second, wrap: [Wrap::Clamp, Wrap::Mirror] });
     let material = Material {
         name: "plate".to_owned(),
         base_color: [0.5, 0.6, 0.7, 0.8],
@@ -110,6 +110,11 @@ fn looks_survive_the_way_to_a_scene_and_back() {
         let raw = export(&first.pack, &first.textures);
         let again = Import::from_scene(Scene::from_raw(raw).expect("a scene")).expect("an avatar");
         assert_eq!(look(&again), look(&first), "{from:?}");
+        let wraps = |import: &Import| import.textures.of_part(0, import.pack.parts()[0].kind).wraps;
+        let clamped = [avatar_look::Wrap::Clamp, avatar_look::Wrap::Mirror];
+        assert_eq!((wraps(&first).color, wraps(&first).occlusion), (clamped, clamped));
+        assert_eq!(wraps(&first).emissive, [avatar_look::Wrap::Repeat; 2]);
+        assert_eq!(wraps(&again), wraps(&first));
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::deform::posed::GpuDeformedVertex;
 use crate::frame::drawables::Drawable;
 use crate::frame::programs::{OCCLUSION_PASS, PREPASS, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS};
-use crate::gpu::bindings::{dynamic_uniform_entry, sampler_entry};
+use crate::gpu::bindings::dynamic_uniform_entry;
 use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
 use crate::gpu::ring::Ring;
 use crate::model::bone::GpuBone;
@@ -55,10 +55,7 @@ impl Layouts {
         let view = view_layout(device);
         let shadow = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("shadow view"),
-            entries: &[
-                dynamic_uniform_entry(wgpu::ShaderStages::VERTEX, Ring::<GpuShadowView>::BYTES),
-                sampler_entry(1, wgpu::ShaderStages::FRAGMENT, wgpu::SamplerBindingType::Filtering),
-            ],
+            entries: &[dynamic_uniform_entry(wgpu::ShaderStages::VERTEX, Ring::<GpuShadowView>::BYTES)],
         });
         let looks = look_layout(device);
         Self {

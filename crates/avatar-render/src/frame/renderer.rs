@@ -76,13 +76,7 @@ impl Renderer {
         let shadow_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("shadow view"),
             layout: &layouts.shadow,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: shadow_views.binding() },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: wgpu::BindingResource::Sampler(&resources.repeat_sampler),
-                },
-            ],
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: shadow_views.binding() }],
         });
         Ok(Self {
             id: Identity::new(),

@@ -37,9 +37,17 @@ impl TextureUse {
 pub(crate) struct Textures {
     /// By the place of the picture in memory.
     known: HashMap<(usize, TextureUse), wgpu::TextureView>,
+    /// By what lies beyond the edges, across and down.
+    samplers: HashMap<[wgpu::AddressMode; 2], wgpu::Sampler>,
 }
 
 impl Textures {
+    /// What samples a texture of a part; each is made once.
+    pub(crate) fn sampler(&mut self, device: &wgpu::Device, modes: [wgpu::AddressMode; 2]) -> wgpu::Sampler {
+        let made = || sampler(device, "texture of a part", modes, true);
+        self.samplers.entry(modes).or_insert_with(made).clone()
+    }
+
     /// The texture of a picture, which is uploaded once. All pictures have to stay where they are while
     /// `self` lives, but for those of one pixel.
     pub(crate) fn upload(
@@ -61,6 +69,28 @@ impl Textures {
         self.known.insert(key, view.clone());
         Ok(view)
     }
+}
+
+/// A trilinear sampler. `is_anisotropic` asks for sharpness on tilted surfaces, which is free in hardware; in
+/// software it would take several samples, and is left out.
+pub(crate) fn sampler(
+    device: &wgpu::Device,
+    label: &str,
+    [u, v]: [wgpu::AddressMode; 2],
+    is_anisotropic: bool,
+) -> wgpu::Sampler {
+    let is_software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some(label),
+        address_mode_u: u,
+        address_mode_v: v,
+        address_mode_w: u,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        anisotropy_clamp: if is_anisotropic && !is_software { 8 } else { 1 },
+        ..Default::default()
+    })
 }
 
 /// Uploads a picture and its mip levels. One that is larger than the device allows is halved until it fits.

@@ -1,6 +1,7 @@
 //! Parts as callers describe them.
 
 use crate::gpu::image::Image;
+use avatar_look::Wraps;
 use avatar_mesh::{Mesh, PartKind};
 
 /// A part to be drawn.
@@ -52,4 +53,7 @@ pub struct PartTextures<'a> {
     pub emissive: Option<&'a Image>,
     /// Colour of a cartoon in the shade, sRGB; in the place of `gloss` and `metallic_roughness`.
     pub shade: Option<&'a Image>,
+    /// What lies beyond their edges. Gloss and thickness, which files do not have, take the fields of those
+    /// in whose place they are.
+    pub wraps: Wraps,
 }

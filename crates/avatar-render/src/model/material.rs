@@ -28,8 +28,9 @@ pub(crate) const METALLIC_ROUGHNESS_TEXTURE: u32 = 32;
 pub(crate) const EMISSIVE_TEXTURE: u32 = 64;
 /// Bit of `GpuMaterial::textures`: in the slot of gloss.
 pub(crate) const SHADE_TEXTURE: u32 = 128;
-/// Bit of `GpuMaterial::textures`: the colour is a factor on its texture instead of lying below it.
-pub(crate) const TINTED: u32 = 256;
+/// Bit of `GpuMaterial::textures`: an interchange file says how the part looks. The colour is then a
+/// factor on its texture instead of lying below it, occlusion has a strength, and relief is that of glTF.
+pub(crate) const FROM_FILE: u32 = 256;
 /// Bit of `GpuMaterial::textures`: the base colour is seen as it is.
 pub(crate) const UNLIT: u32 = 512;
 /// Bit of `GpuMaterial::textures`: drawn as a cartoon.
@@ -48,7 +49,7 @@ fn constants() -> Vec<Constant> {
         ("METALLIC_ROUGHNESS_TEXTURE", Value::Count(METALLIC_ROUGHNESS_TEXTURE)),
         ("EMISSIVE_TEXTURE", Value::Count(EMISSIVE_TEXTURE)),
         ("SHADE_TEXTURE", Value::Count(SHADE_TEXTURE)),
-        ("TINTED", Value::Count(TINTED)),
+        ("FROM_FILE", Value::Count(FROM_FILE)),
         ("UNLIT", Value::Count(UNLIT)),
         ("CARTOON", Value::Count(CARTOON)),
         ("PROFILE_ROWS", Value::Count(PROFILE_LEN as u32 / 4)),
@@ -152,7 +153,7 @@ impl GpuMaterial {
             Lighting::Unlit => UNLIT,
             Lighting::Cartoon(_) => CARTOON,
         };
-        let tinted = if material.standard.is_some() { TINTED } else { 0 };
+        let from_file = if material.standard.is_some() { FROM_FILE } else { 0 };
         Self {
             color: [r, g, b],
             opacity,
@@ -174,7 +175,7 @@ impl GpuMaterial {
             back_light: material.back_light,
             front_z: geometry.front_z,
             per_depth: geometry.per_depth,
-            textures: textures | lighting | tinted,
+            textures: textures | lighting | from_file,
             second_uvs: second_uvs(standard.second_uvs),
             shade_color: cartoon.shade_color,
             alpha_cutoff,

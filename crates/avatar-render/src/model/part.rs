@@ -1,6 +1,6 @@
 //! A part on the GPU: geometry and looks.
 
-use crate::gpu::bindings::{texture_entry, uniform_entry};
+use crate::gpu::bindings::{sampler_entry, texture_binding, texture_entry, uniform_entry};
 use crate::gpu::image::Image;
 use crate::gpu::texture::{TextureUse, Textures};
 use crate::model::desc::{PartBones, PartDesc};
@@ -12,7 +12,7 @@ use crate::model::material::{
     COLOR_TEXTURE, EMISSIVE_TEXTURE, GLOSS_TEXTURE, GpuMaterial, METALLIC_ROUGHNESS_TEXTURE, NORMAL_TEXTURE,
     OCCLUSION_TEXTURE, SHADE_TEXTURE, THICKNESS_TEXTURE,
 };
-use avatar_look::Material;
+use avatar_look::{Material, Wrap};
 use avatar_mesh::{Bounds, PartKind};
 use wgpu::util::DeviceExt;
 
@@ -79,6 +79,8 @@ pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         let filtered = wgpu::TextureSampleType::Float { filterable: true };
         texture_entry(binding, wgpu::ShaderStages::FRAGMENT, filtered, wgpu::TextureViewDimension::D2)
     };
+    let sampler =
+        |binding| sampler_entry(binding, wgpu::ShaderStages::FRAGMENT, wgpu::SamplerBindingType::Filtering);
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("part looks"),
         entries: &[
@@ -88,8 +90,21 @@ pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             texture(3),
             texture(4),
             texture(5),
+            sampler(6),
+            sampler(7),
+            sampler(8),
+            sampler(9),
+            sampler(10),
         ],
     })
+}
+
+fn address_mode(wrap: Wrap) -> wgpu::AddressMode {
+    match wrap {
+        Wrap::Repeat => wgpu::AddressMode::Repeat,
+        Wrap::Clamp => wgpu::AddressMode::ClampToEdge,
+        Wrap::Mirror => wgpu::AddressMode::MirrorRepeat,
+    }
 }
 
 impl ModelPart {
@@ -145,20 +160,30 @@ impl ModelPart {
             contents: bytemuck::bytes_of(&gpu_material),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         });
-        let texture = |binding: u32, view| wgpu::BindGroupEntry {
+        let wraps = pictures.wraps;
+        // A slot that several textures may have wraps like the one that has it.
+        let gloss_wrap = if pictures.shade.is_some() { wraps.shade } else { wraps.metallic_roughness };
+        let samplers = [wraps.color, wraps.occlusion, gloss_wrap, wraps.normal, wraps.emissive]
+            .map(|wrap| known.sampler(device, wrap.map(address_mode)));
+        let sampler = |binding, place: usize| wgpu::BindGroupEntry {
             binding,
-            resource: wgpu::BindingResource::TextureView(view),
+            resource: wgpu::BindingResource::Sampler(&samplers[place]),
         };
         let look = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(&format!("{label}: looks")),
             layout: &layouts.looks,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: material.as_entire_binding() },
-                texture(1, &views[0]),
-                texture(2, &views[1]),
-                texture(3, &views[2]),
-                texture(4, &views[3]),
-                texture(5, &views[4]),
+                texture_binding(1, &views[0]),
+                texture_binding(2, &views[1]),
+                texture_binding(3, &views[2]),
+                texture_binding(4, &views[3]),
+                texture_binding(5, &views[4]),
+                sampler(6, 0),
+                sampler(7, 1),
+                sampler(8, 2),
+                sampler(9, 3),
+                sampler(10, 4),
             ],
         });
         let (label, kind, finish) = (label.to_owned(), desc.kind, FinishCell::default());

@@ -4,6 +4,7 @@ use crate::gpu::bindings::{dynamic_uniform_entry, sampler_entry, texture_entry};
 use crate::gpu::color::half_bits;
 use crate::gpu::pipeline::DEPTH_FORMAT;
 use crate::gpu::ring::Ring;
+use crate::gpu::texture::sampler;
 use crate::view::environment::EnvironmentMap;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::pores::{PORE_SIZE, pore_tile};
@@ -30,8 +31,6 @@ pub(crate) struct Resources {
     /// The same maps one by one, for drawing into.
     pub(crate) shadow_layers: Vec<wgpu::TextureView>,
     pub(crate) shadow_sampler: wgpu::Sampler,
-    /// For textures of parts.
-    pub(crate) repeat_sampler: wgpu::Sampler,
     /// How much of the key lamp's light hair blocks; a single texel if no lamp casts shadows.
     pub(crate) hair_map: wgpu::TextureView,
     pub(crate) environment: EnvironmentMap,
@@ -69,14 +68,16 @@ impl Resources {
             table(device, queue, "pores", (PORE_SIZE, PORE_SIZE), wgpu::TextureFormat::Rg8Unorm, &pores),
         ];
         let environment = EnvironmentMap::new(device);
-        let samplers =
-            [wgpu::AddressMode::Repeat, wgpu::AddressMode::ClampToEdge].map(|m| sampler(device, m));
-        let repeat_sampler = samplers[0].clone();
+        // Only textures that repeat on tilted surfaces need anisotropic filtering.
+        let samplers = [
+            sampler(device, "repeat, trilinear", [wgpu::AddressMode::Repeat; 2], true),
+            sampler(device, "clamp, trilinear", [wgpu::AddressMode::ClampToEdge; 2], false),
+        ];
         let texture = |binding, view| wgpu::BindGroupEntry {
             binding,
             resource: wgpu::BindingResource::TextureView(view),
         };
-        let sampler = |binding, sampler| wgpu::BindGroupEntry {
+        let bound = |binding, sampler| wgpu::BindGroupEntry {
             binding,
             resource: wgpu::BindingResource::Sampler(sampler),
         };
@@ -85,8 +86,8 @@ impl Resources {
             layout: &layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: frames.binding() },
-                sampler(1, &samplers[0]),
-                sampler(2, &samplers[1]),
+                bound(1, &samplers[0]),
+                bound(2, &samplers[1]),
                 texture(3, &tables[0]),
                 texture(4, &tables[1]),
                 texture(5, &environment.cube),
@@ -108,7 +109,6 @@ impl Resources {
             shadow_map,
             shadow_layers,
             shadow_sampler,
-            repeat_sampler,
             hair_map: hair_map(device, terms),
             environment,
         }
@@ -132,24 +132,6 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             texture(5, wgpu::TextureViewDimension::Cube),
             texture(6, flat),
         ],
-    })
-}
-
-fn sampler(device: &wgpu::Device, mode: wgpu::AddressMode) -> wgpu::Sampler {
-    let software = device.adapter_info().device_type == wgpu::DeviceType::Cpu;
-    // Anisotropic filtering is free in hardware and takes several samples in software. Only textures that
-    // repeat on tilted surfaces need it.
-    let anisotropic = mode == wgpu::AddressMode::Repeat && !software;
-    device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some(if mode == wgpu::AddressMode::Repeat { "repeat, trilinear" } else { "clamp, trilinear" }),
-        address_mode_u: mode,
-        address_mode_v: mode,
-        address_mode_w: mode,
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        mipmap_filter: wgpu::MipmapFilterMode::Linear,
-        anisotropy_clamp: if anisotropic { 8 } else { 1 },
-        ..Default::default()
     })
 }
 

@@ -19,6 +19,7 @@ mod limits;
 mod pixels;
 mod opacity;
 mod standard;
+mod textures;
 mod crowds;
 mod views;
 mod mirror;

@@ -73,3 +73,9 @@ struct Material {
 @group(2) @binding(3) var gloss_texture: texture_2d<f32>;
 @group(2) @binding(4) var normal_texture: texture_2d<f32>;
 @group(2) @binding(5) var thickness_texture: texture_2d<f32>;
+// Of each texture, what lies beyond its edges.
+@group(2) @binding(6) var color_sampler: sampler;
+@group(2) @binding(7) var occlusion_sampler: sampler;
+@group(2) @binding(8) var gloss_sampler: sampler;
+@group(2) @binding(9) var normal_sampler: sampler;
+@group(2) @binding(10) var thickness_sampler: sampler;

@@ -51,10 +51,10 @@ fn relief_normal(position: vec3f, uv: vec2f, normal: vec3f) -> vec3f {
     var tilt = vec2f(0.0);
     var height = 1.0;
     if has_map {
-        let texel = textureSample(normal_texture, repeat_sampler, uv).xyz;
+        let texel = textureSample(normal_texture, normal_sampler, uv).xyz;
         tilt = (texel.xy * 2.0 - 1.0) * material.normal_strength;
         // As the standard has it; the relief of packs is made for the tangents above.
-        tilt *= select(1.0, -1.0, (material.textures & TINTED) != 0u);
+        tilt *= select(1.0, -1.0, (material.textures & FROM_FILE) != 0u);
         height = max(texel.z * 2.0 - 1.0, 0.1);
     }
     if has_pores {
@@ -72,6 +72,20 @@ fn relief_normal(position: vec3f, uv: vec2f, normal: vec3f) -> vec3f {
     return tilted(tangents, normal, tilt, height);
 }
 
+// Colour and opacity of a part of a face: the texture of a pack lies over the material's own colour, that
+// of an interchange file is multiplied by it.
+fn part_color(uv: vec2f) -> vec4f {
+    let below = vec4f(material.color, material.opacity);
+    if (material.textures & COLOR_TEXTURE) == 0u {
+        return below;
+    }
+    let texel = textureSample(color_texture, color_sampler, uv);
+    if (material.textures & FROM_FILE) != 0u {
+        return below * texel;
+    }
+    return mix(below, vec4f(texel.rgb, 1.0), texel.a);
+}
+
 fn surface_at(in: VertexOut, uv: vec2f, is_front: bool) -> Surface {
     var surface: Surface;
     surface.position = in.position_world;
@@ -79,35 +93,26 @@ fn surface_at(in: VertexOut, uv: vec2f, is_front: bool) -> Surface {
     // Parts are drawn from both sides where a back may show (the mouth, the rim of the neck).
     surface.smooth_normal = normalize(in.normal_world) * select(-1.0, 1.0, is_front);
     surface.normal = relief_normal(in.position_world, uv, surface.smooth_normal);
-    surface.color = material.color;
-    surface.opacity = material.opacity;
-    if (material.textures & COLOR_TEXTURE) != 0u {
-        let texel = textureSample(color_texture, repeat_sampler, uv);
-        if (material.textures & TINTED) != 0u {
-            surface.color *= texel.rgb;
-            surface.opacity *= texel.a;
-        } else {
-            surface.color = mix(surface.color, texel.rgb, texel.a);
-            surface.opacity = mix(surface.opacity, 1.0, texel.a);
-        }
-    }
+    let color = part_color(uv);
+    surface.color = color.rgb;
+    surface.opacity = color.a;
     surface.occlusion = 1.0;
     if (material.textures & OCCLUSION_TEXTURE) != 0u {
-        surface.occlusion = textureSample(occlusion_texture, repeat_sampler, uv).r;
-        if (material.textures & TINTED) != 0u {
+        surface.occlusion = textureSample(occlusion_texture, occlusion_sampler, uv).r;
+        if (material.textures & FROM_FILE) != 0u {
             surface.occlusion = mix(1.0, surface.occlusion, material.occlusion_strength);
         }
     }
     var gloss = 0.5;
     if (material.textures & GLOSS_TEXTURE) != 0u {
-        gloss = textureSample(gloss_texture, repeat_sampler, uv).r;
+        gloss = textureSample(gloss_texture, gloss_sampler, uv).r;
     }
     let roughness = max(mix(material.roughness_matte, material.roughness_glossy, gloss), MIN_ROUGHNESS);
     surface.alpha = roughness * roughness;
     surface.curvature = in.curvature;
     surface.thickness = 0.0;
     if TRANSMISSION && (material.textures & THICKNESS_TEXTURE) != 0u {
-        surface.thickness = material.thickness * textureSample(thickness_texture, repeat_sampler, uv).r;
+        surface.thickness = material.thickness * textureSample(thickness_texture, thickness_sampler, uv).r;
     }
     return surface;
 }

@@ -5,7 +5,6 @@ struct ShadowView {
 }
 
 @group(0) @binding(0) var<uniform> shadow_view: ShadowView;
-@group(0) @binding(1) var cut_sampler: sampler;
 
 struct ShadowOut {
     @builtin(position) position: vec4f,
@@ -41,7 +40,7 @@ fn cut_shadow_extra_main(
 fn cut_caster_main(in: ShadowOut) {
     var opacity = in.opacity;
     if (material.textures & COLOR_TEXTURE) != 0u {
-        opacity *= textureSample(color_texture, cut_sampler, in.uv).a;
+        opacity *= textureSample(color_texture, color_sampler, in.uv).a;
     }
     if opacity < material.shadow_cutoff {
         discard;

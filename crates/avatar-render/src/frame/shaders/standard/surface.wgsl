@@ -13,7 +13,7 @@ fn standard_surface(in: StandardOut, base: vec3f, is_front: bool) -> Surface {
     if (material.textures & NORMAL_TEXTURE) != 0u {
         let uv = uv_of(in, NORMAL_TEXTURE);
         let tangents = tangents_at(in.position_world, uv, surface.smooth_normal);
-        let texel = textureSample(normal_texture, repeat_sampler, uv).xyz * 2.0 - 1.0;
+        let texel = textureSample(normal_texture, normal_sampler, uv).xyz * 2.0 - 1.0;
         let tilt = -texel.xy * material.normal_strength;
         surface.normal = tilted(tangents, surface.smooth_normal, tilt, max(texel.z, 0.1));
     }
@@ -21,7 +21,7 @@ fn standard_surface(in: StandardOut, base: vec3f, is_front: bool) -> Surface {
     surface.opacity = 1.0;
     surface.occlusion = 1.0;
     if (material.textures & OCCLUSION_TEXTURE) != 0u {
-        let texel = textureSample(occlusion_texture, repeat_sampler, uv_of(in, OCCLUSION_TEXTURE)).r;
+        let texel = textureSample(occlusion_texture, occlusion_sampler, uv_of(in, OCCLUSION_TEXTURE)).r;
         surface.occlusion = mix(1.0, texel, material.occlusion_strength);
     }
     return surface;
@@ -37,7 +37,7 @@ fn lit_color(in: StandardOut, base: vec3f, is_front: bool, seen: f32) -> vec3f {
     var metallic = material.metallic;
     if (material.textures & METALLIC_ROUGHNESS_TEXTURE) != 0u {
         let uv = uv_of(in, METALLIC_ROUGHNESS_TEXTURE);
-        let texel = textureSample(gloss_texture, repeat_sampler, uv);
+        let texel = textureSample(gloss_texture, gloss_sampler, uv);
         roughness *= texel.g;
         metallic *= texel.b;
     }
@@ -68,7 +68,7 @@ fn cartoon_color(in: StandardOut, base: vec3f, is_front: bool) -> vec3f {
     let surface = standard_surface(in, base, is_front);
     var shade = material.shade_color;
     if (material.textures & SHADE_TEXTURE) != 0u {
-        shade *= textureSample(gloss_texture, repeat_sampler, uv_of(in, SHADE_TEXTURE)).rgb;
+        shade *= textureSample(gloss_texture, gloss_sampler, uv_of(in, SHADE_TEXTURE)).rgb;
     }
     // Flat: from above and below alike, whichever way the surface faces.
     let around = ambient_from(vec3f(0.0, 1.0, 0.0)) + ambient_from(vec3f(0.0, -1.0, 0.0));
@@ -102,7 +102,7 @@ fn standard_color(in: StandardOut, base: vec3f, is_front: bool, seen: f32) -> ve
     }
     var emitted = material.emissive;
     if (material.textures & EMISSIVE_TEXTURE) != 0u {
-        emitted *= textureSample(thickness_texture, repeat_sampler, uv_of(in, EMISSIVE_TEXTURE)).rgb;
+        emitted *= textureSample(thickness_texture, thickness_sampler, uv_of(in, EMISSIVE_TEXTURE)).rgb;
     }
     return target_color(light + emitted, 1.0).rgb;
 }

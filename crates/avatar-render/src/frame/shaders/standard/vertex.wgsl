@@ -41,7 +41,7 @@ fn uv_of(in: StandardOut, bit: u32) -> vec2f {
 fn base_color(in: StandardOut) -> vec4f {
     let color = vec4f(material.color, material.opacity) * in.color;
     if (material.textures & COLOR_TEXTURE) != 0u {
-        return color * textureSample(color_texture, repeat_sampler, uv_of(in, COLOR_TEXTURE));
+        return color * textureSample(color_texture, color_sampler, uv_of(in, COLOR_TEXTURE));
     }
     return color;
 }
@@ -49,7 +49,7 @@ fn base_color(in: StandardOut) -> vec4f {
 fn opacity_at(in: StandardOut, uv: vec2f) -> f32 {
     let opacity = material.opacity * in.color.a;
     if (material.textures & COLOR_TEXTURE) != 0u {
-        return opacity * textureSample(color_texture, repeat_sampler, uv).a;
+        return opacity * textureSample(color_texture, color_sampler, uv).a;
     }
     return opacity;
 }
