@@ -36,11 +36,14 @@ use std::ops::Range;
 pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut scene = RawScene { nodes: joints(pack), ..RawScene::default() };
     let joint_from_mesh = pack.palette().iter().map(|bone| bone.joint_from_mesh);
-    scene.skins.push(Skin {
-        name: "palette".to_owned(),
-        joints: pack.palette().iter().map(|bone| bone.joint.index()).collect(),
-        inverse_binds: joint_from_mesh.collect(),
-    });
+    // A skeleton alone moves no part, and a skin without joints means nothing.
+    if !pack.palette().is_empty() {
+        scene.skins.push(Skin {
+            name: "palette".to_owned(),
+            joints: pack.palette().iter().map(|bone| bone.joint.index()).collect(),
+            inverse_binds: joint_from_mesh.collect(),
+        });
+    }
     let mut images = Images::default();
     let rest = weights_of_defaults(pack);
     let mut shapes_of_nodes = Vec::new();

@@ -248,3 +248,15 @@ fn a_mirrored_part_is_written_with_its_front_outside() {
         }
     }
 }
+
+/// A skeleton has no vertices that a palette could move.
+#[test]
+fn a_skeleton_alone_comes_back() {
+    let node = |name: &str, parent| Node { name: name.to_owned(), parent, ..Node::default() };
+    let scene = RawScene { nodes: vec![node("hip", None), node("head", Some(0))], ..RawScene::default() };
+    let first = Import::from_scene(Scene::from_raw(scene).expect("a scene")).expect("an avatar");
+    let scene = export(&first.pack, &first.textures);
+    assert!(scene.skins.is_empty());
+    let second = again(&scene);
+    assert_eq!(second.pack.rig().names(), first.pack.rig().names());
+}
