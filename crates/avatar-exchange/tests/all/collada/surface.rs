@@ -87,7 +87,7 @@ fn textures_use_the_sets_that_they_are_bound_to() {
              <bind_vertex_input semantic='V' input_semantic='TEXCOORD' input_set='{v}'/>"
         )
     };
-    let input = |set: usize| format!("<input semantic='TEXCOORD' source='#t' offset='{}' set='{set}'/>", set);
+    let input = |set: usize| format!("<input semantic='TEXCOORD' source='#t' offset='{set}' set='{set}'/>");
     let inside = format!("{EMISSION}{DIFFUSE}");
     // Sets 1 and 3 of the file; corners have 0 0 0, 1 0 1, 2 1 0 with an index between that means nothing.
     let inputs = input(3) + &input(1);
