@@ -25,6 +25,14 @@ pub enum FaceError {
     /// The state belongs to another pack.
     #[error(transparent)]
     Sliders(#[from] avatar_mesh::drivers::LengthError),
+    /// A crowd of another pack, or a face that a crowd does not have.
+    #[error("expected a face below {faces}, the number of faces in the crowd, found {face}")]
+    NoSuchFace {
+        /// The face that was asked for.
+        face: usize,
+        /// Number of faces.
+        faces: usize,
+    },
     /// The controls do not fit the rig.
     #[error(transparent)]
     Apply(#[from] pose_anim::ApplyError),

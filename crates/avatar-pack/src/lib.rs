@@ -69,6 +69,7 @@ mod load;
 mod textures;
 mod pictures;
 mod face;
+mod crowd;
 pub mod gaze;
 mod reach;
 mod pick;
@@ -77,6 +78,7 @@ mod import;
 mod export;
 mod raw;
 
+pub use crowd::FaceCrowd;
 pub use error::{ContentsError, PackError, PackProblem, Warning};
 pub use export::{export, portable_pictures};
 pub use face::{FaceError, FaceState};

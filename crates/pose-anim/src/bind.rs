@@ -7,22 +7,22 @@ use std::ops::Range;
 /// A [`ControlTable`] bound to the joints of a rig and to a list of blend shapes.
 #[derive(Clone, Debug)]
 pub struct Binding {
-    controls: Vec<Control>,
-    couplings: Vec<Coupling>,
+    pub(crate) controls: Vec<Control>,
+    pub(crate) couplings: Vec<Coupling>,
     /// The joints that controls drive, each with its range in `factors`.
-    joints: Vec<(JointId, Range<usize>)>,
-    factors: Vec<Factor>,
+    pub(crate) joints: Vec<(JointId, Range<usize>)>,
+    pub(crate) factors: Vec<Factor>,
     /// Control and index of the weight that it sets.
-    shapes: Vec<(usize, usize)>,
-    joint_count: usize,
-    shape_count: usize,
+    pub(crate) shapes: Vec<(usize, usize)>,
+    pub(crate) joint_count: usize,
+    pub(crate) shape_count: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Factor {
-    control: usize,
-    axis: Vec3,
-    kind: JointMotion,
+pub(crate) struct Factor {
+    pub(crate) control: usize,
+    pub(crate) axis: Vec3,
+    pub(crate) kind: JointMotion,
 }
 
 impl ControlTable {

@@ -203,4 +203,18 @@ pub enum JumpError {
         /// The value.
         value: f32,
     },
+    /// Of a crowd only.
+    #[error(transparent)]
+    Face(#[from] UnknownFace),
+}
+
+/// A face that a crowd does not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected a face below {faces}, the number of faces in the crowd, found {face}")]
+#[non_exhaustive]
+pub struct UnknownFace {
+    /// The face that was asked for.
+    pub face: usize,
+    /// Number of faces.
+    pub faces: usize,
 }

@@ -56,26 +56,13 @@ impl Player {
     /// after their factor, are clamped to 0.001 to 3600 s; delays to 0 to 3600 s. NaN means the default: the
     /// control's own pace, no delay. Poses that were read from a text are within these limits already.
     pub fn press(&mut self, pose: &Pose) {
-        let easing = pose.transition.filter(|easing| easing.is_sound());
         for (control, value) in &pose.values {
             let (Some(channel), Some(cold)) = (self.channels.get_mut(*control), self.cold.get_mut(*control))
             else {
                 continue;
             };
             let Some(pace) = self.paces.get(*control) else { continue };
-            if !value.is_finite() {
-                continue;
-            }
-            let timing = pose.timing(*control);
-            let goal = MoveSpec {
-                target: channel.range().clamp(f64::from(*value)),
-                duration_secs: pose.duration_secs,
-                pace: *pace,
-                factor: timing.factor,
-                easing,
-            };
-            let delay_secs = if timing.delay_secs.is_nan() { 0.0 } else { timing.delay_secs.min(3600.0) };
-            channel.press(goal, delay_secs, cold);
+            press(pose, *control, *value, *pace, channel, cold);
         }
     }
 
@@ -241,4 +228,28 @@ impl Player {
         let channels = self.channels.iter().zip(&self.cold);
         channels.map(|(channel, cold)| channel.remaining_secs(cold)).fold(0.0, f64::max)
     }
+}
+
+/// Sends one control towards its value in a pose ([`Player::press`]).
+pub(crate) fn press(
+    pose: &Pose,
+    control: usize,
+    value: f32,
+    pace: Pace,
+    channel: &mut Channel,
+    cold: &mut Cold,
+) {
+    if !value.is_finite() {
+        return;
+    }
+    let timing = pose.timing(control);
+    let goal = MoveSpec {
+        target: channel.range().clamp(f64::from(value)),
+        duration_secs: pose.duration_secs,
+        pace,
+        factor: timing.factor,
+        easing: pose.transition.filter(|easing| easing.is_sound()),
+    };
+    let delay_secs = if timing.delay_secs.is_nan() { 0.0 } else { timing.delay_secs.min(3600.0) };
+    channel.press(goal, delay_secs, cold);
 }

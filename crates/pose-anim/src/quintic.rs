@@ -35,6 +35,11 @@ impl Quintic {
         Self { target, duration_secs, c: [c0, v + 3.0 * c0, 0.5 * a + 3.0 * v + 6.0 * c0] }
     }
 
+    /// `c0`, `c1` and `c2` of the formula.
+    pub(crate) const fn coefficients(&self) -> [f64; 3] {
+        self.c
+    }
+
     pub(crate) const fn duration_secs(&self) -> f64 {
         self.duration_secs
     }

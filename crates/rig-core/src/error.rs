@@ -269,3 +269,20 @@ pub struct UnknownJoint {
     /// Number of joints.
     pub joints: usize,
 }
+
+/// Why a joint of a crowd could not be set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CrowdError {
+    /// The joint belongs to a larger rig.
+    #[error(transparent)]
+    Joint(#[from] UnknownJoint),
+    /// A rig that the crowd does not have.
+    #[error("expected a rig below {rigs}, the number of rigs in the crowd, found {rig}")]
+    UnknownRig {
+        /// The rig that was asked for.
+        rig: usize,
+        /// Number of rigs.
+        rigs: usize,
+    },
+}

@@ -56,9 +56,11 @@ mod xml;
 mod rig;
 mod elementary;
 mod pose;
+mod crowd;
 
+pub use crowd::{BoneLanes, MotionLanes, RigCrowd};
 pub use elementary::{Axis, Elementary, product};
-pub use error::{LengthMismatch, Place, RigError, UnknownJoint, XmlError, XmlProblem};
+pub use error::{CrowdError, LengthMismatch, Place, RigError, UnknownJoint, XmlError, XmlProblem};
 pub use pose::{Locals, RigPose};
 pub use raw::{MatrixLayout, RawJoint, RawRig};
 pub use rig::{JointId, RIGID_TOLERANCE, Rig, TRANSLATION_LIMIT};

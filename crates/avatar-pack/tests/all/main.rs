@@ -17,3 +17,4 @@ mod raw;
 mod reach;
 mod sliders;
 mod vrm;
+mod crowd;

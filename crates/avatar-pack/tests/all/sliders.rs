@@ -71,7 +71,7 @@ fn lids() -> RawScene {
     }
 }
 
-fn avatar() -> Import {
+pub(crate) fn avatar() -> Import {
     Import::from_scene(Scene::from_raw(lids()).expect("a scene")).expect("an avatar")
 }
 

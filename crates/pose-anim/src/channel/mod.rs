@@ -120,6 +120,20 @@ impl Channel {
         Jet::rest(self.base.target)
     }
 
+    /// The quintic that is all of the motion, and its age; `None` if there is more to it.
+    pub(crate) const fn quintic(&self) -> Option<(Quintic, f64)> {
+        match self.fades == 0 && !self.waits && !self.other_base && !self.fresh {
+            true => Some((self.base, self.base_age_secs + self.elapsed_secs)),
+            false => None,
+        }
+    }
+
+    /// The same motion at another age, if it is a quintic only ([`Self::quintic`]).
+    pub(crate) fn at_age(&self, age_secs: f64) -> Self {
+        let sleeps = age_secs >= self.base.duration_secs();
+        Self { base_age_secs: age_secs, elapsed_secs: 0.0, sleeps, ..self.clone() }
+    }
+
     /// Lets time pass, also past the start of a move that waits, and returns the state after it.
     pub(crate) fn advance(&mut self, dt_secs: f64, cold: &mut Cold) -> Jet {
         // The usual case: only a quintic.

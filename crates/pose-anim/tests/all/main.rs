@@ -12,3 +12,4 @@ mod long_times;
 mod layers;
 mod joints;
 mod scripts;
+mod crowd;

@@ -9,3 +9,4 @@ mod hostile;
 mod round_trip;
 mod transforms;
 mod golden_makehuman;
+mod crowd;

@@ -1,0 +1,133 @@
+use crate::{LANES, Lanes};
+use pulp::Simd;
+use std::ops::{Add, Div, Mul, Sub};
+
+/// How many [`Wide`] make a [`Lanes`].
+#[inline(always)]
+pub const fn steps<S: Simd>() -> usize {
+    LANES / S::F32_LANES
+}
+
+/// How many [`Wide64`] make a [`Lanes`].
+#[inline(always)]
+pub const fn steps64<S: Simd>() -> usize {
+    LANES / S::F64_LANES
+}
+
+/// A vector of numbers of 32 bits.
+#[derive(Clone, Copy, Debug)]
+pub struct Wide<S: Simd> {
+    simd: S,
+    numbers: S::f32s,
+}
+
+/// A vector of numbers of 64 bits.
+#[derive(Clone, Copy, Debug)]
+pub struct Wide64<S: Simd> {
+    simd: S,
+    numbers: S::f64s,
+}
+
+impl<S: Simd> Wide<S> {
+    /// The same number everywhere.
+    #[inline(always)]
+    pub fn splat(simd: S, value: f32) -> Self {
+        Self { simd, numbers: simd.splat_f32s(value) }
+    }
+
+    /// The numbers of one step, which is below [`steps`].
+    #[inline(always)]
+    pub fn load(simd: S, lanes: &Lanes, step: usize) -> Self {
+        Self { simd, numbers: S::as_simd_f32s(&lanes.0).0[step] }
+    }
+
+    /// Writes the numbers to their step, which is below [`steps`].
+    #[inline(always)]
+    pub fn store(self, lanes: &mut Lanes, step: usize) {
+        S::as_mut_simd_f32s(&mut lanes.0).0[step] = self.numbers;
+    }
+
+    /// `yes` where `self < limit`, else `no`.
+    #[inline(always)]
+    pub fn below(self, limit: Self, yes: Self, no: Self) -> Self {
+        let mask = self.simd.less_than_f32s(self.numbers, limit.numbers);
+        Self { numbers: self.simd.select_f32s(mask, yes.numbers, no.numbers), ..self }
+    }
+
+    /// `yes` where this bit is set in the representation of the number, else `no`.
+    #[inline(always)]
+    pub fn bit(self, bit: u32, yes: Self, no: Self) -> Self {
+        let simd = self.simd;
+        let one = simd.splat_u32s(1 << bit);
+        let mask = simd.equal_u32s(simd.and_u32s(simd.transmute_u32s_f32s(self.numbers), one), one);
+        Self { numbers: simd.select_f32s(mask, yes.numbers, no.numbers), ..self }
+    }
+
+    /// The number, not below `min` and not above `max`; NaN stays NaN.
+    #[inline(always)]
+    pub fn clamp(self, min: Self, max: Self) -> Self {
+        let raised = self.below(min, min, self);
+        max.below(raised, max, raised)
+    }
+}
+
+impl<S: Simd> Wide64<S> {
+    /// The same number everywhere.
+    #[inline(always)]
+    pub fn splat(simd: S, value: f64) -> Self {
+        Self { simd, numbers: simd.splat_f64s(value) }
+    }
+
+    /// The numbers of one step, which is below [`steps64`].
+    #[inline(always)]
+    pub fn load(simd: S, lanes: &Lanes<f64>, step: usize) -> Self {
+        Self { simd, numbers: S::as_simd_f64s(&lanes.0).0[step] }
+    }
+
+    /// Writes the numbers to their step, which is below [`steps64`].
+    #[inline(always)]
+    pub fn store(self, lanes: &mut Lanes<f64>, step: usize) {
+        S::as_mut_simd_f64s(&mut lanes.0).0[step] = self.numbers;
+    }
+
+    /// `yes` where `self < limit`, else `no`.
+    #[inline(always)]
+    pub fn below(self, limit: Self, yes: Self, no: Self) -> Self {
+        let mask = self.simd.less_than_f64s(self.numbers, limit.numbers);
+        Self { numbers: self.simd.select_f64s(mask, yes.numbers, no.numbers), ..self }
+    }
+
+    /// The number, not below `min` and not above `max`; NaN stays NaN.
+    #[inline(always)]
+    pub fn clamp(self, min: Self, max: Self) -> Self {
+        let raised = self.below(min, min, self);
+        max.below(raised, max, raised)
+    }
+}
+
+macro_rules! operator {
+    ($trait:ident, $method:ident, $f32s:ident, $f64s:ident) => {
+        impl<S: Simd> $trait for Wide<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self { numbers: self.simd.$f32s(self.numbers, other.numbers), ..self }
+            }
+        }
+
+        impl<S: Simd> $trait for Wide64<S> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self { numbers: self.simd.$f64s(self.numbers, other.numbers), ..self }
+            }
+        }
+    };
+}
+
+operator!(Add, add, add_f32s, add_f64s);
+operator!(Sub, sub, sub_f32s, sub_f64s);
+operator!(Mul, mul, mul_f32s, mul_f64s);
+operator!(Div, div, div_f32s, div_f64s);
