@@ -12,9 +12,23 @@ pub struct Bounds {
 impl Bounds {
     /// The smallest box around all points; `None` without points.
     pub fn of(points: &[Vec3]) -> Option<Self> {
-        let (&first, rest) = points.split_first()?;
+        let first = *points.first()?;
         let start = Self { min: first, max: first };
-        Some(rest.iter().fold(start, |b, &p| Self { min: b.min.min(p), max: b.max.max(p) }))
+        // Four points at a time: twelve coordinates fill registers.
+        let (fours, rest) = points.as_chunks::<4>();
+        let (mut least, mut most) = ([first; 4], [first; 4]);
+        let (low, high): (&mut [f32; 12], &mut [f32; 12]) =
+            (bytemuck::cast_mut(&mut least), bytemuck::cast_mut(&mut most));
+        for four in fours {
+            let coordinates: &[f32; 12] = bytemuck::cast_ref(four);
+            for (i, &x) in coordinates.iter().enumerate() {
+                low[i] = if low[i] < x { low[i] } else { x };
+                high[i] = if high[i] > x { high[i] } else { x };
+            }
+        }
+        let of_fours = least.into_iter().zip(most).map(|(min, max)| Self { min, max });
+        let of_rest = rest.iter().map(|&p| Self { min: p, max: p });
+        Some(of_fours.chain(of_rest).fold(start, Self::union))
     }
 
     /// The smallest box around two boxes.

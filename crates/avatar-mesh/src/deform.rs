@@ -136,22 +136,25 @@ fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), Defor
     let is_even = all_turn_evenly(mesh, bones);
     match &mesh.skinning {
         Some(skinning) => {
-            for (vertex, (four, weights)) in skinning.bones.iter().zip(&skinning.weights).enumerate() {
-                let normal = blended_normal(out.normals[vertex], mesh.normals[vertex]);
-                let mut sums =
-                    Sums { position: out.positions[vertex].into(), normal, posed: [Vec3A::ZERO; 2] };
+            let vertices = out.positions.iter_mut().zip(&mut out.normals).zip(&mesh.normals);
+            let influences = skinning.bones.iter().zip(&skinning.weights);
+            for (vertex, (((position, normal), undeformed), (four, weights))) in
+                vertices.zip(influences).enumerate()
+            {
+                let along = blended_normal(*normal, *undeformed);
+                let mut sums = Sums { position: (*position).into(), normal: along, posed: [Vec3A::ZERO; 2] };
                 sums.add(vertex, bones, four, weights)?;
                 if let (Some(four), Some(weights)) =
                     (skinning.more_bones.get(vertex), skinning.more_weights.get(vertex))
                 {
                     sums.add(vertex, bones, four, weights)?;
                 }
-                out.positions[vertex] = sums.posed[0].into();
-                let by_matrix = unit(sums.posed[1], mesh.normals[vertex]);
-                out.normals[vertex] = match is_even {
-                    true => by_matrix,
-                    false => standing(&blended(skinning, bones, vertex), normal, by_matrix),
-                };
+                *position = sums.posed[0].into();
+                let mut turned = unit(sums.posed[1], *undeformed);
+                if !is_even {
+                    turned = standing(&blended(skinning, bones, vertex), along, turned);
+                }
+                *normal = turned.into();
             }
             for (vertex, (tangent, undeformed)) in out.tangents.iter_mut().zip(&mesh.tangents).enumerate() {
                 let along = blended_normal(tangent.truncate(), undeformed.truncate());
@@ -171,8 +174,9 @@ fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), Defor
             for (vertex, undeformed) in mesh.normals.iter().enumerate() {
                 let normal = blended_normal(out.normals[vertex], *undeformed);
                 out.positions[vertex] = x.transform_point3a(out.positions[vertex].into()).into();
-                let by_matrix = unit(x.transform_vector3a(normal), *undeformed);
-                out.normals[vertex] = if is_even { by_matrix } else { standing(&matrix, normal, by_matrix) };
+                let turned = unit(x.transform_vector3a(normal), *undeformed);
+                let turned = if is_even { turned } else { standing(&matrix, normal, turned) };
+                out.normals[vertex] = turned.into();
             }
             let is_mirrored = !is_even && is_mirroring(&matrix);
             for (tangent, undeformed) in out.tangents.iter_mut().zip(&mesh.tangents) {
@@ -193,6 +197,8 @@ struct Sums {
 }
 
 impl Sums {
+    /// A bone without weight has to exist, and adds nothing: of four bones, most vertices of a face follow
+    /// one.
     fn add(
         &mut self,
         vertex: usize,
@@ -206,6 +212,9 @@ impl Sums {
                 found: bone.into(),
                 bones: bones.len(),
             })?;
+            if weight == 0.0 {
+                continue;
+            }
             self.posed[0] += weight * x.transform_point3a(self.position);
             self.posed[1] += weight * x.transform_vector3a(self.normal);
         }
@@ -214,18 +223,21 @@ impl Sums {
 }
 
 /// The unit normal that stands on what a matrix makes of the surface, or `otherwise` where it makes nothing.
-fn standing(matrix: &DMat3, normal: Vec3A, otherwise: Vec3) -> Vec3 {
+fn standing(matrix: &DMat3, normal: Vec3A, otherwise: Vec3A) -> Vec3A {
     let standing = (normal_matrix(matrix) * normal.as_dvec3()).try_normalize();
-    standing.map_or(otherwise, |normal| normal.as_vec3())
+    standing.map_or(otherwise, |normal| normal.as_vec3a())
 }
 
 fn blended_normal(blended: Vec3, undeformed: Vec3) -> Vec3A {
-    if blended.length() < MIN_NORMAL_LENGTH { undeformed.into() } else { blended.into() }
+    // A root takes long, and only decides about what is nearly that short.
+    let square = blended.length_squared();
+    let is_short = square < 2.0 * MIN_NORMAL_LENGTH * MIN_NORMAL_LENGTH && square.sqrt() < MIN_NORMAL_LENGTH;
+    if is_short { undeformed.into() } else { blended.into() }
 }
 
-fn unit(posed: Vec3A, undeformed: Vec3) -> Vec3 {
+fn unit(posed: Vec3A, undeformed: Vec3) -> Vec3A {
     let length = posed.length();
-    if length < MIN_NORMAL_LENGTH { undeformed } else { (posed / length).into() }
+    if length < MIN_NORMAL_LENGTH { undeformed.into() } else { posed / length }
 }
 
 fn count_check(expected: usize) -> impl Fn(&'static str, usize) -> Result<(), DeformError> {

@@ -45,7 +45,8 @@ const OFFSET_BYTES: usize = size_of::<Vec3>();
 const PAIR_BYTES: usize = size_of::<Vec3>() + size_of::<u32>();
 
 fn is_moved(offset: Vec3) -> bool {
-    offset.to_array().iter().any(|x| x.to_bits() != 0)
+    // Without a branch per coordinate.
+    offset.to_array().iter().fold(0, |bits, x| bits | x.to_bits()) != 0
 }
 
 /// Whether pairs take less room than one offset per vertex.
@@ -62,12 +63,19 @@ impl Offsets {
             return Self { store: Store::Dense(offsets) };
         }
         let mut vertices = Vec::with_capacity(moved);
-        let mut kept = Vec::with_capacity(moved);
-        for (vertex, &offset) in offsets.iter().enumerate().filter(|(_, offset)| is_moved(**offset)) {
-            vertices.push(vertex as u32);
-            kept.push(offset);
-        }
-        Self { store: Store::Sparse { len, vertices, offsets: kept } }
+        let mut offsets = offsets;
+        let mut vertex = 0;
+        // In place: there is never a second array of offsets.
+        offsets.retain(|offset| {
+            let kept = is_moved(*offset);
+            if kept {
+                vertices.push(vertex);
+            }
+            vertex += 1;
+            kept
+        });
+        offsets.shrink_to_fit();
+        Self { store: Store::Sparse { len, vertices, offsets } }
     }
 
     /// Offsets of some vertices of a mesh of `len` vertices, in any order; all others rest.

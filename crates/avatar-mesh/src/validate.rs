@@ -1,4 +1,5 @@
-use crate::{Mesh, Offsets};
+use crate::{Mesh, Offsets, Skinning};
+use bytemuck::NoUninit;
 use std::fmt;
 
 /// Weights whose sum is this close to 1 are taken as they are.
@@ -167,12 +168,12 @@ impl Mesh {
     }
 
     fn check_finite(&self) -> Result<(), MeshError> {
-        finite("position", self.positions.iter().map(|p| p.to_array()))?;
-        finite("uv", self.uvs.iter().map(|uv| uv.to_array()))?;
-        finite("second uv", self.uvs_1.iter().map(|uv| uv.to_array()))?;
-        finite("vertex colour", self.colors.iter().map(|color| color.to_array()))?;
-        finite("normal", self.normals.iter().map(|n| n.to_array()))?;
-        finite("tangent", self.tangents.iter().map(|t| t.to_array()))?;
+        finite("position", &self.positions)?;
+        finite("uv", &self.uvs)?;
+        finite("second uv", &self.uvs_1)?;
+        finite("vertex colour", &self.colors)?;
+        finite("normal", &self.normals)?;
+        finite("tangent", &self.tangents)?;
         for shape in &self.shapes {
             for (what, offsets) in shape.arrays() {
                 finite_offsets(&format!("{what} offset of {}", shape.name), offsets)?;
@@ -180,17 +181,16 @@ impl Mesh {
         }
         match &self.skinning {
             Some(skinning) => {
-                finite("bone weight", skinning.weights.iter().copied())?;
-                finite("further bone weight", skinning.more_weights.iter().copied())?;
-                finite("blend index", skinning.blend_index.iter().map(|b| b.to_array()))
+                finite("bone weight", &skinning.weights)?;
+                finite("further bone weight", &skinning.more_weights)?;
+                finite("blend index", &skinning.blend_index)
             }
             None => Ok(()),
         }
     }
 
     fn check_indices(&self, vertices: usize) -> Result<(), MeshError> {
-        let largest = self.triangles.iter().fold(0, |most, [a, b, c]| most.max(*a).max(*b).max(*c));
-        if (largest as usize) < vertices {
+        if u32::try_from(vertices - 1).is_ok_and(|last| all_up_to(self.triangles.as_flattened(), last)) {
             return Ok(());
         }
         for (triangle, corners) in self.triangles.iter().enumerate() {
@@ -205,6 +205,9 @@ impl Mesh {
 
     fn check_skinning(&mut self, bones: usize) -> Result<Option<MeshWarning>, MeshError> {
         let Some(skinning) = &mut self.skinning else { return Ok(None) };
+        if is_plain(skinning, bones) {
+            return Ok(None);
+        }
         let (mut renormalised, mut worst, mut worst_sum) = (0, 0, 1.0f64);
         let beyond = |found: &u16| usize::from(*found) >= bones;
         for (vertex, (indices, weights)) in skinning.bones.iter().zip(&mut skinning.weights).enumerate() {
@@ -236,7 +239,7 @@ impl Mesh {
 }
 
 fn finite_offsets(field: &str, offsets: &Offsets) -> Result<(), MeshError> {
-    match finite(field, offsets.stored().iter().map(|d| d.to_array())) {
+    match finite(field, offsets.stored()) {
         // The place among what is stored need not be the vertex.
         Err(MeshError::NotFinite { found, .. }) => {
             let vertex =
@@ -247,22 +250,49 @@ fn finite_offsets(field: &str, offsets: &Offsets) -> Result<(), MeshError> {
     }
 }
 
-/// A float is finite exactly where its exponent is not all ones. The largest exponent of an array is one
-/// vectorised pass without branches; only an array that fails is searched for the place.
-fn finite<const N: usize>(
-    field: &str,
-    values: impl Iterator<Item = [f32; N]> + Clone,
-) -> Result<(), MeshError> {
-    const EXPONENT: u32 = 0x7f80_0000;
-    let largest =
-        |most: u32, value: [f32; N]| value.iter().fold(most, |most, x| most.max(x.to_bits() & EXPONENT));
-    if values.clone().fold(0, largest) < EXPONENT {
+/// Arrays are looked at as numbers one after the other, in one vectorised pass without branches; only one
+/// that fails is searched for the place.
+fn finite<T: NoUninit>(field: &str, values: &[T]) -> Result<(), MeshError> {
+    let numbers: &[f32] = bytemuck::cast_slice(values);
+    if are_finite(numbers) {
         return Ok(());
     }
-    for (vertex, value) in values.enumerate() {
-        if let Some(&found) = value.iter().find(|x| !x.is_finite()) {
-            return Err(MeshError::NotFinite { vertex, field: field.to_owned(), found });
+    match numbers.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(at) => {
+            let vertex = at * size_of::<f32>() / size_of::<T>();
+            Err(MeshError::NotFinite { vertex, field: field.to_owned(), found: numbers[at] })
         }
     }
-    Ok(())
+}
+
+/// A float is finite exactly where its exponent is not all ones: one more than that carries into the sign.
+fn are_finite(numbers: &[f32]) -> bool {
+    const EXPONENT: u32 = 0x7f80_0000;
+    const ONE: u32 = 0x0080_0000;
+    numbers.iter().fold(0, |carried, x| carried | ((x.to_bits() & EXPONENT) + ONE)) >> 31 == 0
+}
+
+/// Whether all of these are at most `last`: for numbers below 2³¹, `last - index` then has no sign.
+fn all_up_to(indices: &[u32], last: u32) -> bool {
+    if last >> 31 != 0 {
+        return indices.iter().all(|index| *index <= last);
+    }
+    indices.iter().fold(0, |signs, index| signs | index | last.wrapping_sub(*index)) >> 31 == 0
+}
+
+/// Whether nothing is to be found or mended: four bones a vertex, all in the palette, and weights that sum
+/// to 1 as they are.
+fn is_plain(skinning: &Skinning, bones: usize) -> bool {
+    let Skinning { bones: indices, weights, more_bones, more_weights, .. } = skinning;
+    let largest = indices.as_flattened().iter().fold(0, |most, bone| (*bone).max(most));
+    // As below, to the bit.
+    let off = |w: &[f32; 4]| {
+        let sum = f64::from(w[0]) + f64::from(w[1]) + f64::from(w[2]) + f64::from(w[3]);
+        (sum - 1.0).abs()
+    };
+    more_bones.is_empty()
+        && more_weights.is_empty()
+        && usize::from(largest) < bones
+        && weights.iter().fold(true, |all, w| all & (off(w) <= WEIGHT_SUM_TOLERANCE))
 }

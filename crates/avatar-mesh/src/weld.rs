@@ -1,6 +1,8 @@
 use crate::{Mesh, Offsets, Shape, Skinning};
+use bytemuck::NoUninit;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
+use std::hash::{BuildHasher, BuildHasherDefault, Hash, Hasher, RandomState};
 
 /// A mesh without repeated vertices.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,12 +17,15 @@ pub struct Welded {
 /// welded mesh deforms and draws exactly as the original does. Of [`Skinning::blend_index`], which nothing
 /// uses, each merged vertex keeps the first. Vertices keep the order of their first appearance.
 pub fn weld(mesh: &Mesh) -> Welded {
-    let mut first_of: HashMap<Vec<u32>, u32> = HashMap::with_capacity(mesh.positions.len());
+    let alike = Alike::new(mesh);
+    let hashes = alike.hashes(mesh.positions.len());
+    let mut first_of: HashMap<Vertex<'_>, u32, BuildHasherDefault<Known>> =
+        HashMap::with_capacity_and_hasher(mesh.positions.len(), BuildHasherDefault::default());
     let mut originals = Vec::new();
     let mut welded_from_original = Vec::with_capacity(mesh.positions.len());
-    for vertex in 0..mesh.positions.len() {
+    for (vertex, hash) in hashes.into_iter().enumerate() {
         let next = originals.len() as u32;
-        let welded = *first_of.entry(bits(mesh, vertex)).or_insert(next);
+        let welded = *first_of.entry(Vertex { alike: &alike, vertex, hash }).or_insert(next);
         if welded == next {
             originals.push(vertex);
         }
@@ -58,39 +63,130 @@ fn renamed(welded_from_original: &[u32], vertex: u32) -> u32 {
 }
 
 fn pick<T: Copy>(values: &[T], originals: &[usize]) -> Vec<T> {
+    if let Some(last) = originals.last()
+        && *last < values.len()
+    {
+        // They ascend: all are there.
+        return originals.iter().map(|&original| values[original]).collect();
+    }
     originals.iter().filter_map(|&original| values.get(original).copied()).collect()
 }
 
 fn pick_offsets(offsets: &Offsets, originals: &[usize]) -> Offsets {
+    if !offsets.is_sparse() {
+        return pick(offsets.stored(), originals).into();
+    }
     originals.iter().filter_map(|&original| offsets.get(original)).collect()
 }
 
-fn bits(mesh: &Mesh, vertex: usize) -> Vec<u32> {
-    let mut bits = Vec::with_capacity(20 + 6 * mesh.shapes.len());
-    let mut push = |values: &[f32]| bits.extend(values.iter().map(|value| value.to_bits()));
-    let at = |values: &[Vec3]| values.get(vertex).copied().unwrap_or_default().to_array();
-    push(&at(&mesh.positions));
-    push(&at(&mesh.normals));
-    push(&mesh.uvs.get(vertex).copied().unwrap_or_default().to_array());
-    if let Some(uv) = mesh.uvs_1.get(vertex) {
-        push(&uv.to_array());
+/// What vertices must have in common to become one.
+struct Alike<'a> {
+    /// Of each array its bytes, and how many each vertex has.
+    columns: Vec<(&'a [u8], usize)>,
+    /// Offsets that are stored for some vertices only.
+    sparse: Vec<&'a Offsets>,
+}
+
+impl<'a> Alike<'a> {
+    fn new(mesh: &'a Mesh) -> Self {
+        fn column<T: NoUninit>(values: &[T]) -> (&[u8], usize) {
+            (bytemuck::cast_slice(values), size_of::<T>())
+        }
+        let mut columns = vec![
+            column(&mesh.positions),
+            column(&mesh.normals),
+            column(&mesh.uvs),
+            column(&mesh.uvs_1),
+            column(&mesh.colors),
+            column(&mesh.tangents),
+        ];
+        if let Some(skinning) = &mesh.skinning {
+            columns.extend([column(&skinning.bones), column(&skinning.weights)]);
+            columns.extend([column(&skinning.more_bones), column(&skinning.more_weights)]);
+        }
+        let offsets = mesh.shapes.iter().flat_map(Shape::arrays).map(|(_, offsets)| offsets);
+        let (sparse, dense): (Vec<&Offsets>, Vec<&Offsets>) = offsets.partition(|one| one.is_sparse());
+        columns.extend(dense.into_iter().map(|offsets| column(offsets.stored())));
+        Self { columns, sparse }
     }
-    if let Some(color) = mesh.colors.get(vertex) {
-        push(&color.to_array());
+
+    /// Equal for vertices that are alike, and with keys that nobody who writes a file can know.
+    fn hashes(&self, vertices: usize) -> Vec<u64> {
+        let random = RandomState::new();
+        let (start, key) = (random.hash_one(0), random.hash_one(1) | 1);
+        let mix = |hash: u64, word: u64| {
+            let product = u128::from(hash ^ word) * u128::from(key);
+            (product as u64) ^ (product >> 64) as u64 ^ hash.rotate_left(23)
+        };
+        let mut hashes = vec![start; vertices];
+        for (bytes, each) in &self.columns {
+            for (hash, bytes) in hashes.iter_mut().zip(bytes.chunks_exact(*each)) {
+                let (words, rest) = bytes.as_chunks::<8>();
+                *hash = words.iter().fold(*hash, |hash, word| mix(hash, u64::from_le_bytes(*word)));
+                if let Some(half) = rest.first_chunk::<4>() {
+                    *hash = mix(*hash, u64::from(u32::from_le_bytes(*half)));
+                }
+            }
+        }
+        for (number, offsets) in (1..).zip(&self.sparse) {
+            for (vertex, offset) in offsets.iter() {
+                if let Some(hash) = hashes.get_mut(vertex) {
+                    let bits = offset.to_array().map(f32::to_bits);
+                    *hash = bits.into_iter().fold(mix(*hash, number), |hash, x| mix(hash, x.into()));
+                }
+            }
+        }
+        hashes
     }
-    if let Some(tangent) = mesh.tangents.get(vertex) {
-        push(&tangent.to_array());
+
+    fn are(&self, a: usize, b: usize) -> bool {
+        let same_bytes = |(bytes, each): &(&[u8], usize)| {
+            let of = |vertex: usize| bytes.get(vertex * each..(vertex + 1) * each);
+            of(a) == of(b)
+        };
+        let bits = |offsets: &Offsets, vertex| offsets.get(vertex).map(|d| d.to_array().map(f32::to_bits));
+        self.columns.iter().all(same_bytes)
+            && self.sparse.iter().all(|offsets| bits(offsets, a) == bits(offsets, b))
     }
-    for (_, offsets) in mesh.shapes.iter().flat_map(Shape::arrays) {
-        push(&offsets.get(vertex).unwrap_or_default().to_array());
+}
+
+/// A key of vertices that are alike.
+struct Vertex<'a> {
+    alike: &'a Alike<'a>,
+    vertex: usize,
+    hash: u64,
+}
+
+impl PartialEq for Vertex<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.hash == other.hash && self.alike.are(self.vertex, other.vertex)
     }
-    if let Some(skinning) = &mesh.skinning {
-        push(&skinning.bones.get(vertex).copied().unwrap_or_default().map(f32::from));
-        push(&skinning.weights.get(vertex).copied().unwrap_or_default());
-        push(&skinning.more_bones.get(vertex).copied().unwrap_or_default().map(f32::from));
-        push(&skinning.more_weights.get(vertex).copied().unwrap_or_default());
+}
+
+impl Eq for Vertex<'_> {}
+
+impl Hash for Vertex<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        state.write_u64(self.hash);
     }
-    bits
+}
+
+/// Takes the hash that a [`Vertex`] knows.
+#[derive(Default)]
+struct Known(u64);
+
+impl Hasher for Known {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write_u64(&mut self, hash: u64) {
+        self.0 = hash;
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        self.0 = bytes.iter().fold(self.0, |hash, byte| hash.rotate_left(8) ^ u64::from(*byte));
+    }
 }
 
 /// Gives points that are within `tolerance` of each other (along chains, too) one number, counted from 0 in

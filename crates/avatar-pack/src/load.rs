@@ -138,8 +138,7 @@ fn load_part(source: &impl Source, spec: PartSpec, warnings: &mut Vec<Warning>) 
     for warning in mesh.validate(FACE_BONES.len()).map_err(blame)? {
         warnings.push(Warning::Mesh { file: source.locate(&vertex_file), warning });
     }
-    let winding = Winding::of(&mesh);
-    if winding.is_inside_out() {
+    if let Some(winding) = Winding::of_inside_out(&mesh) {
         warnings.push(Warning::InsideOut {
             part: spec.name.to_owned(),
             contradicting: winding.contradicting,

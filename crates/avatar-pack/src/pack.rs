@@ -289,10 +289,10 @@ fn check(contents: &PackContents) -> Result<(), ContentsError> {
     }
     for part in parts {
         let place = || format!("part {:?}", part.name);
-        let skinned = part.mesh.skinning.iter().flat_map(|skinning| {
-            skinning.bones.as_flattened().iter().chain(skinning.more_bones.as_flattened())
-        });
-        if let Some(most) = skinned.map(|bone| usize::from(*bone)).chain(part.bone).max() {
+        let largest = |bones: &[[u16; 4]]| bones.as_flattened().iter().copied().max();
+        let skinning = part.mesh.skinning.iter();
+        let skinned = skinning.flat_map(|skinning| [largest(&skinning.bones), largest(&skinning.more_bones)]);
+        if let Some(most) = skinned.flatten().map(usize::from).chain(part.bone).max() {
             in_range(most, palette.len(), "bones", place)?;
         }
         let end = part.shapes().end;

@@ -6,6 +6,7 @@ mod blend;
 mod coherence;
 mod deform;
 mod deform_bounds;
+mod definitions;
 mod drivers;
 mod golden_makehuman;
 mod influences;

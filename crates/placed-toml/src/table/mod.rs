@@ -75,8 +75,11 @@ impl<'t, 'a> Table<'t, 'a> {
     /// # Errors
     /// The key is missing. The error has the place of the table and says what was `expected`.
     pub fn require(&mut self, key: &str, expected: &str) -> Result<Entry<'t, 'a>, TomlError> {
-        let missing = self.error_here(key, expected, "none");
-        self.take(key).ok_or(missing)
+        // The error finds its line by reading the text from the start: only when there is one.
+        match self.take(key) {
+            Some(entry) => Ok(entry),
+            None => Err(self.error_here(key, expected, "none")),
+        }
     }
 
     /// An error about a key that this table lacks, at the table's place.

@@ -3,6 +3,7 @@
 use crate::{Control, ControlTable, Coupling, Drive, JointMotion, Pace};
 use glam::Vec3;
 use placed_toml::{Document, Entry, Table, TomlError, quote};
+use std::sync::LazyLock;
 
 const AXIS: &str =
     r#"an axis "+x", "-x", "+y", "-y", "+z", "-z" or three numbers [x, y, z] that are not all 0"#;
@@ -11,11 +12,15 @@ const SECONDS: &str = "[shortest, longest]: two numbers of seconds, 0.001 to 360
 /// The controls of the nine-joint face as a text, to be copied beside a face and changed.
 pub const DEFAULT_CONTROLS_TOML: &str = include_str!("../../assets/controls.toml");
 
+/// Read once, when first needed. The text is part of the crate and a test reads it, so the error cannot
+/// happen.
+static DEFAULT_FACE: LazyLock<ControlTable> =
+    LazyLock::new(|| read(DEFAULT_CONTROLS_TOML).unwrap_or_default());
+
 impl ControlTable {
     /// The fifteen controls of the nine-joint face: [`DEFAULT_CONTROLS_TOML`].
     pub fn default_face() -> Self {
-        // The text is part of the crate and a test reads it, so the error cannot happen.
-        Self::from_toml(DEFAULT_CONTROLS_TOML).unwrap_or_default()
+        DEFAULT_FACE.clone()
     }
 
     /// Reads a `controls.toml`; its format is described at the top of [`DEFAULT_CONTROLS_TOML`].
@@ -70,17 +75,14 @@ fn control(mut table: Table<'_, '_>, before: &[Control]) -> Result<Control, Toml
         None if shape && min <= 1.0 => 1.0,
         None => return Err(table.error_here("max", &max_entry_error(&min.to_string()), "none")),
     };
-    let default_expected = format!("a number from {min} to {max}");
+    let default_expected = || format!("a number from {min} to {max}");
     let default = match table.take("default") {
         Some(entry) => {
-            let default = entry.number(&default_expected)?;
-            if !(min..=max).contains(&default) {
-                return Err(entry.error_found(default_expected));
-            }
-            default
+            let default = entry.number("a number").ok().filter(|default| (min..=max).contains(default));
+            default.ok_or_else(|| entry.error_found(default_expected()))?
         }
         None if (min..=max).contains(&0.0) => 0.0,
-        None => return Err(table.error_here("default", &default_expected, "none (which means 0)")),
+        None => return Err(table.error_here("default", &default_expected(), "none (which means 0)")),
     };
     let pace = match table.take("seconds") {
         Some(entry) => pace(&entry)?,

@@ -76,7 +76,6 @@ pub(crate) fn transition(entry: &Entry<'_, '_>) -> Result<Easing, TomlError> {
 }
 
 pub(crate) fn value(entry: &Entry<'_, '_>, control: &Control) -> Result<f32, TomlError> {
-    let expected = format!("a number from {} to {}", control.min, control.max);
-    let value = entry.number(&expected)?;
-    if (control.min..=control.max).contains(&value) { Ok(value) } else { Err(entry.error_found(expected)) }
+    let value = entry.number("a number").ok().filter(|value| (control.min..=control.max).contains(value));
+    value.ok_or_else(|| entry.error_found(format!("a number from {} to {}", control.min, control.max)))
 }

@@ -3,11 +3,21 @@
 use super::entries::{by_control, key, transition, value};
 use crate::{Control, ControlTable, Pose, PoseSet, Timing};
 use placed_toml::{Document, Entry, Table, TomlError, quote};
+use std::sync::LazyLock;
 
 const DURATION: &str = "a number of seconds from 0.001 to 3600";
 
 /// The poses of the nine-joint face as a text, to be copied beside a face and changed.
 pub const DEFAULT_POSES_TOML: &str = include_str!("../../assets/poses.toml");
+
+/// The controls and poses of the nine-joint face, read once, when first needed: these texts take longer to
+/// read than the meshes of a face. The text is part of the crate and a test reads it, so the error cannot
+/// happen.
+static DEFAULT_FACE: LazyLock<(ControlTable, PoseSet)> = LazyLock::new(|| {
+    let controls = ControlTable::default_face();
+    let poses = read(DEFAULT_POSES_TOML, &controls).unwrap_or_default();
+    (controls, poses)
+});
 
 impl PoseSet {
     /// Reads a `poses.toml`; its format is described at the top of [`DEFAULT_POSES_TOML`].
@@ -22,20 +32,19 @@ impl PoseSet {
     /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without
     /// those that it lacks, and within its ranges.
     pub fn default_face(controls: &ControlTable) -> Self {
-        let face = ControlTable::default_face();
-        // The text is part of the crate and a test reads it, so the error cannot happen.
-        let mut set = Self::from_toml(DEFAULT_POSES_TOML, &face).unwrap_or_default();
+        let (face, poses) = &*DEFAULT_FACE;
+        let mut set = poses.clone();
+        let names = face.controls().iter().map(|control| controls.index(&control.name));
+        let of_face: Vec<Option<usize>> = names.collect();
         for pose in &mut set.poses {
             let values = pose.values.iter().filter_map(|(index, value)| {
-                let here = controls.index(&face.controls()[*index].name)?;
+                let here = of_face[*index]?;
                 let control = &controls.controls()[here];
                 Some((here, value.max(control.min).min(control.max)))
             });
             pose.values = values.collect();
             let timings = pose.timings.iter();
-            let timings = timings.filter_map(|(index, timing)| {
-                Some((controls.index(&face.controls()[*index].name)?, *timing))
-            });
+            let timings = timings.filter_map(|(index, timing)| Some((of_face[*index]?, *timing)));
             pose.timings = timings.collect();
         }
         set
