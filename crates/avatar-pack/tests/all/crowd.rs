@@ -1,5 +1,11 @@
 //! Many faces of one pack against faces one by one.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "helpers of tests fail as tests do, and read files"
+)]
+
 use avatar_pack::{FaceCrowd, FaceError, FaceState, MemorySource, Pack};
 use glam::Affine3A;
 use pose_anim::{Player, PlayerCrowd, Pose};

@@ -1,5 +1,7 @@
 //! A crowd of players against players one by one.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 use lanes::{LANES, Lanes};
 use pose_anim::{
     ApplyError, Clip, ControlTable, Easing, JumpError, Key, Player, PlayerCrowd, Pose, Timing, Track,
@@ -119,7 +121,15 @@ fn run(events: &[(usize, Event, f64)], overshoot: bool) -> Result<(), TestCaseEr
         for (face, player) in players.iter().enumerate() {
             let mut values = vec![0.0; table.len()];
             crowd.copy_values(face, &mut values).unwrap();
-            prop_assert_eq!(&values, player.values(), "face {}", face);
+            for (crowd, single) in values.iter().zip(player.values()) {
+                // Mostly the same bits. The time before a delay is added up otherwise, which shows in the
+                // last bit of 64, or of 32.
+                let slack = 1e-11 + f64::from(f32::EPSILON * single.abs());
+                prop_assert!(
+                    (f64::from(*crowd) - f64::from(*single)).abs() <= slack,
+                    "{crowd} {single}, {face}"
+                );
+            }
             prop_assert_eq!(crowd.is_at_rest(face), player.is_at_rest());
             let secs = (crowd.secs_to_rest(face), player.secs_to_rest());
             prop_assert!(secs.0 == secs.1 || (secs.0 - secs.1).abs() < 1e-9, "{:?}", secs);
@@ -138,7 +148,7 @@ fn run(events: &[(usize, Event, f64)], overshoot: bool) -> Result<(), TestCaseEr
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(100))]
 
-    /// Thousands of random interruptions: every value is that of a player to the bit.
+    /// Thousands of random interruptions.
     #[test]
     fn every_face_moves_as_a_player_does(
         events in prop::collection::vec((0..FACES, event(), dt_secs()), 1..80), overshoot: bool,

@@ -1,5 +1,7 @@
 //! A crowd of rigs against rigs one by one.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 use glam::{Affine3A, DAffine3, Mat4, Quat, Vec3};
 use lanes::LANES;
 use proptest::prelude::*;
