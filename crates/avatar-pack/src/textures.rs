@@ -3,8 +3,10 @@ use avatar_exchange::memory;
 use avatar_look::Wraps;
 use avatar_mesh::PartKind;
 use image::error::{LimitError, LimitErrorKind};
-use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
+use std::borrow::Cow;
 use std::io::Cursor;
+use std::sync::OnceLock;
 
 /// A texture of the pack. The names are those of the original's files, without extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +41,18 @@ impl Texture {
         Self::Eye(1),
         Self::Eye(2),
         Self::Eye(3),
+        Self::Teeth,
+        Self::HairDensity,
+    ];
+
+    /// Those that a face is drawn with, and that its hair is planted by: eyeballs have the first iris.
+    pub const DRAWN: [Self; 8] = [
+        Self::SkinColor,
+        Self::SkinOcclusion,
+        Self::SkinGloss,
+        Self::SkinNormal,
+        Self::SkinThickness,
+        Self::Eye(0),
         Self::Teeth,
         Self::HairDensity,
     ];
@@ -120,10 +134,49 @@ const PER_ENCODED_BYTE: u64 = memory::PER_BYTE;
 impl Textures {
     /// Loads all textures that the source has. Nothing fails here: what does not decode is reported.
     pub fn load(source: &impl Source) -> Self {
-        let mut textures = Self::default();
+        Self::load_by(source, &Texture::ALL, |count, decode| (0..count).for_each(decode))
+    }
+
+    /// As [`Textures::load`], these textures alone, and decoded by whom the caller chooses: this library has
+    /// no threads. `run` is given a number of pictures and a function that decodes one of them, by its place,
+    /// on any thread and in any order; what it leaves out is decoded afterwards.
+    ///
+    /// Pictures that are decoded at the same time take what each of them needs for it at the same time.
+    pub fn load_by(
+        source: &impl Source,
+        wanted: &[Texture],
+        run: impl FnOnce(usize, &(dyn Fn(usize) + Sync)),
+    ) -> Self {
         let mut room = FREE_BYTES;
-        for texture in Texture::ALL {
-            textures.load_one(source, texture, &mut room);
+        let mut textures = Self::default();
+        let mut found = Vec::new();
+        for texture in wanted {
+            match find(source, *texture, &mut room) {
+                Ok(None) => {}
+                // Warnings come in the order of the textures, so a place is kept for them.
+                Ok(Some(picture)) => found.push((textures.warnings.len(), picture)),
+                Err(warning) => textures.warnings.push(warning),
+            }
+        }
+        let decoded: Vec<OnceLock<Result<RgbaImage, ImageError>>> =
+            found.iter().map(|_| OnceLock::new()).collect();
+        let decode = |place: usize| {
+            if let (Some((_, picture)), Some(slot)) = (found.get(place), decoded.get(place)) {
+                slot.get_or_init(|| picture.decode());
+            }
+        };
+        run(found.len(), &decode);
+        (0..found.len()).for_each(decode);
+        let mut late = 0;
+        for ((place, picture), decoded) in found.into_iter().zip(decoded) {
+            match decoded.into_inner() {
+                Some(Ok(image)) => textures.images.push((picture.texture, image)),
+                Some(Err(error)) => {
+                    textures.warnings.insert(place + late, undecoded(source, &picture.name, &error));
+                    late += 1;
+                }
+                None => {}
+            }
         }
         textures
     }
@@ -166,48 +219,68 @@ impl Textures {
             PartKind::Cornea => PartImages::default(),
         }
     }
+}
 
-    /// `room` is what is left for pictures.
-    fn load_one(&mut self, source: &impl Source, texture: Texture, room: &mut u64) {
-        let names = ["png", "jpg", "jpeg"].map(|extension| format!("{}.{extension}", texture.stem()));
-        for name in &names {
-            let problem = match source.read(name) {
-                Ok(None) => continue,
-                Ok(Some(bytes)) => match decode_within(name, &bytes, room) {
-                    Ok(image) => {
-                        self.images.push((texture, image));
-                        return;
-                    }
-                    Err(error) => format!("expected a PNG or JPEG picture, found: {error}"),
-                },
-                Err(error) => error.to_string(),
-            };
-            self.warnings.push(Warning::Texture { file: source.locate(name), problem });
-            return;
-        }
-        if texture.is_expected() {
-            let problem = "expected a texture (PNG or JPEG), found no file".to_owned();
-            self.warnings.push(Warning::Texture { file: source.locate(&names[0]), problem });
-        }
+/// A picture of a source that is not decoded yet.
+struct Encoded<'a> {
+    texture: Texture,
+    name: String,
+    bytes: Cow<'a, [u8]>,
+}
+
+impl Encoded<'_> {
+    fn decode(&self) -> Result<RgbaImage, ImageError> {
+        rgba(decoder(&self.name, &self.bytes)?)
     }
+}
+
+/// The file of a texture, if there is one; `room` is what is left for pictures.
+fn find<'a>(
+    source: &'a impl Source,
+    texture: Texture,
+    room: &mut u64,
+) -> Result<Option<Encoded<'a>>, Warning> {
+    let names = ["png", "jpg", "jpeg"].map(|extension| format!("{}.{extension}", texture.stem()));
+    for name in &names {
+        let bytes = match source.read(name) {
+            Ok(None) => continue,
+            Ok(Some(bytes)) => bytes,
+            Err(error) => {
+                return Err(Warning::Texture { file: source.locate(name), problem: error.to_string() });
+            }
+        };
+        take_room(name, &bytes, room).map_err(|error| undecoded(source, name, &error))?;
+        return Ok(Some(Encoded { texture, name: name.clone(), bytes }));
+    }
+    match texture.is_expected() {
+        true => {
+            let problem = "expected a texture (PNG or JPEG), found no file".to_owned();
+            Err(Warning::Texture { file: source.locate(&names[0]), problem })
+        }
+        false => Ok(None),
+    }
+}
+
+fn undecoded(source: &impl Source, name: &str, error: &ImageError) -> Warning {
+    let problem = format!("expected a PNG or JPEG picture, found: {error}");
+    Warning::Texture { file: source.locate(name), problem }
 }
 
 /// A picture by itself, whatever others there are.
 pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<RgbaImage, ImageError> {
-    decode_within(name, bytes, &mut { FREE_BYTES })
+    take_room(name, bytes, &mut { FREE_BYTES })?;
+    rgba(decoder(name, bytes)?)
 }
 
 /// `room` is what is left for pictures; this one adds what its own bytes allow, and takes what it keeps.
-fn decode_within(name: &str, bytes: &[u8], room: &mut u64) -> Result<RgbaImage, ImageError> {
+fn take_room(name: &str, bytes: &[u8], room: &mut u64) -> Result<(), ImageError> {
     *room = room.saturating_add(PER_ENCODED_BYTE.saturating_mul(bytes.len() as u64));
     let decoder = decoder(name, bytes)?;
-    let kept = kept_bytes(&decoder);
     if bytes_while_decoding(&decoder) > *room {
         return Err(ImageError::Limits(LimitError::from_kind(LimitErrorKind::InsufficientMemory)));
     }
-    let picture = rgba(decoder)?;
-    *room -= kept;
-    Ok(picture)
+    *room -= kept_bytes(&decoder);
+    Ok(())
 }
 
 /// What the decoded picture takes.
@@ -239,6 +312,20 @@ pub(crate) fn decoder<'a>(name: &str, bytes: &'a [u8]) -> Result<impl ImageDecod
     Ok(decoder)
 }
 
+/// The picture with four bytes a pixel.
 pub(crate) fn rgba(decoder: impl ImageDecoder) -> Result<RgbaImage, ImageError> {
-    Ok(DynamicImage::from_decoder(decoder)?.into_rgba8())
+    let color = decoder.color_type();
+    if !matches!(color, ColorType::L8 | ColorType::Rgb8) {
+        return Ok(DynamicImage::from_decoder(decoder)?.into_rgba8());
+    }
+    // The usual kinds of texture: `into_rgba8` takes as long for them as decoding does.
+    let (width, height) = decoder.dimensions();
+    let too_large = || ImageError::Limits(LimitError::from_kind(LimitErrorKind::InsufficientMemory));
+    let mut samples = vec![0; usize::try_from(decoder.total_bytes()).map_err(|_| too_large())?];
+    decoder.read_image(&mut samples)?;
+    let pixels: Vec<[u8; 4]> = match color {
+        ColorType::L8 => samples.iter().map(|v| [*v, *v, *v, 255]).collect(),
+        _ => samples.as_chunks::<3>().0.iter().map(|[r, g, b]| [*r, *g, *b, 255]).collect(),
+    };
+    RgbaImage::from_raw(width, height, pixels.into_flattened()).ok_or_else(too_large)
 }

@@ -2,10 +2,11 @@ use crate::config;
 use crate::reading::{self, MAX_FILE_BYTES, Unread, not_a_file};
 use crate::standard;
 use crate::store::{self, Store};
+use crate::threads;
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::vrm::VrmModel;
 use avatar_exchange::{Format, Scene, TextFile};
-use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Textures, Warning, load_poses};
+use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Texture, Textures, Warning, load_poses};
 use avatar_stage::DefaultFace;
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use std::borrow::Cow;
@@ -96,9 +97,9 @@ impl Files {
         Ok(pack)
     }
 
-    /// Loads the textures, and prints warnings.
-    pub(crate) fn load_textures(&self) -> Textures {
-        let textures = self.read_textures();
+    /// Loads these textures of a folder, all of a file of an interchange format, and prints warnings.
+    pub(crate) fn load_textures(&self, wanted: &[Texture]) -> Textures {
+        let textures = self.read_textures(wanted);
         textures.warnings.iter().for_each(standard::warn);
         textures
     }
@@ -150,10 +151,10 @@ impl Files {
     }
 
     /// The pictures with their warnings, which are not told here.
-    pub(crate) fn read_textures(&self) -> Textures {
+    pub(crate) fn read_textures(&self, wanted: &[Texture]) -> Textures {
         match self {
             Self::File(.., import) => import.textures.clone(),
-            _ => Textures::load(self),
+            _ => Textures::load_by(self, wanted, threads::all),
         }
     }
 

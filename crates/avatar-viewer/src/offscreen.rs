@@ -1,16 +1,18 @@
 use crate::adapter;
 use crate::cli::Size;
 use crate::face_args::FaceChoice;
+use crate::files::Files;
 use crate::look_args::LookArgs;
 use anyhow::{Context, Result, bail};
 use avatar_groom::SEGMENTS;
 use avatar_mesh::Deformed;
-use avatar_pack::{FaceState, Pack, Textures};
-use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking};
+use avatar_pack::{FaceState, Pack, Texture, Textures};
+use avatar_render::headless::{Canvas, Gpu, GpuOptions, RenderImageError, open_blocking};
 use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
 use avatar_stage::{View, upload_with_hair};
 use glam::Vec3;
 use image::RgbaImage;
+use std::thread;
 
 /// What the device complained about outside of any call, such as running out of memory.
 fn check(gpu: &Gpu) -> Result<()> {
@@ -35,6 +37,42 @@ impl Offscreen {
     /// Opens the best adapter and uploads the avatar.
     pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let gpu = open_blocking(GpuOptions::default()).map_err(adapter::explained)?;
+        Self::upload(gpu, pack, textures, samples, look)
+    }
+
+    /// The same with room for pictures of this size, and with those textures of the avatar that will be seen:
+    /// they are read while the adapter is opened and what draws is compiled.
+    pub(crate) fn of_files(
+        files: &Files,
+        pack: &Pack,
+        size: Size,
+        samples: u32,
+        look: LookArgs,
+    ) -> Result<Self> {
+        let is_bald = look.hair.choose(pack.hair()).is_none();
+        let wanted: Vec<_> = (Texture::DRAWN.into_iter())
+            .filter(|texture| !(is_bald && *texture == Texture::HairDensity))
+            .collect();
+        let open = || {
+            let gpu = open_blocking(GpuOptions::default()).map_err(adapter::explained)?;
+            let canvas = Canvas::new(&gpu, size.width, size.height, samples, look.shading(&gpu.info))?;
+            match gpu.errors.take() {
+                None => anyhow::Ok((gpu, canvas)),
+                Some(reason) => Err(RenderImageError::Device { reason }.into()),
+            }
+        };
+        let (textures, opened) = thread::scope(|scope| {
+            let reading = thread::Builder::new().spawn_scoped(scope, || files.load_textures(&wanted));
+            let opened = open();
+            let read = reading.ok().and_then(|reading| reading.join().ok());
+            // A system that gives no more threads has this one.
+            (read.unwrap_or_else(|| files.load_textures(&wanted)), opened)
+        });
+        let (gpu, canvas) = opened?;
+        Ok(Self { canvas: Some((size, canvas)), ..Self::upload(gpu, pack, &textures, samples, look)? })
+    }
+
+    fn upload(gpu: Gpu, pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let hair = look.hair.choose(pack.hair());
         let model = upload_with_hair(&gpu.device, &gpu.queue, pack, textures, hair.as_ref())?;
         let mut avatar = AvatarState::new(&gpu.device, &model);

@@ -109,6 +109,60 @@ fn textures_are_found_by_any_of_their_names_and_missed_once() {
     assert_eq!(about, ["SkinTex_AO.jpeg", "SkinTex_Gloss.png"]);
 }
 
+/// Values of all samples, and those that `image` makes of them.
+#[test]
+fn pictures_of_all_kinds_get_four_bytes_a_pixel() {
+    use image::DynamicImage as D;
+    let color = image::RgbaImage::from_fn(16, 16, |x, y| {
+        let at = (16 * y + x) as u8;
+        image::Rgba([at, at.wrapping_mul(7), 255 - at, at.wrapping_mul(31)])
+    });
+    let color = D::ImageRgba8(color);
+    for picture in [
+        D::ImageLuma8(color.to_luma8()),
+        D::ImageLumaA8(color.to_luma_alpha8()),
+        D::ImageRgb8(color.to_rgb8()),
+        D::ImageRgb16(color.to_rgb16()),
+        color.clone(),
+    ] {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a PNG");
+        let mut source = MemorySource::default();
+        source.files.insert("SkinTex_Decal.png".into(), bytes.into_inner());
+        let textures = Textures::load(&source);
+        assert_eq!(textures.get(Texture::SkinColor), Some(&picture.to_rgba8()), "{:?}", picture.color());
+    }
+}
+
+#[test]
+fn textures_may_be_decoded_in_any_order_by_anyone() {
+    let mut source = MemorySource::default();
+    source.files.insert("SkinTex_Decal.png".into(), png(3, 2));
+    source.files.insert("SkinTex_AO.png".into(), b"\x89PNG\r\n\x1a\nnothing".to_vec());
+    let mut cut = png(64, 64);
+    cut.truncate(60);
+    source.files.insert("SkinTex_Normal.png".into(), cut);
+    source.files.insert("EyeTex_Decal00.png".into(), png(4, 4));
+    source.files.insert("EyeTex_Decal01.png".into(), png(5, 5));
+    let all = Textures::load(&source);
+    let told = |textures: &Textures| textures.warnings.iter().map(Warning::to_string).collect::<Vec<_>>();
+    for (file, told) in ["SkinTex_AO", "SkinTex_Gloss", "SkinTex_Normal"].into_iter().zip(told(&all)) {
+        assert!(told.contains(file), "expected {file} to be told of, found {told}");
+    }
+    let backward = Textures::load_by(&source, &Texture::ALL, |count, decode| {
+        std::thread::scope(|scope| {
+            (0..count).rev().for_each(|place| drop(scope.spawn(move || decode(place))));
+        });
+    });
+    let none = Textures::load_by(&source, &Texture::ALL, |_, _| {});
+    for other in [&backward, &none] {
+        assert_eq!(told(other), told(&all));
+        assert!(Texture::ALL.iter().all(|texture| other.get(*texture) == all.get(*texture)));
+    }
+    let drawn = Textures::load_by(&source, &Texture::DRAWN, |_, _| {});
+    assert!(drawn.get(Texture::Eye(0)).is_some() && drawn.get(Texture::Eye(1)).is_none());
+}
+
 #[test]
 fn pictures_that_claim_to_be_huge_are_refused_before_they_are_decoded() {
     // The header says 2³¹ − 1 pixels on a side.

@@ -13,7 +13,7 @@ use crate::view::config::RendererConfig;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::resources::Resources;
 use crate::view::shadows::GpuShadowView;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 /// Why there is no renderer for a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -51,7 +51,9 @@ pub struct Renderer {
     /// Of surfaces of interchange files.
     pub(crate) standard: StandardPipelines,
     pub(crate) grower: Grower,
-    pub(crate) hair: HairPipelines,
+    device: wgpu::Device,
+    /// Made for the first picture with hair.
+    hair: OnceLock<HairPipelines>,
     pub(crate) hair_views: HairViews,
     pub(crate) shadow_views: Ring<GpuShadowView>,
     pub(crate) shadow_group: wgpu::BindGroup,
@@ -60,7 +62,8 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Builds the pipelines, tables and shadow maps.
+    /// Builds the tables and shadow maps, and the pipelines of faces. Those of hair and of surfaces of
+    /// interchange files are built for the first picture with some.
     ///
     /// # Errors
     /// A number of samples or a format that not every device draws.
@@ -83,7 +86,8 @@ impl Renderer {
             config,
             deformer: Deformer::new(device),
             grower: Grower::new(device),
-            hair: HairPipelines::new(device, &resources.layout, config),
+            device: device.clone(),
+            hair: OnceLock::new(),
             hair_views: HairViews::new(device),
             passes: PassPipelines::new(device, &layouts, config),
             picture: (draw_order(config.shading).into_iter())
@@ -101,6 +105,11 @@ impl Renderer {
     /// What it was built for.
     pub fn config(&self) -> RendererConfig {
         self.config
+    }
+
+    /// What draws strands.
+    pub(crate) fn hair(&self) -> &HairPipelines {
+        self.hair.get_or_init(|| HairPipelines::new(&self.device, &self.resources.layout, self.config))
     }
 
     /// Tells renderers apart.
@@ -122,5 +131,45 @@ fn check_config(device: &wgpu::Device, config: RendererConfig) -> Result<(), Ren
     match drawable && features.flags.contains(needed) && !config.color_format.is_depth_stencil_format() {
         true => Ok(()),
         false => Err(RendererError::Format { found: config.color_format, samples: config.samples }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::targets::Targets;
+    use crate::gpu::device::gpu_for_tests;
+    use crate::view::camera::Camera;
+    use crate::view::scene::Scene;
+    use crate::view::shading::{Shading, Terms};
+    use avatar_look::Light;
+
+    #[test]
+    fn what_hair_needs_is_not_made_without_hair() {
+        let Some(gpu) = gpu_for_tests() else { return };
+        let (color_format, samples) = (wgpu::TextureFormat::Rgba8UnormSrgb, 4);
+        let config = RendererConfig { color_format, samples, shading: Shading::Natural(Terms::LOW) };
+        let renderer = Renderer::new(&gpu.device, &gpu.queue, config).expect("a renderer");
+        let targets = Targets::new(&gpu.device, &renderer, 8, 8).expect("targets");
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width: 8, height: 8, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: color_format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&Default::default());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let model = crate::AvatarModel::new(&gpu.device, &gpu.queue, &[], 1).expect("no parts");
+        let avatar = crate::AvatarState::new(&gpu.device, &model);
+        let avatars = [(&model, &avatar)];
+        let camera = Camera::orbit(glam::Vec3::ZERO, 0.0, 0.0, 1.0, 0.5, 1.0);
+        let scene = Scene { camera, background: [0.0; 4], light: Light::default() };
+        let drawn = renderer.draw(&mut encoder, &view, &targets, &gpu.queue, &scene, &avatars);
+        assert_eq!(drawn, Ok(()));
+        assert!(renderer.hair.get().is_none() && !renderer.grower.is_built());
     }
 }

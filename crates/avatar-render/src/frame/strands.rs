@@ -77,7 +77,7 @@ impl<'a> Recording<'a> {
 
     /// Draws the map of hair that the key lamp sees.
     pub(crate) fn hair_shadow(&self, encoder: &mut wgpu::CommandEncoder) {
-        let Some(pipeline) = &self.renderer.hair.shadow else { return };
+        let Some(pipeline) = &self.renderer.hair().shadow else { return };
         let map = &self.renderer.resources.hair_map;
         let shadows = self.renderer.config().shading.terms().shadows;
         let mut pass = self.begin(encoder, Pass::HairShadow, Some(map), None);
@@ -89,7 +89,7 @@ impl<'a> Recording<'a> {
     /// Hair writes depth, so that corneas lie rightly before or behind it.
     pub(crate) fn strands(&self, encoder: &mut wgpu::CommandEncoder) {
         let drawn = self.choose_strands(f32::INFINITY);
-        match &self.renderer.hair.strands {
+        match &self.renderer.hair().strands {
             Strands::Masked(pipeline) => {
                 let times = self.timer.and_then(|timer| timer.render_pass(Pass::Hair, Span::Whole));
                 let mut pass = self.begin_picture(encoder, Pass::Hair, PictureStep::Between, times);

@@ -31,9 +31,17 @@ pub(crate) fn unorm8(value: f32) -> u8 {
 /// `unorm8(srgb_from_linear(linear))` from a table: pictures have millions of values. 2¹⁶ steps are finer
 /// than the steepest 8-bit step by a factor of 20.
 pub(crate) fn srgb8_from_linear(linear: f32) -> u8 {
+    srgb8_in(srgb8_table(), linear)
+}
+
+/// The table of [`srgb8_from_linear`], for loops that look it up once.
+pub(crate) fn srgb8_table() -> &'static [u8] {
     static TABLE: OnceLock<Vec<u8>> = OnceLock::new();
-    let table =
-        TABLE.get_or_init(|| (0..=65535).map(|i| unorm8(srgb_from_linear(i as f32 / 65535.0))).collect());
+    TABLE.get_or_init(|| (0..=65535).map(|i| unorm8(srgb_from_linear(i as f32 / 65535.0))).collect())
+}
+
+/// [`srgb8_from_linear`] with its table.
+pub(crate) fn srgb8_in(table: &[u8], linear: f32) -> u8 {
     table.get((linear.clamp(0.0, 1.0) * 65535.0 + 0.5) as usize).copied().unwrap_or(255)
 }
 

@@ -27,7 +27,8 @@ impl TextureUse {
     fn encoding(self) -> Encoding {
         match self {
             Self::Color => Encoding::Srgb,
-            Self::Value | Self::Normal => Encoding::Linear,
+            Self::Value => Encoding::Red,
+            Self::Normal => Encoding::Linear,
         }
     }
 }

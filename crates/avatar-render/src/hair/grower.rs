@@ -7,24 +7,32 @@ use crate::hair::programs::{GROW_PASS, swinging};
 use crate::hair::state::HairState;
 use crate::hair::swing::swing_pipeline;
 use crate::hair::uniforms::GROW_WORKGROUP_SIZE;
+use std::sync::OnceLock;
 
 /// The passes that grow hair in every frame. [`Grower::run`] reads their results back.
 #[derive(Debug)]
 pub struct Grower {
+    device: wgpu::Device,
+    /// Made for the first hair that grows: most of the time until a bald face is drawn is compilation.
+    built: OnceLock<Pipelines>,
+}
+
+#[derive(Debug)]
+struct Pipelines {
     still: wgpu::ComputePipeline,
     swinging: wgpu::ComputePipeline,
     swing: wgpu::ComputePipeline,
 }
 
 impl Grower {
-    /// Builds the pipeline.
+    /// The pipelines are built when the first hair grows.
     pub fn new(device: &wgpu::Device) -> Self {
-        let [hair, skin] = grow_layouts(device);
-        let pipeline = |is_swinging| {
-            let groups = [&hair, &avatar_layout(device), &skin];
-            compute_pipeline(device, &GROW_PASS, &groups, &[swinging(is_swinging)])
-        };
-        Self { still: pipeline(false), swinging: pipeline(true), swing: swing_pipeline(device) }
+        Self { device: device.clone(), built: OnceLock::new() }
+    }
+
+    #[cfg(test)]
+    pub(crate) fn is_built(&self) -> bool {
+        self.built.get().is_some()
     }
 
     /// Grows the given numbers of strands on the deformed skins of avatars.
@@ -34,6 +42,10 @@ impl Grower {
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
         growing: impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone,
     ) {
+        if growing.clone().next().is_none() {
+            return;
+        }
+        let pipelines = self.built.get_or_init(|| Pipelines::new(&self.device));
         // Growth reads textures: what earlier passes wrote to buffers is copied in between.
         growing.clone().for_each(|(_, hair, _)| hair.take_skin(encoder));
         let (start, end) = match timestamps {
@@ -45,17 +57,28 @@ impl Grower {
         };
         let mut pass = compute_pass(encoder, "grow guides of hair", start);
         for (pose, hair, _) in growing.clone() {
-            pass.set_pipeline(&self.still);
+            pass.set_pipeline(&pipelines.still);
             dispatch(&mut pass, pose, hair, &hair.grow_guides, hair.guide_count);
-            hair.swing.record(&mut pass, &self.swing);
+            hair.swing.record(&mut pass, &pipelines.swing);
         }
         drop(pass);
         growing.clone().for_each(|(_, hair, _)| hair.take_guides(encoder));
         let mut pass = compute_pass(encoder, GROW_PASS.label, end);
         for (pose, hair, strands) in growing {
-            pass.set_pipeline(if hair.swing.is_moving() { &self.swinging } else { &self.still });
+            pass.set_pipeline(if hair.swing.is_moving() { &pipelines.swinging } else { &pipelines.still });
             dispatch(&mut pass, pose, hair, &hair.grow, strands);
         }
+    }
+}
+
+impl Pipelines {
+    fn new(device: &wgpu::Device) -> Self {
+        let [hair, skin] = grow_layouts(device);
+        let pipeline = |is_swinging| {
+            let groups = [&hair, &avatar_layout(device), &skin];
+            compute_pipeline(device, &GROW_PASS, &groups, &[swinging(is_swinging)])
+        };
+        Self { still: pipeline(false), swinging: pipeline(true), swing: swing_pipeline(device) }
     }
 }
 

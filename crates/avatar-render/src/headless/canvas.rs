@@ -133,9 +133,12 @@ impl Canvas {
         );
         gpu.queue.submit([encoder.finish()]);
         let view = mapped(&gpu.device, &self.readable).await?;
-        let rows = view.chunks_exact(self.row_bytes as usize);
-        let pixels = rows.flat_map(|row| row.chunks_exact(4).take(width as usize));
-        let rgba = pixels.flat_map(|p| straight_from_premultiplied([p[0], p[1], p[2], p[3]])).collect();
+        let mut pixels = Vec::with_capacity(width as usize * height as usize);
+        for row in view.chunks_exact(self.row_bytes as usize) {
+            let row = row.as_chunks::<4>().0.iter().take(width as usize);
+            pixels.extend(row.map(|pixel| straight_from_premultiplied(*pixel)));
+        }
+        let rgba = pixels.into_flattened();
         drop(view);
         self.readable.unmap();
         match gpu.errors.take() {

@@ -8,7 +8,7 @@ use crate::gpu::texture::sampler;
 use crate::view::environment::EnvironmentMap;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::pores::{PORE_SIZE, pore_tile};
-use crate::view::shading::Terms;
+use crate::view::shading::{Scattering, Terms};
 use crate::view::uniforms::GpuFrame;
 use avatar_look::{scatter_table, split_sum};
 use wgpu::util::DeviceExt;
@@ -40,33 +40,7 @@ impl Resources {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, terms: Terms) -> Self {
         let frames = Ring::new(device, "frame: camera and light", 1);
         let layout = layout(device);
-        let split_sum: Vec<u16> =
-            split_sum(SPLIT_SUM_SIZE as usize).into_iter().flatten().map(half_bits).collect();
-        let scatter: Vec<u16> = scatter_table(SCATTER_SIZE.0 as usize, SCATTER_SIZE.1 as usize)
-            .into_iter()
-            .map(half_bits)
-            .collect();
-        let pores: Vec<u8> = pore_tile().concat();
-        let square = (SPLIT_SUM_SIZE, SPLIT_SUM_SIZE);
-        let tables = [
-            table(
-                device,
-                queue,
-                "table: split sum",
-                square,
-                wgpu::TextureFormat::Rg16Float,
-                bytemuck::cast_slice(&split_sum),
-            ),
-            table(
-                device,
-                queue,
-                "table: scattering",
-                SCATTER_SIZE,
-                wgpu::TextureFormat::R16Float,
-                bytemuck::cast_slice(&scatter),
-            ),
-            table(device, queue, "pores", (PORE_SIZE, PORE_SIZE), wgpu::TextureFormat::Rg8Unorm, &pores),
-        ];
+        let tables = tables(device, queue, terms);
         let environment = EnvironmentMap::new(device);
         // Only textures that repeat on tilted surfaces need anisotropic filtering.
         let samplers = [
@@ -132,6 +106,33 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             texture(5, wgpu::TextureViewDimension::Cube),
             texture(6, flat),
         ],
+    })
+}
+
+/// The tables that shaders look up; of those that this shading never reads, a single texel.
+fn tables(device: &wgpu::Device, queue: &wgpu::Queue, terms: Terms) -> [wgpu::TextureView; 3] {
+    use wgpu::TextureFormat::{R16Float, Rg8Unorm, Rg16Float};
+    let split_sums = || {
+        let entries = split_sum(SPLIT_SUM_SIZE as usize).into_iter().flatten();
+        entries.flat_map(|value| half_bits(value).to_ne_bytes()).collect()
+    };
+    let scatter = || {
+        let entries = scatter_table(SCATTER_SIZE.0 as usize, SCATTER_SIZE.1 as usize).into_iter();
+        entries.flat_map(|value| half_bits(value).to_ne_bytes()).collect()
+    };
+    let is_pre_integrated = terms.scattering == Scattering::PreIntegrated;
+    let split_sums: (_, &dyn Fn() -> Vec<u8>) = ((SPLIT_SUM_SIZE, SPLIT_SUM_SIZE), &split_sums);
+    let scatter: (_, &dyn Fn() -> Vec<u8>) = (SCATTER_SIZE, &scatter);
+    let pores: (_, &dyn Fn() -> Vec<u8>) = ((PORE_SIZE, PORE_SIZE), &|| pore_tile().concat());
+    [
+        ("table: split sum", terms.reflections, Rg16Float, split_sums),
+        ("table: scattering", is_pre_integrated, R16Float, scatter),
+        ("pores", terms.pores, Rg8Unorm, pores),
+    ]
+    .map(|(label, is_read, format, (size, texels))| match is_read {
+        true => table(device, queue, label, size, format, &texels()),
+        // The largest texel of these formats.
+        false => table(device, queue, label, (1, 1), format, &[0; 4]),
     })
 }
 
@@ -204,4 +205,21 @@ fn shadow_map(device: &wgpu::Device, terms: Terms) -> (wgpu::TextureView, Vec<wg
         })
     };
     (all, (0..terms.shadows.lamps()).map(layer).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::device::gpu_for_tests;
+
+    #[test]
+    fn tables_are_made_for_the_shading_that_reads_them() {
+        let Some(gpu) = gpu_for_tests() else { return };
+        let widths = |terms| tables(&gpu.device, &gpu.queue, terms).map(|table| table.texture().width());
+        assert_eq!(widths(Terms::LOW), [1, 1, 1]);
+        assert_eq!(widths(Terms::MEDIUM), [SPLIT_SUM_SIZE, SCATTER_SIZE.0, PORE_SIZE]);
+        // Scattering in the picture needs no table.
+        assert_eq!(widths(Terms::HIGH), [SPLIT_SUM_SIZE, 1, PORE_SIZE]);
+        assert_eq!(gpu.errors.take(), None);
+    }
 }

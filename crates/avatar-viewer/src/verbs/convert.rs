@@ -7,6 +7,7 @@ use crate::usage::usage;
 use anyhow::{Result, anyhow};
 use avatar_exchange::glb;
 use avatar_mesh::obj::{self, ObjPart};
+use avatar_pack::Texture;
 use avatar_pack::{FaceState, Pack};
 use clap::ArgMatches;
 use std::path::Path;
@@ -42,7 +43,7 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
             let out = OutputFolder::check(path)?;
             let files = super::open(&args.pack)?;
             let pack = files.load_pack()?;
-            let raw = avatar_pack::raw_files(&pack, &files.load_textures());
+            let raw = avatar_pack::raw_files(&pack, &files.load_textures(&Texture::ALL));
             let raw = raw.map_err(|error| anyhow!("{}: {error}", files.name()))?;
             raw.notes.iter().for_each(standard::warn);
             out.write(&raw.files)
@@ -89,7 +90,7 @@ fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
             glb::write(&avatar_pack::portable_pictures(&scene))
         }
         None => {
-            let raw = avatar_pack::export(pack, &files.load_textures());
+            let raw = avatar_pack::export(pack, &files.load_textures(&Texture::ALL));
             raw.notes.iter().for_each(standard::warn);
             if !pack.clips().clips.is_empty() {
                 standard::warn("clips of controls are left out: poses are the clips of the file");

@@ -1,7 +1,7 @@
 use crate::cli::InfoArgs;
 use crate::standard;
 use anyhow::Result;
-use avatar_pack::{ImportReport, Pack, Textures};
+use avatar_pack::{ImportReport, Pack, Texture, Textures};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -77,7 +77,7 @@ pub(super) fn run(args: &InfoArgs) -> Result<()> {
     let files = super::open(&args.pack)?;
     // Not `load_pack`: warnings are part of the report here, and not told twice.
     let pack = files.read_pack()?;
-    let textures = files.read_textures();
+    let textures = files.read_textures(&Texture::ALL);
     let report = Report { import: files.report().map(import), ..report(&pack, &textures) };
     if args.json {
         return standard::print(&format!("{}\n", serde_json::to_string_pretty(&report)?));

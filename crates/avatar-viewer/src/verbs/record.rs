@@ -33,8 +33,7 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
         )));
     }
 
-    let textures = files.load_textures();
-    let mut offscreen = Offscreen::open(&pack, &textures, args.picture.samples, args.look)?;
+    let mut offscreen = Offscreen::of_files(&files, &pack, args.size, args.picture.samples, args.look)?;
     let interrupts = Interrupts::poll()?;
     let mut film = FilmSink::create(target, args.size, args.fps, frames)?;
     let mut motion = script.as_ref().map(|script| script.motion(&pack));

@@ -14,8 +14,7 @@ pub(super) fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<()> {
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
     let view = args.picture.view(&pack)?;
-    let textures = files.load_textures();
-    let mut offscreen = Offscreen::open(&pack, &textures, args.picture.samples, args.look)?;
+    let mut offscreen = Offscreen::of_files(&files, &pack, args.size, args.picture.samples, args.look)?;
     let picture = offscreen.picture(&pack, &face, view, args.size, args.picture.background.0)?;
     picture_file::still(&out, format, &picture, &face.describe(&pack))
 }

@@ -6,6 +6,7 @@ use crate::output::{Contents, OutputFile};
 use crate::standard;
 use anyhow::Result;
 use avatar_groom::PlantedStrand;
+use avatar_pack::Texture;
 use clap::ArgMatches;
 use serde_json::json;
 
@@ -15,7 +16,7 @@ pub(super) fn run(args: &StrandsArgs, matches: &ArgMatches) -> Result<()> {
     let files = super::open(&args.pack)?;
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
-    let textures = files.load_textures();
+    let textures = files.load_textures(&Texture::DRAWN);
     let look = LookArgs::with_hair(args.hair);
     let mut offscreen = Offscreen::open(&pack, &textures, 1, look)?;
     let strands = offscreen.strands(&pack, &face)?;

@@ -1,7 +1,7 @@
 use super::watch::Wake;
 use crate::files::Files;
 use anyhow::Result;
-use avatar_pack::{Pack, Textures};
+use avatar_pack::{Pack, Texture, Textures};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
@@ -47,7 +47,7 @@ impl Loading {
                 tell(News::Progress(0.4));
                 let pack = files.load_pack()?;
                 tell(News::Progress(0.7));
-                let textures = files.load_textures();
+                let textures = files.load_textures(&Texture::DRAWN);
                 Ok(Loaded { files, pack, textures })
             };
             tell(News::Done(Box::new(read())));

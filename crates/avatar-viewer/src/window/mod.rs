@@ -37,6 +37,7 @@ use crate::config::Config;
 use crate::files::Files;
 use crate::standard;
 use anyhow::{Context, Result, anyhow};
+use avatar_pack::Texture;
 use clap::ArgMatches;
 use input::Input;
 use keys::Keys;
@@ -58,7 +59,7 @@ use winit::window::WindowId;
 pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
     let files = Files::open(args.pack.pack.as_deref(), &args.pack.with)?;
     let pack = files.load_pack_in_any_case()?;
-    let textures = files.load_textures();
+    let textures = files.load_textures(&Texture::DRAWN);
     let start = args.face.resolve(&pack, matches)?;
     let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|_| no_display())?;
     let mut messages = Messages::default();
