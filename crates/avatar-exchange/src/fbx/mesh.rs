@@ -108,11 +108,15 @@ fn corners(
             let expected = format!("at most {} corners in a face", triangles.len() / 3 + 2);
             return Err(ImportError::new(place, expected, face.num_indices.to_string()));
         }
+        let vertices_before = corners.vertices.len();
         let count = mesh.triangulate_face(&mut triangles, face) as usize;
         budget.take(count, 1).map_err(|exceeded| exceeded.at(place))?;
         for triangle in triangles.as_chunks::<3>().0.iter().take(count) {
             corners.triangle(triangle.map(|index| corner(mesh, second, index as usize)));
         }
+        // A vertex takes more than a triangle: itself, and what finds those like it.
+        let new = corners.vertices.len() - vertices_before;
+        budget.take(new, 2).map_err(|exceeded| exceeded.at(place))?;
     }
     Ok(corners)
 }
