@@ -29,7 +29,9 @@ pub(super) fn parse(text: &[u8], found: &Found, budget: &mut Budget) -> Result<P
     };
     // The tree is gone when the structures are made.
     let more_for_tree = found.bytes_of_tree.saturating_sub(found.bytes);
-    budget.check(more_for_tree).map_err(|exceeded| exceeded.at("JSON"))?;
+    if let Err(exceeded) = budget.check(more_for_tree) {
+        return Err(first.map_or_else(|| exceeded.at("JSON"), |error| wrong(&error)));
+    }
     if let Ok(mut value) = serde_json::from_slice::<Value>(text) {
         if let Some(error) = other_version(&value) {
             return Err(error);

@@ -1,11 +1,10 @@
 //! What the structures of the JSON drop without a word, and what memory they will take, found in a pass of
 //! its own before they are made.
 
-use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::fmt;
 
-/// Names that occur in a JSON text.
+/// What one pass over a JSON text found.
 #[derive(Debug, Default)]
 pub(super) struct Found {
     /// All extensions that some object has, whether the file lists them or not.
@@ -25,6 +24,8 @@ const TREE_OBJECT: usize = 720;
 /// Bytes of any other value in a list that doubles when it is full, which holds one and a half as much for a
 /// while.
 const TREE_VALUE: usize = 3 * size_of::<serde_json::Value>();
+/// Bytes of the name of a member beside its letters; its place is in the object's node.
+const KEY: usize = 16;
 /// Bytes of an object within an element of a list of the file: a primitive, a channel, attributes by name.
 const INNER_OBJECT: usize = 512;
 /// Bytes of a string beside its letters.
@@ -64,15 +65,6 @@ const GEOMETRY: [&str; 7] = ["accessors", "animations", "bufferViews", "buffers"
 /// Members of a target that the structures have, or that say nothing of geometry.
 const MOVED: [&str; 4] = ["POSITION", "NORMAL", "TANGENT", "extensions"];
 
-/// Allocates no more than the names. What is wrong in the text ends the pass early, and is an error
-/// elsewhere: whoever reads the text stops at the same place.
-pub(super) fn scan(text: &[u8]) -> Found {
-    let mut found = Found::default();
-    let mut json = serde_json::Deserializer::from_slice(text);
-    let _ = Walk { found: &mut found, at: At::Root, is_geometry: false }.deserialize(&mut json);
-    found
-}
-
 #[derive(Clone, Copy, PartialEq)]
 enum At {
     /// The file as a whole.
@@ -92,11 +84,25 @@ enum At {
     Target,
 }
 
-struct Walk<'f> {
-    found: &'f mut Found,
-    at: At,
-    /// Whether it is in one of the lists that geometry and motion are made of.
-    is_geometry: bool,
+/// Deeper values than this are counted, but what they are called means nothing: the structures read none of
+/// them.
+const MOST_DEPTH: usize = 256;
+
+/// Goes through the whole text, whatever is wrong in it: readers pass over much that is no valid JSON where
+/// they keep nothing of it, and read on behind it.
+pub(super) fn scan(text: &[u8]) -> Found {
+    let mut scan = Scan { text, at: 0, found: Found::default(), open: Vec::new(), deeper: 0 };
+    while let Some(&byte) = text.get(scan.at) {
+        match byte {
+            b'{' | b'[' => scan.begin(byte == b'{'),
+            b'}' | b']' => scan.end(),
+            b'"' => scan.string(),
+            b',' => scan.comma(),
+            b':' | b' ' | b'\t' | b'\n' | b'\r' => scan.at += 1,
+            _ => scan.word(),
+        }
+    }
+    scan.found
 }
 
 /// What a value is.
@@ -108,14 +114,139 @@ enum Kind {
     Object,
 }
 
-impl Walk<'_> {
+/// Where a value stands.
+#[derive(Clone, Copy)]
+struct Place {
+    at: At,
+    /// Whether it is in one of the lists that geometry and motion are made of.
+    is_geometry: bool,
+}
+
+/// An object or a list that has begun.
+struct Open {
+    place: Place,
+    /// Where its next value stands.
+    next: Place,
+    /// Whether the next string is the name of a member.
+    wants_key: bool,
+    is_object: bool,
+}
+
+struct Scan<'t> {
+    text: &'t [u8],
+    at: usize,
+    found: Found,
+    open: Vec<Open>,
+    /// How many have begun within the deepest of `open`.
+    deeper: usize,
+}
+
+impl Scan<'_> {
+    fn place(&self) -> Place {
+        let root = Place { at: At::Root, is_geometry: false };
+        self.open.last().map_or(root, |open| open.next)
+    }
+
+    fn begin(&mut self, is_object: bool) {
+        let place = self.place();
+        self.count(place.at, if is_object { Kind::Object } else { Kind::Plain });
+        self.at += 1;
+        if self.open.len() == MOST_DEPTH || self.deeper > 0 {
+            self.deeper += 1;
+            return;
+        }
+        let at = if place.at == At::Targets { At::Target } else { place.at };
+        let next = if is_object { place } else { Place { at, ..place } };
+        self.open.push(Open { place, next, wants_key: is_object, is_object });
+    }
+
+    fn end(&mut self) {
+        self.at += 1;
+        match self.deeper.checked_sub(1) {
+            Some(deeper) => self.deeper = deeper,
+            None => _ = self.open.pop(),
+        }
+    }
+
+    fn comma(&mut self) {
+        self.at += 1;
+        if let Some(open) = self.open.last_mut().filter(|_| self.deeper == 0) {
+            open.wants_key = open.is_object;
+        }
+    }
+
+    /// A number or a word, up to what can follow one.
+    fn word(&mut self) {
+        self.count(self.place().at, Kind::Plain);
+        let rest = &self.text[self.at..];
+        let ends = |byte: &u8| b",:{}[]\" \t\n\r".contains(byte);
+        self.at += rest.iter().position(ends).unwrap_or(rest.len());
+    }
+
+    fn string(&mut self) {
+        let first = self.at + 1;
+        let mut end = first;
+        while let Some(byte) = self.text.get(end).filter(|byte| **byte != b'"') {
+            end += if *byte == b'\\' { 2 } else { 1 };
+        }
+        let end = end.min(self.text.len());
+        self.at = end + 1;
+        let is_key = self.deeper == 0 && self.open.last().is_some_and(|open| open.wants_key);
+        if is_key {
+            let name = unescaped(&self.text[first..end]);
+            self.member(&name);
+        } else {
+            self.count(self.place().at, Kind::Text);
+        }
+    }
+
+    /// The name of a member of the innermost object.
+    fn member(&mut self, name: &str) {
+        let Some(open) = self.open.last_mut() else { return };
+        open.wants_key = false;
+        let Place { at: own, is_geometry } = open.place;
+        let at = match (own, name) {
+            (At::Loose, _) => At::Loose,
+            (At::Extensions, _) => At::Extension,
+            (_, "extensions") => At::Extensions,
+            (At::Root | At::List(_) | At::Value | At::Target, "extras") => At::Loose,
+            (At::Root, list) => At::List(bytes_of_element(list)),
+            (At::List(_) | At::Value, "targets") => At::Targets,
+            (At::List(_) | At::Value, "min" | "max") => At::Loose,
+            (At::List(_), _) => At::Value,
+            (at, _) => at,
+        };
+        let is_geometry = is_geometry || (own == At::Root && GEOMETRY.contains(&name));
+        open.next = Place { at, is_geometry };
+        let found = &mut self.found;
+        let mut is_new = false;
+        match own {
+            At::Extensions => {
+                if is_geometry {
+                    found.of_geometry.insert(name.to_owned());
+                }
+                is_new = found.extensions.insert(name.to_owned());
+            }
+            At::Target if at != At::Loose && !MOVED.contains(&name) => {
+                is_new = found.target_attributes.insert(name.to_owned());
+            }
+            _ => {}
+        }
+        // In both sets and in a note.
+        let listed = if is_new { LISTED_NAME + 3 * name.len() } else { 0 };
+        let is_kept = matches!(own, At::Extensions | At::Extension | At::Loose);
+        let kept = if is_kept { KEY + name.len() } else { 0 };
+        found.bytes = found.bytes.saturating_add(listed + kept);
+        found.bytes_of_tree = found.bytes_of_tree.saturating_add(KEY + name.len());
+    }
+
     /// Counts what a value takes.
-    fn count(&mut self, kind: Kind) {
+    fn count(&mut self, at: At, kind: Kind) {
         let tree = match kind {
             Kind::Object => TREE_OBJECT + TREE_VALUE,
             Kind::Plain | Kind::Text => TREE_VALUE,
         };
-        let structure = match (self.at, kind) {
+        let structure = match (at, kind) {
             (At::Extensions | At::Extension | At::Loose, _) => tree,
             (At::List(element), Kind::Object) => element,
             (At::List(_), Kind::Text) => LISTED_NAME,
@@ -128,87 +259,38 @@ impl Walk<'_> {
     }
 }
 
-impl<'de> DeserializeSeed<'de> for Walk<'_> {
-    type Value = ();
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
-        deserializer.deserialize_any(self)
+/// The text of a string; one that means nothing stays as it is.
+fn unescaped(raw: &[u8]) -> Cow<'_, str> {
+    let plain = String::from_utf8_lossy(raw);
+    if !raw.contains(&b'\\') {
+        return plain;
     }
+    serde_json::from_str(&format!("\"{plain}\"")).map_or(plain, Cow::Owned)
 }
 
-impl<'de> Visitor<'de> for Walk<'_> {
-    type Value = ();
+#[cfg(test)]
+mod tests {
+    use super::scan;
 
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("JSON")
-    }
-
-    fn visit_bool<E: Error>(mut self, _: bool) -> Result<(), E> {
-        self.count(Kind::Plain);
-        Ok(())
-    }
-
-    fn visit_i64<E: Error>(mut self, _: i64) -> Result<(), E> {
-        self.count(Kind::Plain);
-        Ok(())
-    }
-
-    fn visit_u64<E: Error>(mut self, _: u64) -> Result<(), E> {
-        self.count(Kind::Plain);
-        Ok(())
-    }
-
-    fn visit_f64<E: Error>(mut self, _: f64) -> Result<(), E> {
-        self.count(Kind::Plain);
-        Ok(())
-    }
-
-    fn visit_str<E: Error>(mut self, _: &str) -> Result<(), E> {
-        self.count(Kind::Text);
-        Ok(())
-    }
-
-    fn visit_unit<E: Error>(mut self) -> Result<(), E> {
-        self.count(Kind::Plain);
-        Ok(())
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(mut self, mut list: A) -> Result<(), A::Error> {
-        self.count(Kind::Plain);
-        let at = if self.at == At::Targets { At::Target } else { self.at };
-        let is_geometry = self.is_geometry;
-        while list.next_element_seed(Walk { found: &mut *self.found, at, is_geometry })?.is_some() {}
-        Ok(())
-    }
-
-    fn visit_map<A: MapAccess<'de>>(mut self, mut object: A) -> Result<(), A::Error> {
-        self.count(Kind::Object);
-        while let Some(key) = object.next_key::<String>()? {
-            let at = match (self.at, key.as_str()) {
-                (At::Loose, _) => At::Loose,
-                (At::Extensions, _) => At::Extension,
-                (_, "extensions") => At::Extensions,
-                (At::Root | At::List(_) | At::Value | At::Target, "extras") => At::Loose,
-                (At::Root, list) => At::List(bytes_of_element(list)),
-                (At::List(_) | At::Value, "targets") => At::Targets,
-                (At::List(_) | At::Value, "min" | "max") => At::Loose,
-                (At::List(_), _) => At::Value,
-                (at, _) => at,
-            };
-            let is_geometry = self.is_geometry || (self.at == At::Root && GEOMETRY.contains(&key.as_str()));
-            match self.at {
-                At::Extensions => {
-                    if is_geometry {
-                        self.found.of_geometry.insert(key.clone());
-                    }
-                    self.found.extensions.insert(key);
-                }
-                At::Target if at != At::Loose && !MOVED.contains(&key.as_str()) => {
-                    self.found.target_attributes.insert(key);
-                }
-                _ => {}
+    /// What the structures pass over, and read on behind it.
+    #[test]
+    fn nothing_ends_the_pass_early() {
+        let rest = r#""materials":[{},{}],"nodes":[{"extensions":{"ACME_anvil":{}}}]"#;
+        let plain = scan(format!("{{{rest}}}").as_bytes());
+        assert!(plain.of_geometry.contains("ACME_anvil"));
+        let deep = format!("{}{}", "[".repeat(1000), "]".repeat(1000));
+        for odd in ["1e999", r#""\ud800""#, r#"{"a":-1e-999,"b":"\u0022}"}"#, deep.as_str(), r#"{"":"\\"}"#] {
+            for member in ["foo", "extras"] {
+                let text = format!(r#"{{"{member}":{odd},{rest}}}"#);
+                let found = scan(text.as_bytes());
+                assert!(found.bytes >= plain.bytes, "{member} {}", &odd[..odd.len().min(20)]);
+                assert_eq!(found.of_geometry, plain.of_geometry, "{member} {}", &odd[..odd.len().min(20)]);
             }
-            object.next_value_seed(Walk { found: &mut *self.found, at, is_geometry })?;
         }
-        Ok(())
+        let escaped = scan(br#"{"n\u006fdes":[{"extens\u0069ons":{"ACME_\u0061nvil":1}}]}"#);
+        assert_eq!(escaped.of_geometry, plain.of_geometry);
+        for broken in ["", "{", "]", "\"", "{\"a\\", "[[[", "}}}", "{\"a\":", ",,,::"] {
+            scan(broken.as_bytes());
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::shape_sets::ShapeSet;
 use super::spellings;
+use crate::unique::short;
 use avatar_exchange::{ChannelTarget, Interpolation, Scene};
 use avatar_mesh::Mesh;
 use glam::Vec3;
@@ -131,7 +132,7 @@ fn known(
             let node = of_node.first().and_then(|slot| node_names.get(slot.node)).map_or("", String::as_str);
             notes.push(format!(
                 "node {node:?}: the shapes {:?} and {:?} both mean {:?} of {}: the first does, the other is by its own name",
-                names[kept], names[left], meaning.1, meaning.0
+                short(names[kept]), short(names[left]), meaning.1, meaning.0
             ));
         }
     }

@@ -22,6 +22,7 @@ pub use shape_sets::ShapeSet;
 pub(crate) use shape_sets::face_control;
 
 use crate::look_rule::LookRule;
+use crate::unique;
 use crate::{ContentsError, FaceError, FaceState, Pack, PackContents, SceneMotion, Textures, Warning};
 use avatar_exchange::Scene;
 use avatar_look::Materials;
@@ -119,6 +120,7 @@ impl Import {
             report.notes.push("there is no mesh: a skeleton and its motion, nothing to draw".to_owned());
         }
         note_helpers(leave_helpers_out(&mut scene), &mut report);
+        note_long_names(&scene, &mut report);
         let joints = rig::Joints::of(&scene, &known.roles, &mut report)?;
         let mut shapes = parts::ShapeNames::of(&scene);
         let sliders = sliders::Wanted::of(&scene, &joints.names, &mut shapes, &known.expressions)?;
@@ -169,6 +171,16 @@ pub fn leave_helpers_out(scene: &mut Scene) -> usize {
         scene.retain_parts(|part| !shape_sets::is_fitting_helper(&part.name));
     }
     parts - scene.parts.len()
+}
+
+fn note_long_names(scene: &Scene, report: &mut ImportReport) {
+    let shapes = scene.parts.iter().flat_map(|part| &part.mesh.shapes).map(|shape| &shape.name);
+    let names = scene.nodes.iter().map(|node| &node.name).chain(scene.parts.iter().map(|part| &part.name));
+    let names = names.chain(scene.clips.iter().map(|clip| &clip.name)).chain(shapes);
+    let count = names.filter(|name| name.len() > unique::LONGEST).count();
+    if count > 0 {
+        report.notes.push(format!("{count} names of more than {} bytes are cut", unique::LONGEST));
+    }
 }
 
 fn note_helpers(left_out: usize, report: &mut ImportReport) {

@@ -1,7 +1,7 @@
 //! glTF: counts of accessors without data, sparse ones, buffers and URIs, meshes at many nodes.
 
 use crate::bytes::base64;
-use crate::{growing, measured};
+use crate::{growing, measured, refused};
 
 /// A scene of one node with a mesh, of these accessors: 0 is POSITION, of `count`; the rest is given.
 pub(crate) fn file(mesh: &str, accessors: &[String], more: &str) -> Vec<u8> {
@@ -155,7 +155,7 @@ fn skins_and_animations_without_data() {
         let accessors = [vec3(count), accessor("VEC4", 5121, count), accessor("VEC4", 5126, count)];
         scene(r#","skins":[{"joints":[0]}]"#, &accessors)
     });
-    growing("joints.gltf", |count| {
+    refused("joints.gltf", |count| {
         let joints = vec!["0"; count.min(65_000) as usize].join(",");
         let accessors =
             [vec3(3), accessor("VEC4", 5121, 3), accessor("VEC4", 5126, 3), accessor("MAT4", 5126, count)];
@@ -213,6 +213,42 @@ fn dense_lists() {
     }
 }
 
+/// One long name of a node and many shapes that two nodes have at different weights: each gets a control of
+/// both names.
+#[test]
+fn long_names() {
+    growing("names.gltf", |count| {
+        let (name, shapes) = ("a".repeat(count.min(1 << 20) as usize), 1_500);
+        let list = |what: &dyn Fn(usize) -> String| (0..shapes).map(what).collect::<Vec<_>>().join(",");
+        let nodes = [1, 2].map(|rest| {
+            format!(r#"{{"name":"{name}","mesh":0,"weights":[{}]}}"#, list(&|_| format!("0.{rest}")))
+        });
+        let targets = list(&|_| r#"{"POSITION":0}"#.to_owned());
+        let names = list(&|shape| format!(r#""s{shape}""#));
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,1]}}],"nodes":[{}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"targets":[{targets}]}}],
+            "extras":{{"targetNames":[{names}]}}}}],"accessors":[{}]}}"#,
+            nodes.join(","),
+            vec3(3)
+        )
+        .into_bytes()
+    });
+}
+
+/// What readers pass over, though it is no valid JSON, does not hide what comes behind it.
+#[test]
+fn behind_what_is_passed_over() {
+    let deep = format!("{}{}", "[".repeat(200), "]".repeat(200));
+    for odd in ["1e999", r#""\ud800""#, deep.as_str()] {
+        growing("materials.gltf", |count| {
+            let materials = vec!["{}"; count.min(MOST) as usize].join(",");
+            format!(r#"{{"asset":{{"version":"2.0"}},"odd":{odd},"nodes":[{{}}],"materials":[{materials}]}}"#)
+                .into_bytes()
+        });
+    }
+}
+
 /// What the structures keep as it is: extensions, extras, smallest and largest values.
 #[test]
 fn dense_values() {
@@ -267,11 +303,11 @@ fn dense_avatars() {
     let file = |extension: &str, value: &str| {
         let bones = r#"{"humanoid":{"humanBones":[{"bone":"head","node":0}]},"#;
         let value = if value.contains("humanoid") { value.to_owned() } else { value.replacen('{', bones, 1) };
-        format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}],"extensions":{{"{extension}":{value}}}}}"#)
+        format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{{}}],"meshes":[{{"primitives":[]}}],"extensions":{{"{extension}":{value}}}}}"#)
             .into_bytes()
     };
     let many = |element: &str, count: u64| vec![element; count.min(MOST) as usize].join(",");
-    for element in ["{}", r#"{"presetName":"joy","binds":[{}]}"#, r#"{"presetName":"joy"}"#] {
+    for element in ["{}", r#"{"presetName":"joy"}"#] {
         growing("groups.vrm", |count| {
             let value =
                 format!(r#"{{"blendShapeMaster":{{"blendShapeGroups":[{}]}}}}"#, many(element, count));
@@ -295,7 +331,7 @@ fn dense_avatars() {
     for (list, element) in [
         ("springs", r#"{"joints":[{"node":0}]}"#),
         ("colliders", r#"{"node":0,"shape":{"sphere":{}}}"#),
-        ("colliderGroups", r#"{"colliders":[0]}"#),
+        ("colliderGroups", r#"{"colliders":[]}"#),
     ] {
         growing(&format!("{list}.vrm"), |count| {
             format!(

@@ -68,6 +68,14 @@ fn growing(name: &str, file: impl Fn(u64) -> Vec<u8>) {
     growing_beside(name, file, |_| 0);
 }
 
+/// As [`growing`], for files that are refused whatever their size is.
+fn refused(name: &str, file: impl Fn(u64) -> Vec<u8>) {
+    for count in (1..11).map(|step| 1 << (3 * step)) {
+        let outcome = measured(&format!("{count}.{name}"), &file(count), &[], 0);
+        assert!(!outcome.is_read(), "{name}");
+    }
+}
+
 /// As [`growing`], with what is held where it is not counted.
 fn growing_beside(name: &str, file: impl Fn(u64) -> Vec<u8>, beside: impl Fn(&[u8]) -> u64) {
     let is_read = |count: u64| {
@@ -93,6 +101,7 @@ fn growing_beside(name: &str, file: impl Fn(u64) -> Vec<u8>, beside: impl Fn(&[u
             return;
         }
     }
+    panic!("{name}: none was read, or none was refused: nothing was measured");
 }
 
 #[test]
