@@ -8,11 +8,18 @@ use crate::scene::ImportError;
 #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
 const BYTES_PER_VERTEX: u64 = 64;
 
+/// Keys that may be looked at for each vertex that may be read; a fraction of a microsecond each.
+#[cfg(feature = "fbx")]
+const KEYS_PER_VERTEX: u64 = 16;
+
 /// How much may still be unpacked.
 #[derive(Debug)]
 pub(crate) struct Budget {
     left: u64,
     unit: Unit,
+    /// How many keys may still be looked at, of which few may be left in the end.
+    #[cfg(feature = "fbx")]
+    keys: u64,
 }
 
 #[derive(Debug)]
@@ -43,7 +50,13 @@ impl Budget {
     #[cfg(any(feature = "collada", feature = "fbx", feature = "obj"))]
     pub(crate) fn of_vertices(input_bytes: usize) -> Self {
         let bytes = memory::share(UNPACKED, input_bytes as u64);
-        Self { left: bytes / BYTES_PER_VERTEX, unit: Unit::Vertices }
+        let left = bytes / BYTES_PER_VERTEX;
+        Self {
+            left,
+            unit: Unit::Vertices,
+            #[cfg(feature = "fbx")]
+            keys: left.saturating_mul(KEYS_PER_VERTEX),
+        }
     }
 
     /// As [`Budget::of_vertices`], with so many left.
@@ -55,7 +68,12 @@ impl Budget {
     /// Counts bytes: the share that [`UNPACKED`] says.
     #[cfg(feature = "gltf")]
     pub(crate) fn of_bytes(input_bytes: usize) -> Self {
-        Self { left: memory::share(UNPACKED, input_bytes as u64), unit: Unit::Bytes }
+        Self {
+            left: memory::share(UNPACKED, input_bytes as u64),
+            unit: Unit::Bytes,
+            #[cfg(feature = "fbx")]
+            keys: 0,
+        }
     }
 
     /// As [`Budget::of_bytes`], with so many left.
@@ -92,6 +110,19 @@ impl Budget {
     #[cfg(any(feature = "fbx", feature = "gltf"))]
     pub(crate) fn check(&self, wanted: usize) -> Result<(), Exceeded> {
         self.after(wanted as u64).map(|_| ())
+    }
+
+    /// Takes from the keys that may be looked at: many properties can share a long curve, and keep little of it.
+    ///
+    /// # Errors
+    /// Fewer are left.
+    #[cfg(feature = "fbx")]
+    pub(crate) fn look_at_keys(&mut self, count: usize) -> Result<(), Exceeded> {
+        self.keys = self.keys.checked_sub(count as u64).ok_or_else(|| Exceeded {
+            expected: format!("at most {} keys more of all properties in a file of this size", self.keys),
+            found: count.to_string(),
+        })?;
+        Ok(())
     }
 
     fn after(&self, wanted: u64) -> Result<u64, Exceeded> {

@@ -90,11 +90,19 @@ fn note_what_is_lost(curves: &Curves<'_>, place: &str, scene: &mut RawScene) {
         );
         note(&mut scene.notes, place, Finding::Converted(text));
     }
+    if curves.is_cut {
+        let text = "keys before its beginning or behind its end, as the file tells them, are left out";
+        note(&mut scene.notes, place, Finding::left_out(text));
+    }
     if curves.is_thinned {
         let text = format!(
-            "of more than {MAX_FRAMES_BETWEEN} frames between two keys only every second one or fewer are kept, and of repetitions beyond the keys the first {MAX_CYCLES}"
+            "between keys that are more than {MAX_FRAMES_BETWEEN} frames apart, only every second frame or fewer are kept"
         );
         note(&mut scene.notes, place, Finding::Converted(text));
+    }
+    if curves.has_fewer_cycles {
+        let text = format!("only the {MAX_CYCLES} repetitions next to the keys are kept");
+        note(&mut scene.notes, place, Finding::LeftOut(text));
     }
     let unused = curves.unused();
     if !unused.is_empty() {

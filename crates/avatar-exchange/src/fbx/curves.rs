@@ -55,8 +55,12 @@ pub(super) struct Curves<'a> {
     used: HashSet<(u32, &'a str)>,
     /// Curves that go on beyond their keys.
     pub(super) going_on: HashSet<u32>,
-    /// Whether some frames or repetitions were passed over, since there are too many.
+    /// Whether some frames were passed over, since there are too many.
     pub(super) is_thinned: bool,
+    /// Whether some repetitions were left out, since there are too many.
+    pub(super) has_fewer_cycles: bool,
+    /// Whether some keys lie outside the take.
+    pub(super) is_cut: bool,
 }
 
 /// Properties that are read from properties of other elements, as weights of shapes in old files are.
@@ -92,6 +96,8 @@ impl<'a> Curves<'a> {
             used: HashSet::new(),
             going_on: HashSet::new(),
             is_thinned: false,
+            has_fewer_cycles: false,
+            is_cut: false,
         }
     }
 
@@ -137,7 +143,7 @@ impl<'a> Curves<'a> {
         moments.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.side.cmp(&b.side)));
         moments.dedup();
         if let Some((begin, end)) = self.range {
-            cut(&mut moments, begin, end);
+            self.is_cut |= cut(&mut moments, begin, end);
         }
         if moments.is_empty() {
             moments.push(Moment::at(self.range.map_or(0.0, |range| range.0)));
@@ -183,6 +189,7 @@ impl<'a> Curves<'a> {
     ) -> Result<(), Exceeded> {
         let first_moment = moments.len();
         budget.check(moments.len() + 2 * curve.keyframes.len())?;
+        budget.look_at_keys(curve.keyframes.len())?;
         for key in &curve.keyframes {
             moments.push(Moment::at(key.time));
         }
@@ -238,9 +245,10 @@ impl<'a> Curves<'a> {
         }
         let told = if way.repeat_count > 0 { f64::from(way.repeat_count) } else { f64::INFINITY };
         let all = (length / duration).ceil().min(told);
-        self.is_thinned |= all > MAX_CYCLES;
+        self.has_fewer_cycles |= all > MAX_CYCLES;
         for cycle in 1..=all.min(MAX_CYCLES) as u32 {
             budget.check(moments.len() + own.len() + 2)?;
+            budget.look_at_keys(own.len() + 2)?;
             let start = if before {
                 first - f64::from(cycle) * duration
             } else {
@@ -281,6 +289,7 @@ impl<'a> Curves<'a> {
             return Ok(());
         }
         budget.check(moments.len() + count as usize)?;
+        budget.look_at_keys(count as usize)?;
         let time = |frame: u32| (first + f64::from(frame) * step) / self.rate;
         moments.extend((0..count as u32).map(time).filter(|time| from < *time && *time < to).map(Moment::at));
         Ok(())
@@ -288,20 +297,23 @@ impl<'a> Curves<'a> {
 }
 
 /// Leaves what lies within a take, and puts its limits in the place of what lies beyond: what comes before it
-/// is over when it begins.
-fn cut(moments: &mut Vec<Moment>, begin: f64, end: f64) {
-    let count = moments.len();
+/// is over when it begins. Tells whether there was any.
+fn cut(moments: &mut Vec<Moment>, begin: f64, end: f64) -> bool {
+    let all = moments.len();
     let is_before = |it: &Moment| it.time < begin || (it.time == begin && it.side == Side::Before);
     moments.drain(..moments.partition_point(is_before));
-    if moments.len() < count && moments.first().is_none_or(|first| *first != Moment::at(begin)) {
+    let from_begin = moments.len();
+    if from_begin < all && moments.first().is_none_or(|first| *first != Moment::at(begin)) {
         moments.insert(0, Moment::at(begin));
     }
-    let count = moments.len();
-    moments
-        .truncate(moments.partition_point(|it| it.time < end || (it.time == end && it.side != Side::After)));
-    if moments.len() < count && moments.last().is_none_or(|last| last.time < end) {
+    let up_to_end = |it: &Moment| it.time < end || (it.time == end && it.side != Side::After);
+    let kept = moments.partition_point(up_to_end);
+    let goes_beyond = kept < moments.len();
+    moments.truncate(kept);
+    if goes_beyond && moments.last().is_none_or(|last| last.time < end) {
         moments.push(Moment::at(end));
     }
+    from_begin < all || goes_beyond
 }
 
 fn goes_on(curve: &ufbx::AnimCurve) -> bool {

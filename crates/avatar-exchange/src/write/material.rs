@@ -1,7 +1,7 @@
 use super::buffer::Buffer;
 use crate::scene::{AlphaMode, Material, Scene, SceneImage, TextureRef, UvSet, Wrap};
 use serde_json::{Map, Value, json};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 const UNLIT: &str = "KHR_materials_unlit";
 const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
@@ -13,8 +13,9 @@ pub(super) struct Images {
     places: Vec<Option<usize>>,
     /// Pairs that samplers say; repetition needs none.
     wraps: Vec<[Wrap; 2]>,
-    /// Positions of images in the file and of their samplers: textures after those that repeat.
-    wrapped: Vec<(usize, usize)>,
+    /// Positions of images in the file and of their samplers, which textures have that come after those that
+    /// repeat, with the positions of these textures.
+    wrapped: BTreeMap<(usize, usize), usize>,
 }
 
 impl Images {
@@ -26,7 +27,7 @@ impl Images {
             has_bytes.then(|| count - 1)
         };
         let places: Vec<Option<usize>> = scene.images.iter().map(place).collect();
-        let (mut wraps, mut wrapped) = (Vec::new(), Vec::new());
+        let (mut wraps, mut wrapped) = (Vec::new(), BTreeMap::new());
         for texture in scene.materials.iter().flat_map(Material::textures) {
             let place = places.get(texture.image).copied().flatten();
             let Some(place) = place.filter(|_| texture.wrap != [Wrap::Repeat; 2]) else { continue };
@@ -34,9 +35,8 @@ impl Images {
                 wraps.push(texture.wrap);
                 wraps.len() - 1
             });
-            if !wrapped.contains(&(place, sampler)) {
-                wrapped.push((place, sampler));
-            }
+            let next = count + wrapped.len();
+            wrapped.entry((place, sampler)).or_insert(next);
         }
         Self { places, wraps, wrapped }
     }
@@ -50,8 +50,8 @@ impl Images {
         self.wraps.iter().map(|[s, t]| json!({ "wrapS": code(*s), "wrapT": code(*t) })).collect()
     }
 
-    /// One texture for each image, which repeats, then those that do not. Other pictures than PNG and JPEG are
-    /// those of an extension.
+    /// One texture for each image, which repeats, then those that do not. Other pictures than PNG and JPEG
+    /// are those of an extension.
     pub(super) fn textures(&self, scene: &Scene) -> Vec<Value> {
         let with_bytes = scene.images.iter().filter(|image| !image.bytes.is_empty()).enumerate();
         let mut textures: Vec<Value> = with_bytes
@@ -60,7 +60,9 @@ impl Images {
                 None => json!({ "source": place }),
             })
             .collect();
-        for (place, sampler) in &self.wrapped {
+        let mut wrapped: Vec<_> = self.wrapped.iter().collect();
+        wrapped.sort_by_key(|(_, position)| **position);
+        for ((place, sampler), _) in wrapped {
             let mut texture = textures.get(*place).cloned().unwrap_or_default();
             texture["sampler"] = json!(sampler);
             textures.push(texture);
@@ -91,10 +93,7 @@ impl Images {
         let texture = texture?;
         let place = self.places.get(texture.image).copied().flatten()?;
         let sampler = self.wraps.iter().position(|wrap| *wrap == texture.wrap);
-        let wrapped = sampler.and_then(|sampler| {
-            let at = self.wrapped.iter().position(|known| *known == (place, sampler))?;
-            Some(self.places.iter().flatten().count() + at)
-        });
+        let wrapped = sampler.and_then(|sampler| self.wrapped.get(&(place, sampler)).copied());
         let mut json = Map::from_iter([("index".to_owned(), json!(wrapped.unwrap_or(place)))]);
         if texture.uvs == UvSet::Second {
             json.insert("texCoord".to_owned(), json!(1));

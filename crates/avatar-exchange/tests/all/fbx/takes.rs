@@ -169,6 +169,8 @@ fn a_take_lasts_as_long_as_it_says() {
     for (time, x) in [(0.0, 0.1), (2.5, 0.35), (5.0, 0.6), (9.0, 0.6)] {
         assert!((x_of(&scene, "hip", time) - x).abs() < 1e-6, "{time}");
     }
+    let is_told = |scene: &Scene| scene.notes.iter().any(|note| note.to_string().contains("behind its end"));
+    assert!(is_told(&scene) && !is_told(&line([1.0, 2.0], [1.0, 6.0])));
     // A step at the very beginning, and one at the very end: what is on their other sides is not in the take.
     let step = |keys| leg_in_take("Lcl Translation", &["X"], [0.0, 100.0], keys, 2, "", [1.0, 6.0]);
     assert!((x_of(&step([0.0, 1.0]), "hip", 0.0) - 1.0).abs() < 1e-6);
