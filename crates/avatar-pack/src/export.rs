@@ -35,14 +35,12 @@ use std::ops::Range;
 /// valid: [`avatar_exchange::Scene::from_raw`] takes it.
 pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut scene = RawScene { nodes: joints(pack), ..RawScene::default() };
-    let joint_from_mesh = pack.palette().iter().map(|bone| bone.joint_from_mesh);
+    let palette = pack.palette();
     // A skeleton alone moves no part, and a skin without joints means nothing.
-    if !pack.palette().is_empty() {
-        scene.skins.push(Skin {
-            name: "palette".to_owned(),
-            joints: pack.palette().iter().map(|bone| bone.joint.index()).collect(),
-            inverse_binds: joint_from_mesh.collect(),
-        });
+    if !palette.is_empty() {
+        let joints = palette.iter().map(|bone| bone.joint.index()).collect();
+        let inverse_binds = palette.iter().map(|bone| bone.joint_from_mesh).collect();
+        scene.skins.push(Skin { name: "palette".to_owned(), joints, inverse_binds });
     }
     let mut images = Images::default();
     let rest = weights_of_defaults(pack);
