@@ -2,8 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-/// Bytes of a name. Names are made of other names and stand in many places, so that a long one of a file would
-/// take a multiple of the file.
+/// Bytes of a name. Names are made of other names and stand in many places, so that a long one of a file
+/// would take a multiple of the file.
 pub(crate) const LONGEST: usize = 256;
 
 /// As much of a name as may be kept.

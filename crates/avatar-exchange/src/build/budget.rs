@@ -112,7 +112,8 @@ impl Budget {
         self.after(wanted as u64).map(|_| ())
     }
 
-    /// Takes from the keys that may be looked at: many properties can share a long curve, and keep little of it.
+    /// Takes from the keys that may be looked at: many properties can share a long curve, and keep little of
+    /// it.
     ///
     /// # Errors
     /// Fewer are left.

@@ -39,7 +39,7 @@ fn taps(from: u32, to: u32) -> Vec<Tap> {
 /// covers.
 pub(crate) fn half(image: &Image, encoding: Encoding) -> Image {
     let (width, height) = ((image.width / 2).max(1), (image.height / 2).max(1));
-    let is_even = image.width % 2 == 0 && image.height % 2 == 0;
+    let is_even = image.width.is_multiple_of(2) && image.height.is_multiple_of(2);
     let rgba = if is_even { even(image, encoding) } else { uneven(image, width, height, encoding) };
     Image { width, height, rgba }
 }
