@@ -7,8 +7,7 @@ use crate::usage::usage;
 use anyhow::{Result, anyhow};
 use avatar_exchange::glb;
 use avatar_mesh::obj::{self, ObjPart};
-use avatar_pack::Texture;
-use avatar_pack::{FaceState, Pack};
+use avatar_pack::{FaceState, Pack, Texture};
 use clap::ArgMatches;
 use std::path::Path;
 
