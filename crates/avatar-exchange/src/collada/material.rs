@@ -4,7 +4,7 @@ use super::Reader;
 use super::geometry::Primitive;
 use super::xml::At;
 use crate::build::path;
-use crate::scene::{AlphaMode, Finding, Material, Resolve, TextureRef, UvSet, quoted};
+use crate::scene::{AlphaMode, Finding, Material, Resolve, TextureRef, UvSet, Wrap, quoted};
 use percent_encoding::percent_decode_str;
 use std::collections::HashMap;
 
@@ -205,8 +205,9 @@ impl<'a> Reader<'a> {
             self.note(at, Finding::Missing(format!("the texture '{name}' leads to no image")));
             return None;
         };
+        let wrap = ["wrap_s", "wrap_t"].map(|name| self.wrap(sampler, name));
         if let Some(known) = images.get(&image.number) {
-            return Some(TextureRef::from(*known));
+            return Some(TextureRef { wrap, ..TextureRef::from(*known) });
         }
         let address =
             image.path(&["init_from", "ref"]).or(image.child("init_from")).map_or("", |at| at.text());
@@ -217,7 +218,23 @@ impl<'a> Reader<'a> {
             self.note(image, Finding::Missing(problem));
         }
         images.insert(image.number, self.scene.images.len() - 1);
-        Some(TextureRef::from(self.scene.images.len() - 1))
+        Some(TextureRef { wrap, ..TextureRef::from(self.scene.images.len() - 1) })
+    }
+
+    /// What a sampler shows beyond an edge: COLLADA 1.4.1, chapter 8, `wrap_s`; 1.5 adds MIRROR_ONCE. Where it
+    /// says nothing, WRAP.
+    fn wrap(&mut self, sampler: Option<At<'a>>, name: &str) -> Wrap {
+        let Some(at) = sampler.and_then(|sampler| sampler.child(name)) else { return Wrap::Repeat };
+        let (nearest, taken) = match at.text() {
+            "WRAP" => return Wrap::Repeat,
+            "MIRROR" => return Wrap::Mirror,
+            "CLAMP" => return Wrap::Clamp,
+            // A border has a colour of its own, NONE is black beyond the edge.
+            "BORDER" | "NONE" | "MIRROR_ONCE" => (Wrap::Clamp, "CLAMP"),
+            _ => (Wrap::Repeat, "WRAP"),
+        };
+        self.note(at, Finding::Converted(format!("{} is taken as {taken}", quoted(at.text()))));
+        nearest
     }
 }
 

@@ -3,7 +3,7 @@
 use super::ObjFile;
 use crate::build::path::beside;
 use crate::build::text::{at_line, decode, float, shown};
-use crate::scene::{AlphaMode, Finding, ImportError, Material, Note, Resolve, SceneImage, TextureRef};
+use crate::scene::{AlphaMode, Finding, ImportError, Material, Note, Resolve, SceneImage, TextureRef, Wrap};
 use std::collections::{BTreeMap, HashMap};
 
 /// Options of texture statements and how many words follow them; `-o`, `-s` and `-t` take up to three
@@ -301,6 +301,7 @@ fn texture(
 ) -> Option<TextureRef> {
     let mut rest = rest;
     let mut moved = false;
+    let mut wrap = [Wrap::Repeat; 2];
     let split = |text: &str| -> (usize, usize) {
         let end = text.find(char::is_whitespace).unwrap_or(text.len());
         (end, text.len() - text[end..].trim_start().len())
@@ -312,6 +313,9 @@ fn texture(
         let known = OPTIONS.iter().find(|(name, _)| *name == option);
         let most = known.map_or(if option == "-type" { 1 } else { 3 }, |(_, words)| *words);
         moved |= ["-o", "-s", "-t"].contains(&option.as_str());
+        if option == "-clamp" && rest[..split(rest).0].eq_ignore_ascii_case("on") {
+            wrap = [Wrap::Clamp; 2];
+        }
         for _ in 0..most {
             let (end, next) = split(rest);
             if known.is_none() && option != "-type" && rest[..end].parse::<f32>().is_err() {
@@ -329,7 +333,7 @@ fn texture(
         obj.images.push(SceneImage { name, ..SceneImage::default() });
         obj.images.len() - 1
     });
-    Some(TextureRef::from(image))
+    Some(TextureRef { wrap, ..TextureRef::from(image) })
 }
 
 /// Drops images that no material of the file shows; libraries are often shared by many files.

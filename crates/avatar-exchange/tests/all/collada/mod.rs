@@ -5,7 +5,7 @@ mod puppet;
 mod surface;
 
 use crate::support::damage::{read_any, triangles};
-use avatar_exchange::{ImportError, Scene, ScenePose, collada};
+use avatar_exchange::{ImportError, Scene, ScenePose, TextureRef, Wrap, collada};
 use glam::{DVec3, Vec2, Vec3};
 use puppet::puppet;
 
@@ -192,6 +192,19 @@ fn materials_have_colours_and_textures() {
     );
     assert_eq!(scene.materials[0].base_color_texture, Some(0.into()));
     assert_eq!(scene.parts[0].material, Some(1));
+    for (s, t, wrap, noted) in [
+        ("WRAP", "MIRROR", [Wrap::Repeat, Wrap::Mirror], None),
+        ("CLAMP", "BORDER", [Wrap::Clamp, Wrap::Clamp], Some("'BORDER' is taken as CLAMP")),
+        ("MIRROR", "round", [Wrap::Mirror, Wrap::Repeat], Some("'round' is taken as WRAP")),
+    ] {
+        let wraps = format!("</source><wrap_s>{s}</wrap_s><wrap_t>{t}</wrap_t></sampler2D>");
+        let wrapped = text.replace("</source></sampler2D>", &wraps);
+        assert_ne!(wrapped, text);
+        let scene = load(&wrapped);
+        let expected = TextureRef { wrap, ..TextureRef::from(0) };
+        assert_eq!(scene.materials[0].base_color_texture, Some(expected), "{s}, {t}");
+        noted.into_iter().for_each(|noted| note(&scene, noted));
+    }
     close(&scene.materials[1].base_color, &[0.5, 0.25, 0.125, 0.75]);
     // Without the picture there is a note instead.
     let scene = load(&text);

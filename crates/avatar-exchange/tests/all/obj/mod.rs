@@ -6,7 +6,7 @@ mod sequence;
 use crate::support::data::shared_data;
 use crate::support::texts;
 use avatar_exchange::obj::{ObjFile, read, read_obj};
-use avatar_exchange::{AlphaMode, ImportError};
+use avatar_exchange::{AlphaMode, ImportError, TextureRef, Wrap};
 use avatar_mesh::{Mesh, obj};
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
@@ -161,7 +161,8 @@ fn materials_come_from_libraries() {
     assert_eq!(material.emissive, [0.25; 3]);
     // The fourth root of 2 / (6 + 2).
     assert!((material.roughness - 0.5f32.sqrt()).abs() < 1e-6);
-    assert_eq!((material.base_color_texture, material.normal_texture), (Some(0.into()), Some(1.into())));
+    let clamped = TextureRef { wrap: [Wrap::Clamp; 2], ..TextureRef::from(0) };
+    assert_eq!((material.base_color_texture, material.normal_texture), (Some(clamped), Some(1.into())));
     assert_eq!((scene.images[0].mime.as_str(), scene.images[1].bytes.len()), ("image/png", 0));
     assert!(scene.notes.iter().any(|note| note.place == "dents.png"));
     let error = read("a.obj", text.as_bytes(), &mut |_| Ok(b"newmtl a\nKd red".to_vec())).map(|_| ());
