@@ -221,8 +221,8 @@ impl<'a> Reader<'a> {
         Some(TextureRef { wrap, ..TextureRef::from(self.scene.images.len() - 1) })
     }
 
-    /// What a sampler shows beyond an edge: COLLADA 1.4.1, chapter 8, `wrap_s`; 1.5 adds MIRROR_ONCE. Where it
-    /// says nothing, WRAP.
+    /// What a sampler shows beyond an edge: COLLADA 1.4.1, chapter 8, `wrap_s`; 1.5 adds MIRROR_ONCE. Where
+    /// it says nothing, WRAP.
     fn wrap(&mut self, sampler: Option<At<'a>>, name: &str) -> Wrap {
         let Some(at) = sampler.and_then(|sampler| sampler.child(name)) else { return Wrap::Repeat };
         let (nearest, taken) = match at.text() {
