@@ -152,7 +152,7 @@ mod tests {
         let renderer = Renderer::new(&gpu.device, &gpu.queue, config).expect("a renderer");
         let targets = Targets::new(&gpu.device, &renderer, 8, 8).expect("targets");
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: None,
+            label: Some("test"),
             size: wgpu::Extent3d { width: 8, height: 8, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
@@ -161,8 +161,10 @@ mod tests {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
             view_formats: &[],
         });
-        let view = texture.create_view(&Default::default());
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let view =
+            texture.create_view(&wgpu::TextureViewDescriptor { label: Some("test"), ..Default::default() });
+        let mut encoder =
+            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("test") });
         let model = crate::AvatarModel::new(&gpu.device, &gpu.queue, &[], 1).expect("no parts");
         let avatar = crate::AvatarState::new(&gpu.device, &model);
         let avatars = [(&model, &avatar)];
