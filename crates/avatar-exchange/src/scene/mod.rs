@@ -19,7 +19,7 @@ pub use raw::{
     Channel, ChannelTarget, Clip, Interpolation, Node, NodeDrivers, RawScene, ScenePart, Skin, Transform, Trs,
 };
 
-#[cfg(any(feature = "bvh", feature = "fbx", feature = "gltf"))]
+#[cfg(any(feature = "bvh", feature = "collada", feature = "fbx", feature = "gltf"))]
 pub(crate) use error::quoted;
 #[cfg(feature = "gltf")]
 pub(crate) use interpolate::sample;
