@@ -66,7 +66,8 @@ impl FaceCrowd {
     }
 
     /// Takes the present values of all players through the couplings to weights and bone matrices, as
-    /// [`crate::FaceState::pose`]. Bones are the same to a millionth of their size, all else to the bit.
+    /// [`crate::FaceState::pose`]. For the same values of controls, weights are the same to the bit, and bones as
+    /// [`RigCrowd`] says.
     ///
     /// # Errors
     /// The players are not as many as the faces, or have other controls than the pack; or the crowd was made

@@ -55,7 +55,8 @@ impl Corner {
 /// A mesh in the making.
 #[derive(Debug, Default)]
 pub(crate) struct Corners {
-    /// The last vertex of those whose bits have a hash.
+    /// By the hash of a corner's bits, the last vertex that has it. Keys of all bits would take more memory
+    /// than the vertices.
     known: HashMap<u64, u32>,
     /// For each vertex, the one before it with the same hash.
     earlier: Vec<Option<u32>>,

@@ -55,7 +55,7 @@ impl Driven {
             if place == meanings.len() {
                 meanings.push(Vec::new());
             }
-            // Zero is zero.
+            // 0.0 and -0.0 are equal, so both have to be hashed as 0.0.
             let key = ((slot.rest + 0.0).to_bits(), motions.kind(slot));
             let group = *places.entry((place, key)).or_insert(meanings[place].len());
             if group == meanings[place].len() {
@@ -239,12 +239,11 @@ fn same_meshes(scene: &Scene) -> Vec<Vec<usize>> {
     }
     let mut nodes: Vec<usize> = parts.keys().copied().collect();
     nodes.sort_unstable();
-    // By a number of all that the meshes have, so that only those are compared which are most likely the
-    // same.
-    let mut by_number: HashMap<u64, Vec<Vec<usize>>> = HashMap::new();
+    // By a hash of what the meshes have: only those of one hash are compared in full.
+    let mut by_hash: HashMap<u64, Vec<Vec<usize>>> = HashMap::new();
     for node in nodes {
         let meshes = &parts[&node];
-        let groups = by_number.entry(number(meshes)).or_default();
+        let groups = by_hash.entry(hash_of(meshes)).or_default();
         let is_same = |other: &usize| {
             let others = &parts[other];
             meshes.len() == others.len() && meshes.iter().zip(others).all(|(a, b)| is_same_mesh(a, b))
@@ -254,8 +253,7 @@ fn same_meshes(scene: &Scene) -> Vec<Vec<usize>> {
             None => groups.push(vec![node]),
         }
     }
-    let mut same: Vec<Vec<usize>> =
-        by_number.into_values().flatten().filter(|group| group.len() > 1).collect();
+    let mut same: Vec<Vec<usize>> = by_hash.into_values().flatten().filter(|group| group.len() > 1).collect();
     same.sort();
     same
 }
@@ -264,9 +262,9 @@ fn is_same_mesh(a: &Mesh, b: &Mesh) -> bool {
     a.positions == b.positions && a.triangles == b.triangles && a.shapes == b.shapes
 }
 
-/// A number that is the same for meshes that are, and another one for nearly all others.
-fn number(meshes: &[&Mesh]) -> u64 {
-    // Zero is zero.
+/// A hash that is equal for equal meshes.
+fn hash_of(meshes: &[&Mesh]) -> u64 {
+    // 0.0 and -0.0 are equal, so both have to be hashed as 0.0.
     let bits = |at: Vec3| at.to_array().map(|x| (x + 0.0).to_bits());
     let mut hasher = DefaultHasher::new();
     for mesh in meshes {
