@@ -66,8 +66,8 @@ impl FaceCrowd {
     }
 
     /// Takes the present values of all players through the couplings to weights and bone matrices, as
-    /// [`crate::FaceState::pose`]. For the same values of controls, weights are the same to the bit, and bones as
-    /// [`RigCrowd`] says.
+    /// [`crate::FaceState::pose`]. For the same values of controls, weights are the same to the bit, and
+    /// bones as near as [`RigCrowd`] says.
     ///
     /// # Errors
     /// The players are not as many as the faces, or have other controls than the pack; or the crowd was made

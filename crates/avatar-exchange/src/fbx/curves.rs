@@ -296,8 +296,8 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Removes moments outside a take. Where there were some, the take's begin or end is a moment instead, so that
-/// the value there is kept. Returns whether any was removed.
+/// Removes moments outside a take. Where there were some, the take's begin or end is a moment instead, so
+/// that the value there is kept. Returns whether any was removed.
 fn cut(moments: &mut Vec<Moment>, begin: f64, end: f64) -> bool {
     let all = moments.len();
     let is_before = |it: &Moment| it.time < begin || (it.time == begin && it.side == Side::Before);
