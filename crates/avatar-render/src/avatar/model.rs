@@ -94,9 +94,9 @@ impl AvatarModel {
         groom: Option<&Groom>,
     ) -> Result<(), HairError> {
         let missing = HairError::NoSuchPart { parts: self.parts.len(), found: part };
-        let vertices = self.parts.get(part).ok_or(missing)?.geometry.vertex_count;
+        let geometry = &self.parts.get(part).ok_or(missing)?.geometry;
         let hair = groom
-            .map(|groom| HairModel::new(device, queue, part, vertices, self.palette_len as u32, groom))
+            .map(|groom| HairModel::new(device, queue, part, geometry, self.palette_len as u32, groom))
             .transpose()?;
         self.hair = hair.filter(|hair| hair.strand_count > 0);
         Ok(())

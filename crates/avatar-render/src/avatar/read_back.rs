@@ -80,7 +80,9 @@ impl Deformer {
         if !state.fits(model) {
             return Err(DeformerError::StateOfAnotherModel);
         }
-        let posed = state.pose.parts.get(part).ok_or(missing)?;
+        let (Some(posed), Some(drawn)) = (state.pose.parts.get(part), model.parts.get(part)) else {
+            return Err(missing);
+        };
         if posed.vertex_count == 0 {
             return Ok(Deformed::default());
         }
@@ -98,11 +100,9 @@ impl Deformer {
         queue.submit([encoder.finish()]);
         let view = mapped(device, &readable).await?;
         let vertices: &[GpuDeformedVertex] = bytemuck::cast_slice(&view);
-        Ok(Deformed {
-            positions: vertices.iter().map(|vertex| vertex.position.into()).collect(),
-            normals: vertices.iter().map(|vertex| vertex.normal.into()).collect(),
-            tangents: Vec::new(),
-        })
+        let split = |vertex: &GpuDeformedVertex| (Vec3::from(vertex.position), Vec3::from(vertex.normal));
+        let (positions, normals) = drawn.geometry.places.spread(vertices).map(split).unzip();
+        Ok(Deformed { positions, normals, tangents: Vec::new() })
     }
 }
 

@@ -7,6 +7,7 @@ use crate::hair::error::HairError;
 use crate::hair::uniforms::{
     GROW_WORKGROUP_SIZE, GpuHair, GpuHairRegion, GpuRoot, IS_GUIDE, NO_GUIDE, POINT_STRIDE,
 };
+use crate::model::geometry::Geometry;
 use avatar_groom::{COMBED_REACH, Field, Groom, LOCK_REACH, MARGIN, OTHER_BONES, PlantedStrand, RegionStyle};
 use bytemuck::Zeroable;
 use wgpu::util::DeviceExt;
@@ -42,7 +43,7 @@ impl HairModel {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         part: usize,
-        vertices: u32,
+        skin: &Geometry,
         bones: u32,
         groom: &Groom,
     ) -> Result<Self, HairError> {
@@ -58,10 +59,11 @@ impl HairModel {
         }
         let mut roots = Vec::with_capacity(found);
         for (strand, planted) in groom.strands().iter().enumerate() {
-            if let Some(&found) = planted.root.corners.iter().find(|corner| **corner >= vertices) {
-                return Err(HairError::Corner { strand, found, vertices });
+            let corners = planted.root.corners.map(|corner| skin.places.get(corner).ok_or(corner));
+            if let Some(found) = corners.iter().find_map(|corner| corner.err()) {
+                return Err(HairError::Corner { strand, found, vertices: skin.places.mesh_vertex_count() });
             }
-            roots.push(gpu_root(planted));
+            roots.push(gpu_root(planted, corners.map(Result::unwrap_or_default)));
         }
         let guide_root =
             |strand: &u32| roots.get(*strand as usize).map(|root| GpuRoot { guide: IS_GUIDE, ..*root });
@@ -82,8 +84,8 @@ impl HairModel {
             return Err(HairError::TooMany { found, limit: Vec4Texture::most(&limits) / POINT_STRIDE });
         }
         let most = Vec4Texture::most(&limits) / VEC4S_PER_VERTEX;
-        if vertices as usize > most {
-            return Err(HairError::SkinSize { found: vertices, limit: most });
+        if skin.vertex_count as usize > most {
+            return Err(HairError::SkinSize { found: skin.vertex_count, limit: most });
         }
         let region = |style: &RegionStyle| GpuHairRegion::new(style, groom.height());
         let hair = GpuHair {
@@ -145,11 +147,12 @@ fn field_texture(device: &wgpu::Device, queue: &wgpu::Queue, field: &Field) -> w
     texture.create_view(&wgpu::TextureViewDescriptor { label, ..Default::default() })
 }
 
-fn gpu_root(planted: &PlantedStrand) -> GpuRoot {
+/// `corners` are the vertices of its triangle on the GPU.
+fn gpu_root(planted: &PlantedStrand, corners: [u32; 3]) -> GpuRoot {
     let PlantedStrand { root, comb, length, phase, guide } = planted;
     let [x, y, z, _] = root.random;
     GpuRoot {
-        corners: root.corners,
+        corners,
         region: root.region as u32,
         barycentric: root.barycentric,
         guide: guide.unwrap_or(NO_GUIDE),

@@ -6,6 +6,7 @@ use crate::model::curvature::curvatures;
 use crate::model::desc::{PartBones, PartDesc};
 use crate::model::error::{PartProblem, fits};
 use crate::model::extras::extras;
+use crate::model::places::Places;
 use crate::model::shape_blocks::{SHAPE_BLOCK, ShapeBlocks};
 use avatar_mesh::{Bounds, DeformBounds, Mesh, Offsets, Skinning, Winding};
 use bytemuck::{Pod, Zeroable};
@@ -45,7 +46,10 @@ pub(crate) struct GpuVertexBones {
 /// What drawing and deforming a part need.
 #[derive(Debug)]
 pub(crate) struct Geometry {
+    /// Vertices on the GPU: those of the mesh that are alike are one.
     pub(crate) vertex_count: u32,
+    /// Which of them each vertex of the mesh is.
+    pub(crate) places: Places,
     pub(crate) index_count: u32,
     pub(crate) indices: wgpu::Buffer,
     /// [`GpuVertex`] per vertex: vertices of the deform pass, and texture coordinates of the passes that
@@ -104,6 +108,8 @@ impl Geometry {
         let PartDesc { label, mesh, bones, first_weight, .. } = *desc;
         let limits = device.limits();
         check(mesh, bones, palette_len, &limits)?;
+        let (welded, places) = Places::weld(mesh);
+        let mesh = welded.as_ref().unwrap_or(mesh);
         if !mesh.shapes.is_empty() {
             let weights = first_weight.saturating_add(mesh.shapes.len());
             let room = binding(&limits).saturating_sub(size_of::<GpuActiveShapesHead>() as u64);
@@ -138,6 +144,7 @@ impl Geometry {
         };
         Ok(Self {
             vertex_count: head.vertex_count,
+            places,
             index_count: (mesh.triangles.len() * 3) as u32,
             indices: buffer(
                 device,

@@ -11,4 +11,5 @@ pub(crate) mod finish;
 pub(crate) mod geometry;
 pub(crate) mod material;
 pub(crate) mod part;
+pub(crate) mod places;
 pub(crate) mod shape_blocks;

@@ -22,6 +22,7 @@ mod standard;
 mod textures;
 mod crowds;
 mod views;
+mod welded;
 mod mirror;
 mod tone;
 mod energy;

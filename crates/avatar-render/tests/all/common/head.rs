@@ -37,15 +37,26 @@ impl Head {
         Self { pack, density }
     }
 
-    fn skin(&self) -> &Mesh {
+    pub(crate) fn skin(&self) -> &Mesh {
         &self.pack.parts()[0].mesh
     }
 
     /// The skin with this hair, at bind pose.
     pub(crate) fn with_hair(&self, gpu: &Gpu, style: Style, strands: f32) -> (AvatarModel, AvatarState) {
+        self.planted(gpu, self.skin(), style, strands)
+    }
+
+    /// The same with another mesh in the place of the skin's.
+    pub(crate) fn planted(
+        &self,
+        gpu: &Gpu,
+        skin: &Mesh,
+        style: Style,
+        strands: f32,
+    ) -> (AvatarModel, AvatarState) {
         let part = PartDesc {
             label: "skin",
-            mesh: self.skin(),
+            mesh: skin,
             first_weight: 0,
             kind: self.pack.parts()[0].kind,
             bones: PartBones::PerVertex,
@@ -57,7 +68,7 @@ impl Head {
             .iter()
             .filter_map(|name| self.pack.part(name)?.mesh.bounds())
             .collect();
-        let groom = Groom::new(self.skin(), &self.density, &eyes, style, strands, 3);
+        let groom = Groom::new(skin, &self.density, &eyes, style, strands, 3);
         model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
         let state = AvatarState::new(&gpu.device, &model);
         (model, state)
