@@ -51,7 +51,7 @@ pub struct Renderer {
     /// Of surfaces of interchange files.
     pub(crate) standard: StandardPipelines,
     pub(crate) grower: Grower,
-    device: wgpu::Device,
+    pub(crate) device: wgpu::Device,
     /// Made for the first picture with hair.
     hair: OnceLock<HairPipelines>,
     pub(crate) hair_views: HairViews,

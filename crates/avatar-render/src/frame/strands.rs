@@ -11,10 +11,6 @@ use crate::hair::detail::GpuHairView;
 use crate::hair::pipelines::Strands;
 use crate::hair::state::HairState;
 use crate::view::camera::Camera;
-use avatar_groom::SEGMENTS;
-
-/// Corners of a ribbon.
-const CORNERS: u32 = 2 * (SEGMENTS as u32 + 1);
 
 /// Which strands of an avatar a pass draws that draws at most `most`; `None` without any.
 pub(crate) fn strands_in_view<'a>(
@@ -66,12 +62,20 @@ impl<'a> Recording<'a> {
         DrawnStrands { most, views }
     }
 
-    fn draw_strands(&self, pass: &mut wgpu::RenderPass<'_>, drawn: DrawnStrands) {
+    fn draw_strands(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        drawn: DrawnStrands,
+        is_wanted: fn(GpuHairView) -> bool,
+    ) {
         let views = &self.renderer.hair_views;
         for (head, (view, hair)) in (0..).zip(self.with_hair(drawn.most)) {
+            if !is_wanted(view) {
+                continue;
+            }
             pass.set_bind_group(2, &hair.draw, &[]);
             pass.set_bind_group(3, &views.group, &[views.ring.offset(drawn.views, head)]);
-            pass.draw(0..CORNERS, 0..view.count() as u32);
+            pass.draw(0..view.corners(), 0..view.count() as u32);
         }
     }
 
@@ -83,22 +87,34 @@ impl<'a> Recording<'a> {
         let mut pass = self.begin(encoder, Pass::HairShadow, Some(map), None);
         self.set_groups(&mut pass, &self.targets.hair.for_shadow);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, self.choose_strands(shadows.strands()));
+        self.draw_strands(&mut pass, self.choose_strands(shadows.strands()), |_| true);
     }
 
     /// Hair writes depth, so that corneas lie rightly before or behind it.
     pub(crate) fn strands(&self, encoder: &mut wgpu::CommandEncoder) {
-        let drawn = self.choose_strands(f32::INFINITY);
-        match &self.renderer.hair().strands {
+        let (renderer, drawn) = (self.renderer, self.choose_strands(f32::INFINITY));
+        let hair = || self.with_hair(drawn.most).map(|(view, _)| view);
+        let (has_fine, has_draft) = (hair().any(GpuHairView::is_fine), hair().any(GpuHairView::is_draft));
+        // Alone with the time of the pass: whatever comes first notes the start, whatever comes last the end.
+        let span = |first, last| match (first, last) {
+            (true, true) => Some(Span::Whole),
+            (true, false) => Some(Span::Start),
+            (false, true) => Some(Span::End),
+            (false, false) => None,
+        };
+        if has_draft {
+            let pipeline = renderer.hair().draft(&renderer.device);
+            self.masked_strands(encoder, pipeline, drawn, GpuHairView::is_draft, span(true, !has_fine));
+        }
+        if !has_fine {
+            return;
+        }
+        match renderer.hair().fine(&renderer.device) {
             Strands::Masked(pipeline) => {
-                let times = self.timer.and_then(|timer| timer.render_pass(Pass::Hair, Span::Whole));
-                let mut pass = self.begin_picture(encoder, Pass::Hair, PictureStep::Between, times);
-                pass.set_bind_group(1, &self.targets.hair.for_strands, &[]);
-                pass.set_pipeline(pipeline);
-                self.draw_strands(&mut pass, drawn);
+                self.masked_strands(encoder, pipeline, drawn, GpuHairView::is_fine, span(!has_draft, true));
             }
             Strands::Layered { layers, slices, blended, compose } => {
-                self.strand_layers(encoder, layers, drawn);
+                self.strand_layers(encoder, layers, drawn, span(!has_draft, false));
                 self.strand_slices(encoder, slices, drawn);
                 self.blended_strands(encoder, blended, drawn);
                 let times = self.timer.and_then(|timer| timer.render_pass(Pass::Hair, Span::End));
@@ -112,23 +128,41 @@ impl<'a> Recording<'a> {
         }
     }
 
+    /// Draws strands that cover some of a pixel's samples.
+    fn masked_strands(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        drawn: DrawnStrands,
+        is_wanted: fn(GpuHairView) -> bool,
+        span: Option<Span>,
+    ) {
+        let times = self.timer.zip(span).and_then(|(timer, span)| timer.render_pass(Pass::Hair, span));
+        let mut pass = self.begin_picture(encoder, Pass::Hair, PictureStep::Between, times);
+        pass.set_bind_group(1, &self.targets.hair.for_strands, &[]);
+        pass.set_pipeline(pipeline);
+        self.draw_strands(&mut pass, drawn, is_wanted);
+    }
+
     /// Draws where strands lie in each pixel.
     fn strand_layers(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         pipeline: &wgpu::RenderPipeline,
         drawn: DrawnStrands,
+        span: Option<Span>,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("hair: layers"),
             color_attachments: &[cleared(&self.targets.hair.layers, wgpu::Color::TRANSPARENT)],
             depth_stencil_attachment: Some(self.depth_to_compare()),
-            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(Pass::Hair, Span::Start)),
+            timestamp_writes: (self.timer.zip(span))
+                .and_then(|(timer, span)| timer.render_pass(Pass::Hair, span)),
             ..Default::default()
         });
         self.set_groups(&mut pass, &self.targets.hair.for_shadow);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, drawn);
+        self.draw_strands(&mut pass, drawn, GpuHairView::is_fine);
     }
 
     /// Draws how much strands cover at each depth.
@@ -151,7 +185,7 @@ impl<'a> Recording<'a> {
         });
         self.set_groups(&mut pass, &targets.hair.for_slices);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, drawn);
+        self.draw_strands(&mut pass, drawn, GpuHairView::is_fine);
     }
 
     /// The depth of opaque parts, for comparing only.
@@ -181,7 +215,7 @@ impl<'a> Recording<'a> {
         });
         self.set_groups(&mut pass, &targets.hair.for_strands);
         pass.set_pipeline(pipeline);
-        self.draw_strands(&mut pass, drawn);
+        self.draw_strands(&mut pass, drawn, GpuHairView::is_fine);
     }
 }
 

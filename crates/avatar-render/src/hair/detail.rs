@@ -1,5 +1,6 @@
 //! How many strands of an avatar are grown and drawn in a view, and how wide that makes them.
 
+use avatar_groom::SEGMENTS;
 use bytemuck::{Pod, Zeroable};
 
 /// How much of an avatar's hair is grown and drawn. May change from frame to frame: nothing is allocated, and
@@ -20,6 +21,11 @@ pub struct HairDetail {
     /// are looked at; 0 draws strands as thin as they are, for pictures that are made larger than needed and
     /// averaged.
     pub least_pixels: f32,
+    /// Draws at most this many strands, as much wider as it takes, and coarsely: straight between every third
+    /// of their points, and in one pass whatever the samples. For pictures that are seen for a moment, while
+    /// something moves, on adapters that draw in software. `None` draws all that the rest of this asks for,
+    /// finely. Brows and lashes get no wider than by eight times: there is paint below brows.
+    pub draft: Option<u32>,
 }
 
 /// WGSL `HairView`: which strands of one avatar a pass draws.
@@ -33,6 +39,10 @@ pub(crate) struct GpuHairView {
     /// Factor on the widths that strands have if all are drawn.
     pub(crate) width: f32,
     pub(crate) least_pixels: f32,
+    /// The same of brows and lashes.
+    pub(crate) other_width: f32,
+    /// From one drawn point of a strand to the next.
+    pub(crate) stride: u32,
 }
 
 const STRANDS_PER_PIXEL: f32 = 200.0;
@@ -41,10 +51,13 @@ const FEWEST_STRANDS: f32 = 1000.0;
 const FADING: f32 = 0.15;
 /// The largest factor on widths for a small share.
 const WIDEST: f32 = 8.0;
+/// From one drawn point of a strand to the next, in drafts.
+const DRAFT_STRIDE: u32 = 3;
+const _: () = assert!((SEGMENTS as u32).is_multiple_of(DRAFT_STRIDE), "strands end at their tips");
 
 impl Default for HairDetail {
     fn default() -> Self {
-        Self { share: 1.0, is_automatic: true, least_pixels: 1.0 }
+        Self { share: 1.0, is_automatic: true, least_pixels: 1.0, draft: None }
     }
 }
 
@@ -63,13 +76,18 @@ impl HairDetail {
             true => (head_pixels * STRANDS_PER_PIXEL).max(FEWEST_STRANDS),
             false => f32::INFINITY,
         };
+        let most = self.draft.map_or(most, |strands| most.min(strands as f32));
         let strands = kept.min(needed).min(most);
         let fading = (strands * FADING).min(all - strands);
         // The sum of widths: strands that fade are half as wide on average.
         let whole = (strands - 0.5 * fading).max(1.0);
         let for_share = if kept > 0.0 { (all / kept).min(WIDEST) } else { 1.0 };
         let least_pixels = if self.least_pixels >= 0.0 { self.least_pixels.min(16.0) } else { 1.0 };
-        GpuHairView { strands, fading, width: for_share * kept.max(1.0) / whole, least_pixels }
+        let stride = if self.draft.is_some() { DRAFT_STRIDE } else { 1 };
+        let width = for_share * kept.max(1.0) / whole;
+        // A brow of few strands that are as wide as those of the scalp would be a row of squares.
+        let other_width = if self.draft.is_some() { width.min(WIDEST) } else { width };
+        GpuHairView { strands, fading, width, least_pixels, other_width, stride }
     }
 }
 
@@ -77,6 +95,21 @@ impl GpuHairView {
     /// Strands to draw.
     pub(crate) fn count(self) -> usize {
         self.strands.ceil() as usize
+    }
+
+    /// Corners of a strand's ribbon: two at each point that is drawn.
+    pub(crate) fn corners(self) -> u32 {
+        2 * (SEGMENTS as u32 / self.stride.max(1) + 1)
+    }
+
+    /// Whether strands are drawn coarsely.
+    pub(crate) fn is_draft(self) -> bool {
+        self.stride > 1
+    }
+
+    /// Whether strands are drawn finely.
+    pub(crate) fn is_fine(self) -> bool {
+        !self.is_draft()
     }
 }
 
@@ -101,12 +134,21 @@ mod tests {
         }
 
         #[test]
-        fn anything_is_a_number_of_strands(of in 0u32..1000, pixels in any::<f32>(), share in any::<f32>(), least in any::<f32>()) {
+        fn anything_is_a_number_of_strands(of in 0u32..1000, pixels in any::<f32>(), share in any::<f32>(), least in any::<f32>(), draft in any::<Option<u32>>()) {
             for is_automatic in [false, true] {
-                let view = HairDetail { share, is_automatic, least_pixels: least }.view(of, pixels, f32::INFINITY);
+                let view = HairDetail { share, is_automatic, least_pixels: least, draft }.view(of, pixels, f32::INFINITY);
                 prop_assert!(view.count() <= of as usize && view.width.is_finite() && view.width >= 0.0, "{view:?}");
+                prop_assert!(view.other_width.is_finite() && view.other_width <= view.width, "{view:?}");
                 prop_assert!((0.0..=16.0).contains(&view.least_pixels) && view.fading >= 0.0, "{view:?}");
             }
+        }
+
+        #[test]
+        fn drafts_cover_as_much_with_few_strands(of in 20_000u32..160_000, pixels in 0.0f32..1200.0, draft in 500u32..5000) {
+            let view = HairDetail { draft: Some(draft), ..HairDetail::default() }.view(of, pixels, f32::INFINITY);
+            prop_assert!(view.count() <= draft as usize && view.is_draft() && view.other_width <= WIDEST, "{view:?}");
+            let off = area(view) / f64::from(of) - 1.0;
+            prop_assert!(off.abs() < 2e-3, "{view:?}: {off}");
         }
 
         #[test]

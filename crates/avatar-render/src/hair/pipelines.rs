@@ -1,6 +1,7 @@
 //! Builds the pipelines that draw strands.
 
 use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
+use crate::gpu::program::{Constant, Value};
 use crate::gpu::ring::{FRAME_SLOTS, Ring};
 use crate::hair::detail::GpuHairView;
 use crate::hair::layouts::{compose_layout, draw_layout, hair_view_layout, inputs_layout};
@@ -9,15 +10,22 @@ use crate::hair::programs::{
     STRAND_SLICES,
 };
 use crate::hair::targets::{HAIR_CLEAR_FORMAT, HAIR_SUM_FORMAT};
-use crate::view::config::RendererConfig;
+use crate::view::config::{COVERAGE_MASK, RendererConfig};
 use crate::view::resources::HAIR_MAP_FORMAT;
+use std::sync::OnceLock;
 
 /// The pipelines of all passes that draw strands.
 #[derive(Debug)]
 pub(crate) struct HairPipelines {
     /// For the map of hair that the key lamp sees, if the shading has shadows.
     pub(crate) shadow: Option<wgpu::RenderPipeline>,
-    pub(crate) strands: Strands,
+    /// Made for the first picture with strands that are drawn finely.
+    fine: OnceLock<Strands>,
+    /// Made for the first picture with strands that are drawn coarsely.
+    draft: OnceLock<wgpu::RenderPipeline>,
+    strands_layout: wgpu::PipelineLayout,
+    compose_layout: wgpu::PipelineLayout,
+    config: RendererConfig,
 }
 
 /// How strands get into the picture.
@@ -38,43 +46,75 @@ pub(crate) enum Strands {
 impl HairPipelines {
     /// `frame` is the layout of group 0.
     pub(crate) fn new(device: &wgpu::Device, frame: &wgpu::BindGroupLayout, config: RendererConfig) -> Self {
-        use wgpu::CompareFunction::{Always, Greater};
-        let terms = config.shading.terms();
-        let choices = config.choices();
         let (inputs, drawn, view) = (inputs_layout(device), draw_layout(device), hair_view_layout(device));
-        let strands_layout = pipeline_layout(device, "hair", &[frame, &inputs, &drawn, &view]);
-        let compose_layout =
-            pipeline_layout(device, "hair over the picture", &[frame, &compose_layout(device)]);
-        let ribbons = Recipe {
-            program: &MASKED_STRANDS,
-            layout: &strands_layout,
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            buffers: &[],
-            // Ribbons are seen from both sides.
-            cull_mode: None,
-            depth: Some((Greater, true)),
-            bias: Default::default(),
-            samples: config.samples,
-            target: color_target(config.color_format, None),
-            beside: None,
+        let mut pipelines = Self {
+            shadow: None,
+            fine: OnceLock::new(),
+            draft: OnceLock::new(),
+            strands_layout: pipeline_layout(device, "hair", &[frame, &inputs, &drawn, &view]),
+            compose_layout: pipeline_layout(
+                device,
+                "hair over the picture",
+                &[frame, &compose_layout(device)],
+            ),
+            config,
         };
-        let shadow = (terms.shadows.lamps() > 0).then(|| {
+        pipelines.shadow = (config.shading.terms().shadows.lamps() > 0).then(|| {
             let recipe = Recipe {
                 program: &HAIR_SHADOW_PASS,
                 depth: None,
                 samples: 1,
                 target: blended(HAIR_MAP_FORMAT, added(), largest()),
-                ..ribbons.clone()
+                ..pipelines.ribbons()
             };
-            recipe.build(device, &choices)
+            recipe.build(device, &config.choices())
         });
+        pipelines
+    }
+
+    /// Draws strands finely.
+    pub(crate) fn fine(&self, device: &wgpu::Device) -> &Strands {
+        self.fine.get_or_init(|| self.strands(device))
+    }
+
+    /// Draws strands coarsely: in one pass, whatever the samples.
+    pub(crate) fn draft(&self, device: &wgpu::Device) -> &wgpu::RenderPipeline {
+        if self.config.samples > 1
+            && let Strands::Masked(pipeline) = self.fine(device)
+        {
+            return pipeline;
+        }
+        // Strands cover the only sample of a pixel or not, by the same random numbers.
+        self.draft.get_or_init(|| self.ribbons().build(device, &masked(self.config.choices())))
+    }
+
+    /// The pipeline of strands that cover some of a pixel's samples, on which the others build.
+    fn ribbons(&self) -> Recipe<'_> {
+        Recipe {
+            program: &MASKED_STRANDS,
+            layout: &self.strands_layout,
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            buffers: &[],
+            // Ribbons are seen from both sides.
+            cull_mode: None,
+            depth: Some((wgpu::CompareFunction::Greater, true)),
+            bias: Default::default(),
+            samples: self.config.samples,
+            target: color_target(self.config.color_format, None),
+            beside: None,
+        }
+    }
+
+    fn strands(&self, device: &wgpu::Device) -> Strands {
+        use wgpu::CompareFunction::{Always, Greater};
+        let (config, choices, ribbons) = (self.config, self.config.choices(), self.ribbons());
         if config.samples > 1 {
-            return Self { shadow, strands: Strands::Masked(ribbons.build(device, &choices)) };
+            return Strands::Masked(ribbons.build(device, &choices));
         }
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         let compose = Recipe {
             program: &COMPOSE_HAIR,
-            layout: &compose_layout,
+            layout: &self.compose_layout,
             topology: wgpu::PrimitiveTopology::TriangleList,
             depth: Some((Always, false)),
             target: blended(config.color_format, over.color, over.alpha),
@@ -108,14 +148,23 @@ impl HairPipelines {
             beside: blended(HAIR_CLEAR_FORMAT, multiplied(), multiplied()),
             ..ribbons.clone()
         };
-        let strands = Strands::Layered {
+        Strands::Layered {
             layers: layers.build(device, &choices),
             slices: slices.build(device, &choices),
             blended: layered.build(device, &choices),
             compose: [compose, compose_depth].map(|recipe| recipe.build(device, &choices)),
-        };
-        Self { shadow, strands }
+        }
     }
+}
+
+/// The constants with which strands cover samples, even if there is only one.
+fn masked(mut choices: Vec<Constant>) -> Vec<Constant> {
+    for (name, value) in &mut choices {
+        if *name == COVERAGE_MASK {
+            *value = Value::Flag(true);
+        }
+    }
+    choices
 }
 
 /// Group 3 of passes that draw strands: which of them.

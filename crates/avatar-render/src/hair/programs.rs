@@ -43,7 +43,10 @@ const SWING: Module = Module {
     },
 };
 
-const RIBBON: Module = Module::of(include_str!("shaders/ribbon.wgsl"));
+const RIBBON: Module = Module {
+    text: include_str!("shaders/ribbon.wgsl"),
+    constants: || vec![("SCALP", Value::Count(Region::Scalp as u32))],
+};
 const DRAW: Module = Module::of(include_str!("shaders/draw.wgsl"));
 const INPUTS: Module = Module::of(include_str!("shaders/inputs.wgsl"));
 const COVERAGE: Module = Module::of(include_str!("shaders/coverage.wgsl"));

@@ -3,6 +3,9 @@
 use crate::gpu::program::{Constant, Value};
 use crate::view::shading::{Scattering, Shading};
 
+/// Whether strands cover some of a pixel's samples instead of being blended.
+pub(crate) const COVERAGE_MASK: &str = "COVERAGE_MASK";
+
 /// What a renderer draws into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RendererConfig {
@@ -60,7 +63,7 @@ impl RendererConfig {
             flag("EYE_OPTICS", terms.eye_optics),
             flag("ENCODE_SRGB", self.encodes_in_shader()),
             // Thin strands cover some of a pixel's samples instead of being blended.
-            flag("COVERAGE_MASK", self.samples > 1),
+            flag(COVERAGE_MASK, self.samples > 1),
             flag("TOON", self.shading == Shading::Toon),
         ]
     }

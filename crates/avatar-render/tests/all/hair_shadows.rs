@@ -79,7 +79,7 @@ fn left(shadows: Shadows, avatar: &mut (AvatarModel, AvatarState)) -> [f32; 2] {
     let shading = Shading::Natural(Terms { shadows, ..Terms::NONE });
     let scene = lit_scene(camera, key_light(Vec3::Z));
     let mut picture = |share| {
-        avatar.1.set_hair_detail(HairDetail { share, is_automatic: false, least_pixels: 1.0 });
+        avatar.1.set_hair_detail(HairDetail { share, is_automatic: false, ..HairDetail::default() });
         light_of(shading, SIZE, &scene, avatar)
     };
     let (with, without) = (picture(1.0), picture(0.0));

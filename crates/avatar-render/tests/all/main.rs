@@ -13,6 +13,7 @@ mod hair;
 mod hair_motion;
 mod hair_shadows;
 mod strands;
+mod drafts;
 mod targets;
 mod frames;
 mod limits;

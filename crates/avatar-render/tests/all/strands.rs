@@ -12,7 +12,7 @@ use glam::Vec3;
 
 type Avatar = (AvatarModel, AvatarState);
 
-const ALL: HairDetail = HairDetail { share: 1.0, is_automatic: false, least_pixels: 1.0 };
+const ALL: HairDetail = HairDetail { share: 1.0, is_automatic: false, least_pixels: 1.0, draft: None };
 
 fn draw(gpu: &Gpu, canvas: &Canvas, scene: &Scene, avatar: &mut Avatar, detail: HairDetail) -> Vec<[f32; 4]> {
     avatar.1.set_hair_detail(detail);

@@ -11,6 +11,10 @@ struct HairView {
     width: f32,
     // Width in pixels below which a strand fades instead of getting thinner.
     least_pixels: f32,
+    // The same as `width`, of brows and lashes.
+    other_width: f32,
+    // From one drawn point of a strand to the next.
+    stride: u32,
 }
 
 @group(2) @binding(0) var<uniform> hair: Hair;
@@ -42,11 +46,11 @@ fn random_of(strand: u32) -> vec3f {
 // `corner` counts the corners of the ribbon, two at each point.
 fn strand_point(strand: u32, corner: u32, region: u32) -> StrandPoint {
     let style = hair.regions[region];
-    let i = corner / 2u;
+    let i = corner / 2u * hair_view.stride;
     let first = strand * (SEGMENTS + 2u);
     let here = points[first + i];
-    let before = points[first + max(i, 1u) - 1u].xyz;
-    let after = points[first + min(i + 1u, SEGMENTS)].xyz;
+    let before = points[first + max(i, hair_view.stride) - hair_view.stride].xyz;
+    let after = points[first + min(i + hair_view.stride, SEGMENTS)].xyz;
     var point: StrandPoint;
     point.position = here.xyz;
     point.height = here.w;
@@ -55,7 +59,8 @@ fn strand_point(strand: u32, corner: u32, region: u32) -> StrandPoint {
     point.normal = points[first + SEGMENTS + 1u].xyz;
     // Strands near the cut fade, so that they do not pop where the cut moves.
     let share = saturate((hair_view.strands - f32(strand)) / max(hair_view.fading, 1e-3));
-    let width = hair.width_factor * hair_view.width * share;
+    let factor = select(hair_view.other_width, hair_view.width, region == SCALP);
+    let width = hair.width_factor * factor * share;
     point.radius = mix(style.root_radius, style.tip_radius, point.along) * width;
     return point;
 }

@@ -91,7 +91,8 @@ pub(crate) fn canvas(gpu: &Gpu, size: u32, samples: u32) -> Canvas {
 }
 
 /// All strands as thin as they are.
-pub(crate) const PLAIN: HairDetail = HairDetail { share: 1.0, is_automatic: false, least_pixels: 0.0 };
+pub(crate) const PLAIN: HairDetail =
+    HairDetail { share: 1.0, is_automatic: false, least_pixels: 0.0, draft: None };
 
 /// Linear light, weighted by alpha, and alpha, pixel by pixel.
 pub(crate) fn linear(image: &Image) -> Vec<[f32; 4]> {
