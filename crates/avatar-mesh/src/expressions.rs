@@ -11,6 +11,8 @@
 //!
 //! An expression does not hold back others of its own group.
 
+use lanes::{LANES, Lanes, Simd, Work};
+
 /// An expression of the face.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Expression {
@@ -54,6 +56,7 @@ pub enum Override {
 
 impl Override {
     /// How much an expression with this output takes from others.
+    #[inline(always)]
     fn rate(self, output: f32) -> f32 {
         match self {
             Self::None => 0.0,
@@ -65,6 +68,7 @@ impl Override {
 
 /// The value that is used of an expression: clamped to 0…1, and either 0 or 1 for binary ones. NaN counts as
 /// 0.
+#[inline(always)]
 pub fn output(value: f32, is_binary: bool) -> f32 {
     let value = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
     match is_binary {
@@ -97,10 +101,60 @@ pub fn add(expressions: &[Expression], values: &[f32], weights: &mut [f32]) {
     });
     for (one, output) in with_outputs().filter(|(_, output)| *output > 0.0) {
         let rate = one.group.map_or(0.0, |group| rates[group as usize]);
-        let factor = if one.is_binary && rate > 0.0 { 0.0 } else { 1.0 - rate };
+        let factor = factor(one.is_binary, rate);
         for &(at, weight) in &one.binds {
             if let Some(slot) = weights.get_mut(at) {
                 *slot += output * factor * weight;
+            }
+        }
+    }
+}
+
+/// What is left of an expression from which others take this rate.
+#[inline(always)]
+fn factor(is_binary: bool, rate: f32) -> f32 {
+    if is_binary && rate > 0.0 { 0.0 } else { 1.0 - rate }
+}
+
+/// [`add`] for [`LANES`] faces at once, with the same bits.
+pub fn add_lanes(expressions: &[Expression], values: &[Lanes], weights: &mut [Lanes]) {
+    lanes::run(Add { expressions, values, weights });
+}
+
+/// What is done to each lane is what [`add`] does, in its order; the compiler takes the lanes of a loop
+/// together.
+struct Add<'a> {
+    expressions: &'a [Expression],
+    values: &'a [Lanes],
+    weights: &'a mut [Lanes],
+}
+
+impl Work for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { expressions, values, weights } = self;
+        let with_values = || expressions.iter().zip(values);
+        let mut rates = [Lanes::splat(0.0); Group::ALL.len()];
+        for (group, rate) in Group::ALL.into_iter().zip(&mut rates) {
+            for (one, value) in with_values().filter(|(one, _)| one.group != Some(group)) {
+                let taken = one.overrides[group as usize];
+                for (rate, value) in rate.iter_mut().zip(value.iter()) {
+                    *rate += taken.rate(output(*value, one.is_binary));
+                }
+            }
+            rate.iter_mut().for_each(|rate| *rate = rate.clamp(0.0, 1.0));
+        }
+        for (one, value) in with_values() {
+            let rate = one.group.map_or(Lanes::splat(0.0), |group| rates[group as usize]);
+            for &(at, weight) in &one.binds {
+                let Some(slot) = weights.get_mut(at) else { continue };
+                for lane in 0..LANES {
+                    let output = output(value[lane], one.is_binary);
+                    let more = slot[lane] + output * factor(one.is_binary, rate[lane]) * weight;
+                    slot[lane] = if output > 0.0 { more } else { slot[lane] };
+                }
             }
         }
     }

@@ -51,6 +51,11 @@ fn frames_allocate_nothing() {
     ];
     let drivers = ShapeDrivers::new(&["x"], &["a", "b"], &rules).unwrap();
     nothing("drivers", || drivers.run(&[0.3], &mut w[..2]).unwrap());
+    let mut lanes = [lanes::Lanes::splat(0.3); 4];
+    nothing("drivers of a crowd", || {
+        let (values, weights) = lanes.split_at_mut(2);
+        drivers.run_crowd(1, &values[..1], weights).unwrap();
+    });
 
     let key = |time_secs| SequenceKey { time_secs, positions: mesh.positions.clone() };
     let sequence = Sequence::new(vec![key(0.0), key(1.0)]).unwrap();

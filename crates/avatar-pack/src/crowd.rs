@@ -33,9 +33,7 @@ pub struct FaceCrowd {
     sliders: Vec<Lanes>,
     /// By block, one per shape.
     weights: Vec<Lanes>,
-    /// Sliders and weights of one face.
-    slider_row: Vec<f32>,
-    weight_row: Vec<f32>,
+    shapes: usize,
 }
 
 impl FaceCrowd {
@@ -50,8 +48,7 @@ impl FaceCrowd {
             rigs,
             sliders: vec![Lanes::splat(0.0); blocks * sliders],
             weights: vec![Lanes::splat(0.0); blocks * shapes],
-            slider_row: vec![0.0; sliders],
-            weight_row: vec![0.0; shapes],
+            shapes,
         }
     }
 
@@ -82,13 +79,7 @@ impl FaceCrowd {
             None => pack.binding().apply_crowd(&self.effective, &mut self.rigs, &mut self.weights)?,
             Some(sliders) => {
                 pack.binding().apply_crowd(&self.effective, &mut self.rigs, &mut self.sliders)?;
-                for face in 0..self.rigs.len() {
-                    read(&self.sliders, face, &mut self.slider_row);
-                    sliders.run(&self.slider_row, &mut self.weight_row)?;
-                    let (count, lane) = (self.weight_row.len(), face % LANES);
-                    let block = self.weights.iter_mut().skip(face / LANES * count);
-                    block.zip(&self.weight_row).for_each(|(slot, weight)| slot[lane] = *weight);
-                }
+                sliders.run_crowd(self.rigs.blocks(), &self.sliders, &mut self.weights)?;
             }
         }
         self.rigs.update();
@@ -118,8 +109,8 @@ impl FaceCrowd {
     /// ([`crate::FaceState::weights`]); of a face that the crowd does not have, nothing.
     pub fn copy_weights(&self, face: usize, out: &mut [f32]) {
         if face < self.len() {
-            let block = self.weights.iter().skip(face / LANES * self.weight_row.len());
-            let slots = out.iter_mut().take(self.weight_row.len());
+            let block = self.weights.iter().skip(face / LANES * self.shapes);
+            let slots = out.iter_mut().take(self.shapes);
             slots.zip(block).for_each(|(slot, lanes)| *slot = lanes[face % LANES]);
         }
     }
@@ -138,10 +129,4 @@ impl FaceCrowd {
     pub fn effective(&self) -> &[Lanes] {
         &self.effective
     }
-}
-
-/// One face's numbers, of as many in each block as `out` holds.
-fn read(blocks: &[Lanes], face: usize, out: &mut [f32]) {
-    let block = blocks.iter().skip(face / LANES * out.len());
-    out.iter_mut().zip(block).for_each(|(slot, lanes)| *slot = lanes[face % LANES]);
 }

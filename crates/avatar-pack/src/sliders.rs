@@ -1,5 +1,6 @@
 use avatar_mesh::drivers::{LengthError, ShapeDrivers};
 use avatar_mesh::expressions::{self, Expression};
+use lanes::Lanes;
 
 /// What moves shapes where that is not simply one number for each: shapes that show how a slider is on its
 /// way, and those that count as products of others.
@@ -40,6 +41,33 @@ impl Sliders {
             weights.get_mut(*shape).into_iter().for_each(|slot| *slot -= weight);
         }
         expressions::add(list, values.get(*first_slider..).unwrap_or_default(), weights);
+        Ok(())
+    }
+    /// [`Self::run`] for many faces, with the same bits: by block of [`lanes::LANES`] faces, `values` have
+    /// one number per slider and `weights` one per shape. Allocates nothing.
+    ///
+    /// # Errors
+    /// Slices that are not so long for `blocks` blocks; then nothing has been changed.
+    pub fn run_crowd(
+        &self,
+        blocks: usize,
+        values: &[Lanes],
+        weights: &mut [Lanes],
+    ) -> Result<(), LengthError> {
+        self.drivers.run_crowd(blocks, values, weights)?;
+        let Expressions { first_slider, list, rest } = &self.expressions;
+        if list.is_empty() && rest.is_empty() {
+            return Ok(());
+        }
+        let (sliders, shapes) = (self.drivers.driver_count(), self.drivers.shape_count());
+        for (block, weights) in weights.chunks_exact_mut(shapes.max(1)).enumerate() {
+            for (shape, weight) in rest {
+                let slots = weights.get_mut(*shape).into_iter().flat_map(|lanes| lanes.iter_mut());
+                slots.for_each(|slot| *slot -= weight);
+            }
+            let values = values.get(block * sliders + first_slider..(block + 1) * sliders);
+            expressions::add_lanes(list, values.unwrap_or_default(), weights);
+        }
         Ok(())
     }
 }

@@ -47,8 +47,9 @@ impl BoneLanes {
 ///
 /// The numbers of [`LANES`] rigs lie side by side (a *block*), so that a processor computes them at once; the
 /// last block may have lanes that belong to no rig. A local transform here is a rotation and a translation,
-/// which is what controls make; results are those of [`Rig::update`] to a millionth of
-/// their size for each level of joints. Rigs that scale or shear at run time are posed by [`Rig::update`].
+/// which is what controls make; results are those of [`Rig::update`] to two millionths of their size in rigs
+/// of four levels of joints, of which each of both is off by one. Rigs that scale or shear at run time are
+/// posed by [`Rig::update`].
 ///
 /// With `p` the origin of a joint at rest, in world space, and `M` the linear part of its `W`:
 ///

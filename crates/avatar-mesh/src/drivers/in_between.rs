@@ -17,6 +17,7 @@ struct Neighbour {
 }
 
 impl Peak {
+    #[inline(always)]
     pub(crate) fn weight(self, x: f32) -> f32 {
         let from = |n: Neighbour, inside: bool| match inside || n.outermost {
             true => (x - n.at) / (self.at - n.at),

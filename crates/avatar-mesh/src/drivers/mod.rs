@@ -10,6 +10,7 @@
 //!
 //! [`ShapeDrivers`] is a small program made of such rules; running it allocates nothing.
 
+mod crowd;
 mod in_between;
 
 use in_between::{Peak, peaks};

@@ -4,6 +4,7 @@
 mod common;
 mod blend;
 mod coherence;
+mod crowd;
 mod deform;
 mod deform_bounds;
 mod definitions;
