@@ -1,16 +1,17 @@
 //! Every struct that Rust writes and WGSL reads must lie in memory alike: naga's offsets against
 //! `offset_of!`.
 
+use crate::deform::crowd_chunk::GpuCrowdChunk;
 use crate::deform::posed::GpuDeformedVertex;
 use crate::hair::detail::GpuHairView;
 use crate::hair::swing::{GpuMote, GpuSwing};
 use crate::hair::uniforms::{GpuHair, GpuHairPose, GpuHairRegion};
-use crate::model::active_shapes::{GpuActiveShape, GpuActiveShapesHead};
+use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
 use crate::model::geometry::{GpuPart, GpuVertex, GpuVertexBones};
 use crate::model::material::{GpuIris, GpuMaterial};
 use crate::model::shape_blocks::GpuShapeOffset;
-use crate::program_tests::{all, choices, parsed};
+use crate::program_tests::{all_stages, choices, parsed};
 use crate::view::lamps::GpuLamp;
 use crate::view::shading::{Shading, Terms};
 use crate::view::shadows::GpuShadowView;
@@ -38,7 +39,6 @@ macro_rules! layout {
 
 fn layouts() -> Vec<Layout> {
     let (position, normal) = (offset_of!(GpuShapeOffset, position), offset_of!(GpuShapeOffset, normal));
-    let shapes = size_of::<GpuActiveShapesHead>();
     vec![
         layout!("Part", GpuPart, vertex_count, first_weight, shape_count, rigid_bone, has_vertex_bones),
         layout!("Vertex", GpuVertex, position, u, normal, v),
@@ -56,12 +56,15 @@ fn layouts() -> Vec<Layout> {
             ],
         },
         layout!("ActiveShape", GpuActiveShape, index, weight),
-        Layout {
-            name: "ActiveShapes",
-            // naga counts one element of the array.
-            size: shapes + size_of::<GpuActiveShape>(),
-            members: vec![("count", offset_of!(GpuActiveShapesHead, count)), ("shapes", shapes)],
-        },
+        layout!(
+            "CrowdChunk",
+            GpuCrowdChunk,
+            first_avatar,
+            vertex_count,
+            bone_count,
+            shape_stride,
+            rigid_bone
+        ),
         layout!("DeformedVertex", GpuDeformedVertex, position, is_mirrored, normal),
         layout!("Lamp", GpuLamp, direction_world, radiance),
         layout!(
@@ -209,8 +212,8 @@ fn buffer_types(module: &Module) -> Vec<Handle<Type>> {
 fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
     let layouts = layouts();
     let mut seen = BTreeSet::new();
-    for program in all() {
-        let module = parsed(&program, &choices(Shading::Natural(Terms::HIGH), 1));
+    for (program, stage) in all_stages() {
+        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1));
         for handle in buffer_types(&module) {
             let ty = &module.types[handle];
             let TypeInner::Struct { members, span } = &ty.inner else { continue };
@@ -233,6 +236,10 @@ fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
 fn arrays_step_from_element_to_element_as_in_rust() {
     let sizes = [
         ("posed_from_bind", size_of::<GpuBone>()),
+        ("active_shapes", size_of::<GpuActiveShape>()),
+        ("crowd_bones", size_of::<GpuBone>()),
+        ("drawn", size_of::<u32>()),
+        ("moved", size_of::<u32>()),
         ("vertices", size_of::<GpuVertex>()),
         ("vertex_bones", size_of::<GpuVertexBones>()),
         ("shape_blocks", size_of::<u32>()),
@@ -246,8 +253,8 @@ fn arrays_step_from_element_to_element_as_in_rust() {
         ("motes", size_of::<GpuMote>()),
     ];
     let mut seen = BTreeSet::new();
-    for program in all() {
-        let module = parsed(&program, &choices(Shading::Natural(Terms::HIGH), 1));
+    for (program, stage) in all_stages() {
+        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1));
         for (_, variable) in module.global_variables.iter() {
             let TypeInner::Array { stride, .. } = module.types[variable.ty].inner else { continue };
             let name = variable.name.as_deref().expect("variables have names");

@@ -90,6 +90,7 @@ mod layout_tests;
 #[cfg(test)]
 mod program_tests;
 
+pub use avatar::crowd::AvatarCrowd;
 pub use avatar::model::AvatarModel;
 pub use avatar::read_back::{DeformerError, GrowerError};
 pub use avatar::state::AvatarState;
@@ -101,6 +102,7 @@ pub use avatar_look::{
 };
 /// The crate whose meshes are drawn.
 pub use avatar_mesh;
+pub use deform::crowd_pose::{CrowdError, CrowdWork};
 pub use deform::deformer::Deformer;
 pub use deform::pose::StateError;
 pub use frame::draw::DrawError;

@@ -1,11 +1,13 @@
 //! Every program is parsed and validated, without a GPU.
 
-use crate::deform::deformer::{Ability, DEFORM_PASS};
+use crate::deform::deformer::{Ability, DEFORM_CROWD_PASS, DEFORM_PASS};
 use crate::deform::reversed::REVERSE_PASS;
+use crate::frame::crowd_programs::crowd_vertices;
 use crate::frame::programs::{
     NATURAL, NATURAL_STANDARDS, OCCLUSION_PASS, OUTLINE, PLAIN, PLAIN_STANDARDS, PREPASS, Programs,
     SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS, Standards, TOON, TOON_STANDARDS,
 };
+use crate::gpu::pipeline::OtherVertices;
 use crate::gpu::program::{Constant, Program};
 use crate::hair::programs::{
     COMPOSE_HAIR, COMPOSE_HAIR_DEPTH, GROW_PASS, HAIR_SHADOW_PASS, LAYERED_STRANDS, MASKED_STRANDS,
@@ -15,12 +17,13 @@ use crate::view::config::RendererConfig;
 use crate::view::shading::{Shading, Terms};
 
 /// Every program.
-pub(crate) fn all() -> Vec<Program> {
+fn all() -> Vec<Program> {
     let styles = [PLAIN, NATURAL, TOON];
     let of_style = |p: Programs| [p.skin, p.teeth, p.eyeball, p.skin_back, p.cornea];
     let passes = [
         OUTLINE,
         DEFORM_PASS,
+        DEFORM_CROWD_PASS,
         REVERSE_PASS,
         SHADOW_PASS,
         PREPASS,
@@ -54,8 +57,17 @@ pub(crate) fn choices(shading: Shading, samples: u32) -> Vec<Constant> {
     choices
 }
 
-pub(crate) fn parsed(program: &Program, choices: &[Constant]) -> naga::Module {
-    let source = program.source(choices);
+/// Every program, and those that draw parts once more with the vertices of a crowd.
+pub(crate) fn all_stages() -> impl Iterator<Item = (Program, OtherVertices)> {
+    all().into_iter().flat_map(|program| {
+        let own = OtherVertices { entry: program.entry, modules: &[] };
+        [Some(own), crowd_vertices(program.entry)].into_iter().flatten().map(move |stage| (program, stage))
+    })
+}
+
+/// The program with this vertex stage.
+pub(crate) fn parsed(program: &Program, stage: OtherVertices, choices: &[Constant]) -> naga::Module {
+    let source = program.source_with(choices, stage.modules);
     match naga::front::wgsl::parse_str(&source) {
         Ok(module) => module,
         Err(error) => panic!("{}: {}", program.label, error.emit_to_string(&source)),
@@ -67,16 +79,20 @@ fn every_program_parses_and_validates_without_optional_capabilities() {
     let natural = [Terms::NONE, Terms::LOW, Terms::MEDIUM, Terms::HIGH].map(Shading::Natural);
     for shading in natural.into_iter().chain([Shading::Plain, Shading::Toon]) {
         for choices in [1, 4].map(|samples| choices(shading, samples)) {
-            for program in all() {
-                let module = parsed(&program, &choices);
+            for (program, stage) in all_stages() {
+                let module = parsed(&program, stage, &choices);
                 let mut validator = naga::valid::Validator::new(
                     naga::valid::ValidationFlags::all(),
                     naga::valid::Capabilities::empty(),
                 );
                 if let Err(error) = validator.validate(&module) {
-                    panic!("{}: {}", program.label, error.emit_to_string(&program.source(&choices)));
+                    panic!(
+                        "{}: {}",
+                        program.label,
+                        error.emit_to_string(&program.source_with(&choices, stage.modules))
+                    );
                 }
-                for entry in [Some(program.entry), program.fragment].into_iter().flatten() {
+                for entry in [Some(stage.entry), program.fragment].into_iter().flatten() {
                     assert!(module.entry_points.iter().any(|e| e.name == entry), "{}", program.label);
                 }
             }
@@ -86,8 +102,8 @@ fn every_program_parses_and_validates_without_optional_capabilities() {
 
 #[test]
 fn no_program_needs_more_bindings_than_webgpu_promises() {
-    for program in all() {
-        let module = parsed(&program, &choices(Shading::Natural(Terms::HIGH), 1));
+    for (program, stage) in all_stages() {
+        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1));
         let count = |wanted: &dyn Fn(&naga::TypeInner, naga::AddressSpace) -> bool| {
             let variables = module.global_variables.iter();
             variables.filter(|(_, v)| wanted(&module.types[v.ty].inner, v.space)).count()
@@ -104,8 +120,8 @@ fn no_program_needs_more_bindings_than_webgpu_promises() {
 
 #[test]
 fn no_shader_is_longer_than_a_few_screens() {
-    for program in all() {
-        for module in program.modules {
+    for (program, stage) in all_stages() {
+        for module in program.modules.iter().chain(stage.modules) {
             assert!(module.text.lines().count() <= 160, "{}: {:.60}", program.label, module.text);
         }
     }

@@ -10,6 +10,7 @@ use crate::hair::uniforms::POINT_STRIDE;
 use avatar_groom::SEGMENTS;
 use avatar_mesh::Deformed;
 use glam::{Vec3, Vec4};
+use std::iter;
 
 /// Why a part could not be deformed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -95,7 +96,7 @@ impl Deformer {
         });
         let mut encoder = device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("deform and read back") });
-        self.record(&mut encoder, None, [state.deforming(model)].into_iter());
+        self.record(&mut encoder, None, [state.deforming(model)].into_iter(), iter::empty());
         encoder.copy_buffer_to_buffer(&posed.vertices, 0, &readable, 0, size);
         queue.submit([encoder.finish()]);
         let view = mapped(device, &readable).await?;
@@ -157,7 +158,7 @@ impl Grower {
         });
         let mut encoder = device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("grow and read back") });
-        deformer.record(&mut encoder, None, [state.deforming(model)].into_iter());
+        deformer.record(&mut encoder, None, [state.deforming(model)].into_iter(), iter::empty());
         self.record(&mut encoder, None, state.growing_all(model).into_iter());
         encoder.copy_buffer_to_buffer(&grown.points, 0, &readable, 0, size);
         queue.submit([encoder.finish()]);

@@ -1,5 +1,7 @@
 //! The pass that deforms avatars.
 
+use crate::deform::crowd_chunk::{CROWD_CHUNK, output_layout};
+use crate::deform::crowd_pose::CrowdPose;
 use crate::deform::pose::{AVATAR, Pose, avatar_layout};
 use crate::deform::posed::{PosedPart, deformed_layout};
 use crate::deform::reversed::{DEFORMED, REVERSE_PASS, reversed_layout};
@@ -31,6 +33,20 @@ pub(crate) const DEFORM_PASS: Program = Program {
     modules: &[AVATAR, PART, DEFORMED, DEFORM, Module::of(include_str!("shaders/deform_pass.wgsl"))],
 };
 
+pub(crate) const DEFORM_CROWD_PASS: Program = Program {
+    label: "deform a crowd",
+    entry: "deform_crowd_main",
+    fragment: None,
+    modules: &[
+        AVATAR,
+        PART,
+        DEFORMED,
+        CROWD_CHUNK,
+        DEFORM,
+        Module::of(include_str!("shaders/deform_crowd.wgsl")),
+    ],
+};
+
 /// What a program of the pass can do. What a part does not need costs nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Ability {
@@ -55,6 +71,8 @@ pub struct Deformer {
     /// The others, made for the first frame that needs them.
     others: [OnceLock<wgpu::ComputePipeline>; 3],
     reverse: OnceLock<wgpu::ComputePipeline>,
+    /// Of crowds, made for the first one.
+    crowds: [OnceLock<wgpu::ComputePipeline>; 4],
     device: wgpu::Device,
 }
 
@@ -65,6 +83,7 @@ impl Deformer {
             usual: pipeline(device, Ability::default()),
             others: Default::default(),
             reverse: OnceLock::new(),
+            crowds: Default::default(),
             device: device.clone(),
         }
     }
@@ -79,12 +98,43 @@ impl Deformer {
         self.others[other].get_or_init(|| pipeline(&self.device, ability))
     }
 
+    /// Deforms those avatars of crowds that moved.
+    pub(crate) fn record_crowds<'a>(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        crowds: impl Iterator<Item = (&'a [ModelPart], &'a CrowdPose)>,
+    ) {
+        for (parts, pose) in crowds {
+            pass.set_bind_group(1, &pose.bind_group, &[]);
+            for (index, part) in parts.iter().enumerate().filter(|(_, part)| part.geometry.vertex_count > 0) {
+                let ability = Ability {
+                    has_further_bones: part.geometry.has_further_bones,
+                    is_uneven: pose.is_uneven(),
+                };
+                let place = usize::from(ability.has_further_bones) + 2 * usize::from(ability.is_uneven);
+                let built = || crowd_pipeline(&self.device, ability);
+                let groups = part.geometry.vertex_count.div_ceil(DEFORM_WORKGROUP_SIZE);
+                let mut is_set = false;
+                for chunk in pose.chunks.iter().filter(|chunk| chunk.moved > 0) {
+                    let Some(own) = chunk.parts.get(index) else { continue };
+                    if !std::mem::replace(&mut is_set, true) {
+                        pass.set_pipeline(self.crowds[place].get_or_init(built));
+                        pass.set_bind_group(2, &part.geometry.bind_group, &[]);
+                    }
+                    pass.set_bind_group(0, &own.output, &[]);
+                    pass.dispatch_workgroups(groups, chunk.moved, 1);
+                }
+            }
+        }
+    }
+
     /// Deforms all parts of avatars into the buffers of their poses.
     pub(crate) fn record<'a>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
         avatars: impl Iterator<Item = (&'a [ModelPart], &'a Pose)> + Clone,
+        crowds: impl Iterator<Item = (&'a [ModelPart], &'a CrowdPose)>,
     ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("deform"),
@@ -119,10 +169,16 @@ impl Deformer {
             pass.set_pipeline(self.reverse.get_or_init(built));
             reversed.for_each(|reversed| reversed.record(&mut pass));
         }
+        self.record_crowds(&mut pass, crowds);
     }
 }
 
 fn pipeline(device: &wgpu::Device, ability: Ability) -> wgpu::ComputePipeline {
     let groups = [&deformed_layout(device), &avatar_layout(device), &Geometry::layout(device)];
     compute_pipeline(device, &DEFORM_PASS, &groups, &ability.choices())
+}
+
+fn crowd_pipeline(device: &wgpu::Device, ability: Ability) -> wgpu::ComputePipeline {
+    let groups = [&output_layout(device), &avatar_layout(device), &Geometry::layout(device)];
+    compute_pipeline(device, &DEFORM_CROWD_PASS, &groups, &ability.choices())
 }

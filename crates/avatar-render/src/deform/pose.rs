@@ -4,7 +4,7 @@ use crate::deform::posed::{PosedPart, Turn, deformed_layout};
 use crate::gpu::bindings::storage_entry;
 use crate::gpu::buffers::written_buffer;
 use crate::gpu::program::Module;
-use crate::model::active_shapes::{GpuActiveShape, GpuActiveShapesHead};
+use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
 use crate::model::geometry::Geometry;
 use crate::model::part::ModelPart;
@@ -42,6 +42,7 @@ pub enum StateError {
 #[derive(Debug)]
 pub(crate) struct Pose {
     bones: Vec<GpuBone>,
+    /// Those whose weight is not 0, by rising index, behind [`GpuActiveShape::head`].
     active_shapes: Vec<GpuActiveShape>,
     shape_count: usize,
     /// Also a vertex buffer of eyeballs, whose shader turns the view back to bind pose.
@@ -83,9 +84,8 @@ impl Pose {
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
         });
         let output_layout = deformed_layout(device);
-        let room = shape_count.max(1) * size_of::<GpuActiveShape>();
         // Zeros: no active shapes.
-        let bytes = (size_of::<GpuActiveShapesHead>() + room) as u64;
+        let bytes = ((1 + shape_count) * size_of::<GpuActiveShape>()) as u64;
         let shape_buffer =
             written_buffer(device, "avatar: active shapes", bytes, wgpu::BufferUsages::STORAGE);
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -100,7 +100,7 @@ impl Pose {
             turns: vec![Turn::Even; bones.len()],
             device: device.clone(),
             bones,
-            active_shapes: Vec::with_capacity(shape_count),
+            active_shapes: active_shapes(shape_count),
             shape_count,
             bone_buffer,
             shape_buffer,
@@ -131,18 +131,11 @@ impl Pose {
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
         self.turns.iter_mut().zip(bones).for_each(|(turn, bone)| *turn = Turn::of(bone));
         self.parts.iter_mut().for_each(|part| part.set_turns(&self.device, &self.turns));
-        self.active_shapes.clear();
-        let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
-        self.active_shapes.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
-        let head = GpuActiveShapesHead { count: self.active_shapes.len() as u32 };
+        set_active(&mut self.active_shapes, weights);
         if !self.bones.is_empty() {
             queue.write_buffer(&self.bone_buffer, 0, bytemuck::cast_slice(&self.bones));
         }
-        queue.write_buffer(&self.shape_buffer, 0, bytemuck::bytes_of(&head));
-        if !self.active_shapes.is_empty() {
-            let after_head = size_of::<GpuActiveShapesHead>() as u64;
-            queue.write_buffer(&self.shape_buffer, after_head, bytemuck::cast_slice(&self.active_shapes));
-        }
+        queue.write_buffer(&self.shape_buffer, 0, bytemuck::cast_slice(&self.active_shapes));
         Ok(())
     }
 
@@ -150,19 +143,7 @@ impl Pose {
     /// take the shadows of other avatars away. Rounding in f32 is not added: shadow maps leave more room
     /// around avatars.
     pub(crate) fn bounds(&self, parts: &[ModelPart]) -> Option<Bounds> {
-        // Ascending by index.
-        let weight = |shape: usize| {
-            let found = self.active_shapes.binary_search_by_key(&shape, |active| active.index as usize);
-            found.map_or(0.0, |at| self.active_shapes[at].weight)
-        };
-        let around = |ModelPart { geometry, .. }: &ModelPart| {
-            let range = |shape: usize| [weight(geometry.first_weight + shape); 2];
-            let cells = geometry.bounds.bones().iter();
-            let moved = cells.filter_map(|cell| Some(self.bones.get(cell.bone())?.moved(cell.shaped(range))));
-            let union = moved.filter(is_somewhere).reduce(Bounds::union)?;
-            Some(widened(union, geometry.bounds.excess()))
-        };
-        parts.iter().filter_map(around).filter(is_somewhere).reduce(Bounds::union)
+        bounds(parts, &self.bones, &self.active_shapes)
     }
 
     /// Where the middle of a part is now, roughly.
@@ -173,7 +154,41 @@ impl Pose {
     }
 }
 
-fn is_somewhere(bounds: &Bounds) -> bool {
+/// Room for the active shapes of an avatar, all at rest.
+fn active_shapes(shape_count: usize) -> Vec<GpuActiveShape> {
+    let mut active = Vec::with_capacity(1 + shape_count);
+    active.push(GpuActiveShape::head(0));
+    active
+}
+
+/// Lists the shapes whose weight is not 0 behind their number.
+fn set_active(active: &mut Vec<GpuActiveShape>, weights: &[f32]) {
+    active.truncate(1);
+    let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+    active.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
+    let count = active.len().saturating_sub(1);
+    active.iter_mut().take(1).for_each(|head| *head = GpuActiveShape::head(count));
+}
+
+/// A box around all parts with these bones and active shapes; see [`Pose::bounds`].
+pub(crate) fn bounds(parts: &[ModelPart], bones: &[GpuBone], active: &[GpuActiveShape]) -> Option<Bounds> {
+    let active = active.get(1..).unwrap_or_default();
+    // Ascending by index.
+    let weight = |shape: usize| {
+        let found = active.binary_search_by_key(&shape, |active| active.index as usize);
+        found.map_or(0.0, |at| active[at].weight)
+    };
+    let around = |ModelPart { geometry, .. }: &ModelPart| {
+        let range = |shape: usize| [weight(geometry.first_weight + shape); 2];
+        let cells = geometry.bounds.bones().iter();
+        let moved = cells.filter_map(|cell| Some(bones.get(cell.bone())?.moved(cell.shaped(range))));
+        let union = moved.filter(is_somewhere).reduce(Bounds::union)?;
+        Some(widened(union, geometry.bounds.excess()))
+    };
+    parts.iter().filter_map(around).filter(is_somewhere).reduce(Bounds::union)
+}
+
+pub(crate) fn is_somewhere(bounds: &Bounds) -> bool {
     bounds.size().is_finite() && bounds.center().is_finite()
 }
 
@@ -183,7 +198,7 @@ const NEGLIGIBLE_EXCESS: f32 = 1e-3;
 
 /// The union of the boxes that bones move, enlarged by how far weights below 0 and sums of weights other than
 /// 1 carry vertices out of it; see [`DeformBounds::excess`](avatar_mesh::DeformBounds::excess).
-fn widened(union: Bounds, excess: [f32; 2]) -> Bounds {
+pub(crate) fn widened(union: Bounds, excess: [f32; 2]) -> Bounds {
     let [overshoot, sum_off] = excess.map(|excess| if excess > NEGLIGIBLE_EXCESS { excess } else { 0.0 });
     let furthest = union.min.abs().max(union.max.abs());
     let wider = overshoot * union.size() + sum_off * furthest;

@@ -56,7 +56,7 @@ impl Renderer {
             }),
             ..Default::default()
         });
-        if let Some((_, pipeline)) = self.picture.first() {
+        if let Some((_, pipeline)) = self.parts.picture.first() {
             pass.set_pipeline(pipeline);
         }
         drop(pass);

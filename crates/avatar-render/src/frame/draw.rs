@@ -1,5 +1,6 @@
 //! Draws frames.
 
+use crate::avatar::crowd::AvatarCrowd;
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::frame::passes::{FRAME_PASSES, Pass};
@@ -11,7 +12,7 @@ use crate::frame::timer::PassTimer;
 use crate::gpu::color::srgb_from_linear;
 use crate::hair::pipelines::MOST_HEADS;
 use crate::view::scene::Scene;
-use crate::view::seen::Seen;
+use crate::view::seen::{Seen, is_in_view};
 use crate::view::shadows::{GpuShadowView, ShadowViews};
 use crate::view::uniforms::{GpuFrame, pixels_per_unit};
 
@@ -24,6 +25,12 @@ pub enum DrawError {
     StateOfAnotherModel {
         /// Position in the slice of avatars.
         avatar: usize,
+    },
+    /// A crowd of another model.
+    #[error("crowd {crowd}: expected the crowd of its model, found that of another one")]
+    CrowdOfAnotherModel {
+        /// Position in the slice of crowds.
+        crowd: usize,
     },
     /// More heads of hair than one frame can hold.
     #[error("expected at most {limit} avatars with hair in view, found {found}")]
@@ -113,7 +120,34 @@ impl Renderer {
         avatars: &[(&AvatarModel, &AvatarState)],
         timer: Option<&PassTimer>,
     ) -> Result<(), DrawError> {
+        self.draw_crowds(encoder, view, targets, queue, scene, avatars, &mut [], timer)
+    }
+
+    /// [`Renderer::draw_timed`] with crowds beside the other avatars.
+    ///
+    /// Blended parts of crowds are drawn after those of the others, and part by part, so that of two blended
+    /// parts of different avatars the nearer may be drawn first. A crowd that stands in several frames must
+    /// be submitted with each of them before the next one is recorded: a frame writes what of the crowd it
+    /// shows, and takes its avatars for deformed from then on.
+    ///
+    /// # Errors
+    /// As above, or a crowd of another model.
+    #[allow(clippy::too_many_arguments, reason = "those of `draw_timed` and one more")]
+    pub fn draw_crowds(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &wgpu::TextureView,
+        targets: &Targets,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
+        timer: Option<&PassTimer>,
+    ) -> Result<(), DrawError> {
         self.check(view, targets, avatars)?;
+        if let Some(crowd) = crowds.iter().position(|(model, crowd)| !crowd.fits(model)) {
+            return Err(DrawError::CrowdOfAnotherModel { crowd });
+        }
         let pixels_per_unit = pixels_per_unit(&scene.camera, targets.size());
         let has_strands = |avatar: &&(&AvatarModel, &AvatarState)| {
             strands_in_view(**avatar, &scene.camera, pixels_per_unit, f32::INFINITY).is_some()
@@ -125,9 +159,19 @@ impl Renderer {
         let has_hair = heads > 0;
         let terms = self.config().shading.terms();
         let boxes = avatars.iter().map(|(model, state)| (state.bounds(model), model.height));
+        let of_crowds = crowds
+            .iter()
+            .flat_map(|(model, crowd)| crowd.pose.bounds().map(|bounds| (Some(bounds), model.height)));
+        let boxes = boxes.chain(of_crowds);
         let seen = Seen::new(&scene.camera, boxes.clone());
         let casters = boxes.filter_map(|(bounds, _)| bounds);
         let shadows = ShadowViews::new(&scene.light, seen.bounds, casters, terms.shadows);
+        let lamps = terms.shadows.lamps() as usize;
+        for (_, crowd) in crowds.iter_mut() {
+            let is_in_view = |bounds| is_in_view(&scene.camera, bounds);
+            let casts = |bounds| shadows.0.iter().take(lamps).any(|view| view.meets(bounds));
+            crowd.pose.choose(queue, scene.camera.eye(), is_in_view, casts);
+        }
         let irradiance = self.resources.environment.irradiance(queue, &scene.light.environment, terms);
         let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), seen.height);
         if has_hair {
@@ -139,6 +183,7 @@ impl Renderer {
             targets,
             scene,
             avatars,
+            crowds,
             clear: self.clear_color(scene.background),
             frame_offset: self.resources.frames.push(queue, &gpu_frame),
             shadow_offsets: shadows.0.map(|view| {

@@ -1,8 +1,10 @@
 //! Builds the pipelines of all passes that draw parts.
 
+use crate::deform::crowd_chunk::crowd_layout;
 use crate::deform::posed::GpuDeformedVertex;
 use crate::frame::drawables::Drawable;
 use crate::frame::programs::{OCCLUSION_PASS, PREPASS, SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS};
+use crate::frame::vertices::{PipelineLayouts, Vertices, build};
 use crate::gpu::bindings::dynamic_uniform_entry;
 use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
 use crate::gpu::ring::Ring;
@@ -41,12 +43,12 @@ pub(crate) struct Layouts {
     pub(crate) view: wgpu::BindGroupLayout,
     /// Group 0 of the shadow pass.
     pub(crate) shadow: wgpu::BindGroupLayout,
-    pub(crate) pipeline: wgpu::PipelineLayout,
+    pub(crate) pipeline: PipelineLayouts,
     /// Passes over the whole picture know no parts.
     whole_picture: wgpu::PipelineLayout,
-    shadow_pipeline: wgpu::PipelineLayout,
+    shadow_pipeline: PipelineLayouts,
     /// Shadows of surfaces with holes, which depend on their looks.
-    pub(crate) cut_shadow_pipeline: wgpu::PipelineLayout,
+    pub(crate) cut_shadow_pipeline: PipelineLayouts,
 }
 
 impl Layouts {
@@ -57,16 +59,13 @@ impl Layouts {
             label: Some("shadow view"),
             entries: &[dynamic_uniform_entry(wgpu::ShaderStages::VERTEX, Ring::<GpuShadowView>::BYTES)],
         });
-        let looks = look_layout(device);
+        let (looks, crowd) = (look_layout(device), crowd_layout(device));
+        let layouts = |label, groups| PipelineLayouts::new(device, label, groups, &crowd);
         Self {
-            pipeline: pipeline_layout(device, "parts of avatars", &[frame, &view, &looks]),
+            pipeline: layouts("parts of avatars", [Some(frame), Some(&view), Some(&looks)]),
             whole_picture: pipeline_layout(device, "whole picture", &[frame, &view]),
-            shadow_pipeline: pipeline_layout(device, "shadow", &[&shadow]),
-            cut_shadow_pipeline: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("shadow of what has holes"),
-                bind_group_layouts: &[Some(&shadow), None, Some(&looks)],
-                immediate_size: 0,
-            }),
+            shadow_pipeline: layouts("shadow", [Some(&shadow), None, None]),
+            cut_shadow_pipeline: layouts("shadow of what has holes", [Some(&shadow), None, Some(&looks)]),
             view,
             shadow,
         }
@@ -85,7 +84,12 @@ pub(crate) struct PassPipelines {
 }
 
 impl PassPipelines {
-    pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts, config: RendererConfig) -> Self {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        layouts: &Layouts,
+        config: RendererConfig,
+        vertices: Vertices,
+    ) -> Self {
         let terms = config.shading.terms();
         let choices = config.choices();
         let bind = bind_attributes();
@@ -94,7 +98,7 @@ impl PassPipelines {
         let part = part_buffers(&bind, &posed, &curvature, None);
         let front = Recipe {
             program: &PREPASS,
-            layout: &layouts.pipeline,
+            layout: layouts.pipeline.of(vertices),
             topology: wgpu::PrimitiveTopology::TriangleList,
             buffers: &part,
             cull_mode: Some(wgpu::Face::Back),
@@ -117,13 +121,14 @@ impl PassPipelines {
             wgpu::VertexStepMode::Vertex,
             &shadow_position,
         ))];
-        let build = |needed: bool, recipe: Recipe<'_>| needed.then(|| recipe.build(device, &choices));
+        let built =
+            |needed: bool, recipe: Recipe<'_>| needed.then(|| build(&recipe, device, &choices, vertices));
         Self {
-            shadow: build(
+            shadow: built(
                 terms.shadows.lamps() > 0,
                 Recipe {
                     program: &SHADOW_PASS,
-                    layout: &layouts.shadow_pipeline,
+                    layout: layouts.shadow_pipeline.of(vertices),
                     buffers: &shadow_buffers,
                     // Open sheets cast shadows, too.
                     cull_mode: None,
@@ -137,10 +142,11 @@ impl PassPipelines {
             ),
             prepass: terms.prepass().then(|| {
                 [front.clone(), Recipe { cull_mode: None, ..front.clone() }]
-                    .map(|recipe| recipe.build(device, &choices))
+                    .map(|recipe| build(&recipe, device, &choices, vertices))
             }),
-            occlusion: build(
-                terms.occlusion,
+            // Knows no parts: that of single avatars serves all.
+            occlusion: built(
+                terms.occlusion && vertices == Vertices::OfOne,
                 Recipe {
                     program: &OCCLUSION_PASS,
                     layout: &layouts.whole_picture,
@@ -151,8 +157,8 @@ impl PassPipelines {
                     ..front.clone()
                 },
             ),
-            skin_light: build(terms.separable(), on_skin(&SKIN_LIGHT_PASS)),
-            scatter_across: build(terms.separable(), on_skin(&SCATTER_PASS)),
+            skin_light: built(terms.separable(), on_skin(&SKIN_LIGHT_PASS)),
+            scatter_across: built(terms.separable(), on_skin(&SCATTER_PASS)),
         }
     }
 }
@@ -163,6 +169,7 @@ pub(crate) fn picture_pipeline(
     layouts: &Layouts,
     drawable: &Drawable,
     config: RendererConfig,
+    vertices: Vertices,
 ) -> wgpu::RenderPipeline {
     let bind = bind_attributes();
     let posed = posed_attributes();
@@ -172,7 +179,7 @@ pub(crate) fn picture_pipeline(
     let blend = drawable.is_transparent.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
     let recipe = Recipe {
         program: &drawable.program,
-        layout: &layouts.pipeline,
+        layout: layouts.pipeline.of(vertices),
         topology: wgpu::PrimitiveTopology::TriangleList,
         buffers: &part,
         cull_mode: drawable.cull_mode,
@@ -183,7 +190,7 @@ pub(crate) fn picture_pipeline(
         target: color_target(config.color_format, blend),
         beside: None,
     };
-    recipe.build(device, &config.choices())
+    build(&recipe, device, &config.choices(), vertices)
 }
 
 const fn attribute(format: wgpu::VertexFormat, offset: usize, shader_location: u32) -> wgpu::VertexAttribute {

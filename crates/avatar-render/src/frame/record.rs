@@ -1,10 +1,16 @@
 //! Records the passes of one frame.
 
+use crate::avatar::crowd::AvatarCrowd;
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
+use crate::deform::crowd_chunk::Chosen;
 use crate::deform::posed::PosedPart;
-use crate::frame::part_pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, EXTRA_SLOT, POSED_SLOT};
+use crate::frame::begin::{PictureStep, depth_attachment};
+use crate::frame::part_pipelines::{
+    BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, EXTRA_SLOT, POSED_SLOT, PassPipelines,
+};
 use crate::frame::passes::Pass;
+use crate::frame::pipelines::PartPipelines;
 use crate::frame::renderer::Renderer;
 use crate::frame::standard::{Sides, Step};
 use crate::frame::targets::Targets;
@@ -24,6 +30,7 @@ pub(crate) struct Recording<'a> {
     pub(crate) targets: &'a Targets,
     pub(crate) scene: &'a Scene,
     pub(crate) avatars: &'a [(&'a AvatarModel, &'a AvatarState)],
+    pub(crate) crowds: &'a [(&'a AvatarModel, &'a mut AvatarCrowd)],
     pub(crate) clear: wgpu::Color,
     pub(crate) frame_offset: u32,
     pub(crate) shadow_offsets: [u32; SHADOW_COUNT],
@@ -35,31 +42,19 @@ pub(crate) struct Recording<'a> {
     pub(crate) queue: &'a wgpu::Queue,
 }
 
-/// The position of a pass among those that draw into the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PictureStep {
-    /// There is no other.
-    Only,
-    /// It clears the picture.
-    First,
-    /// It draws over what is there.
-    Between,
-    /// It leaves the picture in the caller's view.
-    Last,
-}
-
 /// A part of an avatar.
 type Item<'a> = (&'a ModelPart, &'a PosedPart, &'a AvatarState);
 
 impl<'a> Recording<'a> {
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, pass: Pass) {
         let (renderer, targets) = (self.renderer, self.targets);
-        let pipelines = &renderer.passes;
+        let pipelines = &renderer.parts.passes;
         match pass {
             Pass::Deform => {
                 let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
                 let avatars = self.avatars.iter().map(|(model, state)| state.deforming(model));
-                renderer.deformer.record(encoder, timestamps, avatars);
+                let crowds = self.crowds.iter().map(|(model, crowd)| (&*model.parts, &crowd.pose));
+                renderer.deformer.record(encoder, timestamps, avatars, crowds);
             }
             Pass::GrowHair => {
                 let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
@@ -67,28 +62,7 @@ impl<'a> Recording<'a> {
             }
             Pass::Shadows => self.shadows(encoder),
             Pass::HairShadow => self.hair_shadow(encoder),
-            Pass::Prepass => {
-                let Some([front, both]) = &pipelines.prepass else { return };
-                let depth = depth_attachment(&targets.single_depth);
-                let mut pass = self.begin(encoder, pass, Some(&targets.normals), Some(depth));
-                self.set_groups(&mut pass, &targets.for_prepass);
-                for (kind, pipeline) in
-                    [(PartKind::Skin, both), (PartKind::Surface, both), (PartKind::Eyeball, front)]
-                {
-                    pass.set_pipeline(pipeline);
-                    self.draw_kind(&mut pass, kind);
-                }
-                for (sides, pipeline) in [(Sides::Front, front), (Sides::Both, both)] {
-                    pass.set_pipeline(pipeline);
-                    self.draw_items(&mut pass, move |part| {
-                        let finish = part.finish.get();
-                        finish.is_some_and(|finish| {
-                            finish.opacity == Opacity::Opaque && Sides::of(finish.is_double_sided) == sides
-                        })
-                    });
-                }
-                self.draw_standard(&mut pass, Step::CutPrepass, Finish::is_cut);
-            }
+            Pass::Prepass => self.prepass(encoder),
             Pass::Occlusion => {
                 let Some(pipeline) = &pipelines.occlusion else { return };
                 let mut pass = self.begin(encoder, pass, Some(&targets.occlusion), None);
@@ -98,11 +72,17 @@ impl<'a> Recording<'a> {
             }
             Pass::SkinLight => {
                 let group = &targets.for_skin_light;
-                self.on_skin(encoder, pass, pipelines.skin_light.as_ref(), &targets.skin_light, group);
+                self.on_skin(encoder, pass, |passes| passes.skin_light.as_ref(), &targets.skin_light, group);
             }
             Pass::ScatterAcross => {
                 let group = &targets.for_scattering;
-                self.on_skin(encoder, pass, pipelines.scatter_across.as_ref(), &targets.scattered, group);
+                self.on_skin(
+                    encoder,
+                    pass,
+                    |passes| passes.scatter_across.as_ref(),
+                    &targets.scattered,
+                    group,
+                );
             }
             Pass::Picture => self.picture(encoder),
             Pass::Hair => self.strands(encoder),
@@ -110,16 +90,43 @@ impl<'a> Recording<'a> {
         }
     }
 
+    fn prepass(&self, encoder: &mut wgpu::CommandEncoder) {
+        let (targets, passes) = (self.targets, &self.renderer.parts.passes);
+        let Some([front, both]) = &passes.prepass else { return };
+        let depth = depth_attachment(&targets.single_depth);
+        let mut pass = self.begin(encoder, Pass::Prepass, Some(&targets.normals), Some(depth));
+        self.set_groups(&mut pass, &targets.for_prepass);
+        for (kind, place) in [(PartKind::Skin, 1), (PartKind::Surface, 1), (PartKind::Eyeball, 0)] {
+            pass.set_pipeline([front, both][place]);
+            self.draw_kind(&mut pass, kind);
+            let of_crowds = |parts: &'a PartPipelines| parts.passes.prepass.as_ref()?.get(place);
+            self.draw_crowds_kind(&mut pass, Chosen::Drawn, kind, of_crowds);
+        }
+        for (sides, place) in [(Sides::Front, 0), (Sides::Both, 1)] {
+            let is_wanted = move |part: &ModelPart| {
+                let finish = part.finish.get();
+                finish.is_some_and(|finish| {
+                    finish.opacity == Opacity::Opaque && Sides::of(finish.is_double_sided) == sides
+                })
+            };
+            pass.set_pipeline([front, both][place]);
+            self.draw_items(&mut pass, is_wanted);
+            let of_crowds = |parts: &'a PartPipelines| parts.passes.prepass.as_ref()?.get(place);
+            self.draw_crowds(&mut pass, Chosen::Drawn, is_wanted, |parts, _| of_crowds(parts));
+        }
+        self.draw_standard(&mut pass, Step::CutPrepass, Finish::is_cut);
+    }
+
     /// A pass over the skin that is seen.
     fn on_skin(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         pass: Pass,
-        pipeline: Option<&wgpu::RenderPipeline>,
+        pipeline: fn(&PassPipelines) -> Option<&wgpu::RenderPipeline>,
         color: &wgpu::TextureView,
         group: &wgpu::BindGroup,
     ) {
-        let Some(pipeline) = pipeline else { return };
+        let Some(own) = pipeline(&self.renderer.parts.passes) else { return };
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: &self.targets.single_depth,
             // Read only: the pass reads the same texture.
@@ -128,13 +135,14 @@ impl<'a> Recording<'a> {
         };
         let mut pass = self.begin(encoder, pass, Some(color), Some(depth));
         self.set_groups(&mut pass, group);
-        pass.set_pipeline(pipeline);
+        pass.set_pipeline(own);
         self.draw_kind(&mut pass, PartKind::Skin);
+        self.draw_crowds_kind(&mut pass, Chosen::Drawn, PartKind::Skin, |parts| pipeline(&parts.passes));
     }
 
     fn shadows(&self, encoder: &mut wgpu::CommandEncoder) {
         let renderer = self.renderer;
-        let Some(pipeline) = &renderer.passes.shadow else { return };
+        let Some(pipeline) = &renderer.parts.passes.shadow else { return };
         let layers = &renderer.resources.shadow_layers;
         for (i, (layer, offset)) in layers.iter().zip(self.shadow_offsets).enumerate() {
             let span = Span::of(i, layers.len());
@@ -153,10 +161,10 @@ impl<'a> Recording<'a> {
                 timestamp_writes: timestamps,
                 ..Default::default()
             });
-            pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &renderer.shadow_group, &[offset]);
             // Corneas are clear.
             for kind in [PartKind::Skin, PartKind::Surface, PartKind::Eyeball] {
+                pass.set_pipeline(pipeline);
                 let is_whole = move |part: &ModelPart| {
                     part.kind == kind
                         && part.finish.get().is_none_or(|finish| finish.opacity == Opacity::Opaque)
@@ -166,6 +174,9 @@ impl<'a> Recording<'a> {
                     pass.set_vertex_buffer(0, posed.vertices.slice(..));
                     pass.draw_indexed(0..part.geometry.index_count, 0, 0..1);
                 }
+                self.draw_crowds(&mut pass, Chosen::Casting, is_whole, |parts, _| {
+                    parts.passes.shadow.as_ref()
+                });
             }
             self.draw_standard(&mut pass, Step::CutShadow, |finish| finish.opacity != Opacity::Opaque);
         }
@@ -192,10 +203,13 @@ impl<'a> Recording<'a> {
     }
 
     fn draw_opaque(&self, pass: &mut wgpu::RenderPass<'_>) {
-        for (drawable, pipeline) in self.renderer.picture.iter().filter(|(d, _)| !d.is_transparent) {
+        let picture = self.renderer.parts.picture.iter().enumerate();
+        for (place, (drawable, pipeline)) in picture.filter(|(_, (drawable, _))| !drawable.is_transparent) {
             pass.push_debug_group(drawable.label);
             pass.set_pipeline(pipeline);
             self.draw_kind(pass, drawable.kind);
+            let of_crowds = |parts: &'a PartPipelines| Some(&parts.picture.get(place)?.1);
+            self.draw_crowds_kind(pass, Chosen::Drawn, drawable.kind, of_crowds);
             pass.pop_debug_group();
         }
         self.draw_standard(pass, Step::Opaque, |finish| finish.opacity == Opacity::Opaque);
@@ -206,7 +220,7 @@ impl<'a> Recording<'a> {
     /// Corneas and what else is blended, from far to near.
     fn draw_blended(&self, pass: &mut wgpu::RenderPass<'_>) {
         let eye = self.scene.camera.eye();
-        let corneas = self.renderer.picture.iter().find(|(drawable, _)| drawable.is_transparent);
+        let corneas = self.renderer.parts.picture.iter().find(|(drawable, _)| drawable.is_transparent);
         let Some((drawable, corneas)) = corneas else { return };
         pass.push_debug_group(drawable.label);
         let mut far = self.renderer.far_to_near.lock().unwrap_or_else(PoisonError::into_inner);
@@ -231,77 +245,8 @@ impl<'a> Recording<'a> {
                 draw_part(pass, part, posed, state);
             }
         }
+        self.draw_blended_crowds(pass);
         pass.pop_debug_group();
-    }
-
-    /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's
-    /// view.
-    pub(crate) fn begin_picture<'e>(
-        &self,
-        encoder: &'e mut wgpu::CommandEncoder,
-        pass: Pass,
-        step: PictureStep,
-        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) -> wgpu::RenderPass<'e> {
-        use wgpu::{LoadOp, StoreOp};
-        let targets = self.targets;
-        let is_first = matches!(step, PictureStep::Only | PictureStep::First);
-        let is_last = matches!(step, PictureStep::Only | PictureStep::Last);
-        let kept = |keep| if keep { StoreOp::Store } else { StoreOp::Discard };
-        let (view, resolve_target, store) = match &targets.multisampled {
-            Some(several) => (several, is_last.then_some(self.view), kept(!is_last)),
-            None => (self.view, None, StoreOp::Store),
-        };
-        let load = if is_first { LoadOp::Clear(self.clear) } else { LoadOp::Load };
-        // Depth is reversed: 0 is far.
-        let depth_load = if is_first { LoadOp::Clear(0.0) } else { LoadOp::Load };
-        let mut begun = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(pass.label()),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target,
-                ops: wgpu::Operations { load, store },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &targets.depth,
-                depth_ops: Some(wgpu::Operations { load: depth_load, store: kept(!is_last) }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: timestamps,
-            ..Default::default()
-        });
-        self.set_groups(&mut begun, &targets.for_picture);
-        begun
-    }
-
-    pub(crate) fn begin<'e>(
-        &self,
-        encoder: &'e mut wgpu::CommandEncoder,
-        pass: Pass,
-        color: Option<&wgpu::TextureView>,
-        depth: Option<wgpu::RenderPassDepthStencilAttachment<'_>>,
-    ) -> wgpu::RenderPass<'e> {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some(pass.label()),
-            color_attachments: &[color.map(|view| wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: depth,
-            timestamp_writes: self.timer.and_then(|timer| timer.render_pass(pass, Span::Whole)),
-            ..Default::default()
-        })
-    }
-
-    pub(crate) fn set_groups(&self, pass: &mut wgpu::RenderPass<'_>, view: &wgpu::BindGroup) {
-        pass.set_bind_group(0, &self.renderer.resources.bind_group, &[self.frame_offset]);
-        pass.set_bind_group(1, view, &[]);
     }
 
     /// The parts that are wanted, those of one model together.
@@ -341,37 +286,43 @@ impl<'a> Recording<'a> {
         let mut bound: Option<&ModelPart> = None;
         for (part, posed, state) in self.items(move |part| part.finish.get().is_some_and(is_wanted)) {
             if !bound.is_some_and(|bound| std::ptr::eq(bound, part)) {
-                let sides = match step {
-                    // Open sheets cast shadows, too.
-                    Step::CutShadow => Sides::Both,
-                    // Back sides that show beyond the front.
-                    Step::Outline => Sides::Back,
-                    _ => Sides::of(part.finish.get().is_some_and(|finish| finish.is_double_sided)),
-                };
-                pass.set_pipeline(self.standard(step, sides, part));
+                pass.set_pipeline(self.standard(step, sides(step, part), part));
                 bind_part(pass, part);
                 bound = Some(part);
             }
             draw_part(pass, part, posed, state);
         }
+        self.draw_standard_crowds(pass, step, is_wanted);
     }
 
     fn standard(&self, step: Step, sides: Sides, part: &ModelPart) -> &'a wgpu::RenderPipeline {
-        let renderer = self.renderer;
-        renderer.standard.get(&renderer.layouts, renderer.config(), step, sides, part)
+        self.standard_of(&self.renderer.parts, step, sides, part)
+    }
+
+    /// One of these pipelines.
+    pub(crate) fn standard_of(
+        &self,
+        parts: &'a PartPipelines,
+        step: Step,
+        sides: Sides,
+        part: &ModelPart,
+    ) -> &'a wgpu::RenderPipeline {
+        parts.standard.get(&self.renderer.layouts, self.renderer.config(), step, sides, part)
     }
 }
 
-/// Depth is reversed: 0 is far.
-fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-        stencil_ops: None,
+/// Which sides of a part a step draws.
+pub(crate) fn sides(step: Step, part: &ModelPart) -> Sides {
+    match step {
+        // Open sheets cast shadows, too.
+        Step::CutShadow => Sides::Both,
+        // Back sides that show beyond the front.
+        Step::Outline => Sides::Back,
+        _ => Sides::of(part.finish.get().is_some_and(|finish| finish.is_double_sided)),
     }
 }
 
-fn bind_part(pass: &mut wgpu::RenderPass<'_>, part: &ModelPart) {
+pub(crate) fn bind_part(pass: &mut wgpu::RenderPass<'_>, part: &ModelPart) {
     let geometry = &part.geometry;
     pass.set_bind_group(2, &part.look, &[]);
     pass.set_vertex_buffer(BIND_SLOT, geometry.vertices.slice(..));

@@ -1,10 +1,10 @@
 //! What draws avatars: pipelines, tables and shadow maps.
 
 use crate::deform::deformer::Deformer;
-use crate::frame::drawables::{Drawable, draw_order};
 use crate::frame::far_to_near::FarToNear;
-use crate::frame::part_pipelines::{Layouts, PassPipelines, picture_pipeline};
-use crate::frame::standard::StandardPipelines;
+use crate::frame::part_pipelines::Layouts;
+use crate::frame::pipelines::PartPipelines;
+use crate::frame::vertices::Vertices;
 use crate::gpu::identity::Identity;
 use crate::gpu::ring::Ring;
 use crate::hair::grower::Grower;
@@ -45,11 +45,9 @@ pub struct Renderer {
     pub(crate) resources: Resources,
     pub(crate) layouts: Layouts,
     pub(crate) deformer: Deformer,
-    pub(crate) passes: PassPipelines,
-    /// In the order of drawing.
-    pub(crate) picture: Vec<(Drawable, wgpu::RenderPipeline)>,
-    /// Of surfaces of interchange files.
-    pub(crate) standard: StandardPipelines,
+    pub(crate) parts: PartPipelines,
+    /// Made for the first picture with a crowd.
+    crowd_parts: OnceLock<PartPipelines>,
     pub(crate) grower: Grower,
     pub(crate) device: wgpu::Device,
     /// Made for the first picture with hair.
@@ -89,11 +87,8 @@ impl Renderer {
             device: device.clone(),
             hair: OnceLock::new(),
             hair_views: HairViews::new(device),
-            passes: PassPipelines::new(device, &layouts, config),
-            picture: (draw_order(config.shading).into_iter())
-                .map(|drawable| (drawable, picture_pipeline(device, &layouts, &drawable, config)))
-                .collect(),
-            standard: StandardPipelines::new(device),
+            parts: PartPipelines::new(device, &layouts, config, Vertices::OfOne),
+            crowd_parts: OnceLock::new(),
             resources,
             layouts,
             shadow_views,
@@ -110,6 +105,12 @@ impl Renderer {
     /// What draws strands.
     pub(crate) fn hair(&self) -> &HairPipelines {
         self.hair.get_or_init(|| HairPipelines::new(&self.device, &self.resources.layout, self.config))
+    }
+
+    /// What draws the parts of crowds.
+    pub(crate) fn crowd_parts(&self) -> &PartPipelines {
+        let build = || PartPipelines::new(&self.device, &self.layouts, self.config, Vertices::OfCrowd);
+        self.crowd_parts.get_or_init(build)
     }
 
     /// Tells renderers apart.

@@ -3,6 +3,7 @@
 
 use crate::frame::part_pipelines::{Layouts, NORMAL_FORMAT, cut_shadow_buffers, standard_buffers};
 use crate::frame::programs::{Standards, standards};
+use crate::frame::vertices::{Vertices, build as build_parts};
 use crate::gpu::pipeline::{Recipe, color_target};
 use crate::gpu::program::Program;
 use crate::model::part::ModelPart;
@@ -55,12 +56,13 @@ const SIDES: usize = 3;
 #[derive(Debug)]
 pub(crate) struct StandardPipelines {
     device: wgpu::Device,
+    vertices: Vertices,
     built: [OnceLock<wgpu::RenderPipeline>; STEPS * SIDES * 2],
 }
 
 impl StandardPipelines {
-    pub(crate) fn new(device: &wgpu::Device) -> Self {
-        Self { device: device.clone(), built: [const { OnceLock::new() }; STEPS * SIDES * 2] }
+    pub(crate) fn new(device: &wgpu::Device, vertices: Vertices) -> Self {
+        Self { device: device.clone(), vertices, built: [const { OnceLock::new() }; STEPS * SIDES * 2] }
     }
 
     /// The pipeline for a part.
@@ -74,7 +76,8 @@ impl StandardPipelines {
     ) -> &wgpu::RenderPipeline {
         let has_extras = part.geometry.extras.is_some();
         let place = (step as usize * SIDES + sides as usize) * 2 + usize::from(has_extras);
-        self.built[place].get_or_init(|| build(&self.device, layouts, config, step, sides, has_extras))
+        let build = || build(&self.device, layouts, config, self.vertices, (step, sides, has_extras));
+        self.built[place].get_or_init(build)
     }
 }
 
@@ -95,9 +98,8 @@ fn build(
     device: &wgpu::Device,
     layouts: &Layouts,
     config: RendererConfig,
-    step: Step,
-    sides: Sides,
-    has_extras: bool,
+    vertices: Vertices,
+    (step, sides, has_extras): (Step, Sides, bool),
 ) -> wgpu::RenderPipeline {
     use wgpu::CompareFunction::{Greater, Less};
     let program = program(&standards(config.shading), step, has_extras);
@@ -116,7 +118,7 @@ fn build(
     let slope_scale = if is_shadow { 1.0 } else { 0.0 };
     let recipe = Recipe {
         program: &program,
-        layout: if is_shadow { &layouts.cut_shadow_pipeline } else { &layouts.pipeline },
+        layout: if is_shadow { &layouts.cut_shadow_pipeline } else { &layouts.pipeline }.of(vertices),
         topology: wgpu::PrimitiveTopology::TriangleList,
         buffers: &if is_shadow { cut_shadow_buffers(has_extras) } else { standard_buffers(has_extras) },
         cull_mode: sides.cull_mode(),
@@ -126,5 +128,5 @@ fn build(
         target,
         beside: None,
     };
-    recipe.build(device, &config.choices())
+    build_parts(&recipe, device, &config.choices(), vertices)
 }

@@ -3,8 +3,9 @@
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::deform::pose::Pose;
+use crate::frame::begin::PictureStep;
 use crate::frame::passes::Pass;
-use crate::frame::record::{PictureStep, Recording};
+use crate::frame::record::Recording;
 use crate::frame::timer::Span;
 use crate::gpu::ring::Reserved;
 use crate::hair::detail::GpuHairView;

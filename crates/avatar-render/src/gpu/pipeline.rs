@@ -1,6 +1,6 @@
 //! Pipelines.
 
-use crate::gpu::program::{Constant, Program};
+use crate::gpu::program::{Constant, Module, Program};
 
 /// The format of depth buffers; every WebGPU device has it.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -22,9 +22,25 @@ pub(crate) struct Recipe<'a> {
     pub(crate) beside: Option<wgpu::ColorTargetState>,
 }
 
+/// A vertex stage in the place of a program's own, and the modules that it needs besides.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OtherVertices {
+    pub(crate) entry: &'static str,
+    pub(crate) modules: &'static [Module],
+}
+
 impl Recipe<'_> {
     pub(crate) fn build(&self, device: &wgpu::Device, choices: &[Constant]) -> wgpu::RenderPipeline {
-        let module = self.program.compiled(device, choices);
+        self.build_with(device, choices, OtherVertices { entry: self.program.entry, modules: &[] })
+    }
+
+    pub(crate) fn build_with(
+        &self,
+        device: &wgpu::Device,
+        choices: &[Constant],
+        vertices: OtherVertices,
+    ) -> wgpu::RenderPipeline {
+        let module = self.program.compiled_with(device, choices, vertices.modules);
         let targets = [self.target.clone(), self.beside.clone()];
         let count = targets.iter().take_while(|target| target.is_some()).count();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -32,7 +48,7 @@ impl Recipe<'_> {
             layout: Some(self.layout),
             vertex: wgpu::VertexState {
                 module: &module,
-                entry_point: Some(self.program.entry),
+                entry_point: Some(vertices.entry),
                 compilation_options: Default::default(),
                 buffers: self.buffers,
             },

@@ -44,12 +44,13 @@ impl Module {
 }
 
 impl Program {
-    /// The text of the whole program. `choices` are the constants that depend on the renderer's
-    /// configuration.
-    pub(crate) fn source(&self, choices: &[Constant]) -> String {
-        let of_modules = self.modules.iter().flat_map(|module| (module.constants)());
+    /// The text of the whole program, with these modules behind its own. `choices` are the constants that
+    /// depend on the renderer's configuration.
+    pub(crate) fn source_with(&self, choices: &[Constant], more: &[Module]) -> String {
+        let modules = || self.modules.iter().chain(more);
+        let of_modules = modules().flat_map(|module| (module.constants)());
         let mut source: String = choices.iter().copied().chain(of_modules).map(declaration).collect();
-        for module in self.modules {
+        for module in modules() {
             source.push('\n');
             source.push_str(module.text);
         }
@@ -58,9 +59,19 @@ impl Program {
 
     /// Compiles the program for a device.
     pub(crate) fn compiled(&self, device: &wgpu::Device, choices: &[Constant]) -> wgpu::ShaderModule {
+        self.compiled_with(device, choices, &[])
+    }
+
+    /// The same with these modules behind its own.
+    pub(crate) fn compiled_with(
+        &self,
+        device: &wgpu::Device,
+        choices: &[Constant],
+        more: &[Module],
+    ) -> wgpu::ShaderModule {
         device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(self.label),
-            source: wgpu::ShaderSource::Wgsl(self.source(choices).into()),
+            source: wgpu::ShaderSource::Wgsl(self.source_with(choices, more).into()),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The geometry of one part on the GPU, shared by all avatars of a model.
 
 use crate::gpu::bindings::{storage_entry, uniform_entry};
-use crate::model::active_shapes::{GpuActiveShape, GpuActiveShapesHead};
+use crate::model::active_shapes::GpuActiveShape;
 use crate::model::curvature::curvatures;
 use crate::model::desc::{PartBones, PartDesc};
 use crate::model::error::{PartProblem, fits};
@@ -112,7 +112,8 @@ impl Geometry {
         let mesh = welded.as_ref().unwrap_or(mesh);
         if !mesh.shapes.is_empty() {
             let weights = first_weight.saturating_add(mesh.shapes.len());
-            let room = binding(&limits).saturating_sub(size_of::<GpuActiveShapesHead>() as u64);
+            // One stands before them.
+            let room = binding(&limits).saturating_sub(size_of::<GpuActiveShape>() as u64);
             fits("weights", weights, size_of::<GpuActiveShape>(), room)?;
         }
         let shapes = ShapeBlocks::new(mesh, binding(&limits))?;

@@ -54,7 +54,7 @@ fn apparent_size(camera: &Camera, bounds: Bounds) -> f32 {
 /// Whether a box may be in the picture: it is not wholly beyond one of the picture's edges or behind the
 /// camera. Boxes near the corners may pass without being seen (U. Assarsson and T. Möller, "Optimized View
 /// Frustum Culling Algorithms for Bounding Boxes", 2000).
-fn is_in_view(camera: &Camera, bounds: Bounds) -> bool {
+pub(crate) fn is_in_view(camera: &Camera, bounds: Bounds) -> bool {
     let clip_from_world = camera.clip_from_world();
     let [x, y, w] = [0, 1, 3].map(|row| clip_from_world.row(row));
     let (center, half) = (bounds.center(), bounds.size() * 0.5 * ROOM);

@@ -29,6 +29,20 @@ pub(crate) struct GpuShadowView {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ShadowViews(pub(crate) [ShadowView; SHADOW_COUNT]);
 
+impl ShadowView {
+    /// Whether a box reaches into what the lamp sees.
+    pub(crate) fn meets(&self, bounds: Bounds) -> bool {
+        let center = self.shadow_from_world.transform_point3(bounds.center());
+        let axes =
+            [self.shadow_from_world.x_axis, self.shadow_from_world.y_axis, self.shadow_from_world.z_axis];
+        let size = bounds.size() * 0.5;
+        let half: Vec3 =
+            (axes.iter().zip(size.to_array())).map(|(axis, half)| axis.truncate().abs() * half).sum();
+        let nearest = center.abs() - half;
+        nearest.x <= 1.0 && nearest.y <= 1.0 && center.z + half.z >= 0.0 && center.z - half.z <= 1.0
+    }
+}
+
 /// Room around the avatars, as a share of their size: samples of soft edges stay inside the map.
 const MARGIN: f32 = 1.06;
 /// Avatars that are farther toward the lamp than this many half widths of the map cast no shadows: depths

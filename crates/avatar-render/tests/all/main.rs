@@ -21,6 +21,7 @@ mod pixels;
 mod opacity;
 mod standard;
 mod textures;
+mod crowd;
 mod crowds;
 mod views;
 mod welded;

@@ -1,4 +1,4 @@
-// Group 1: what one avatar has for itself.
+// Group 1: what avatars have for themselves, one after the other.
 
 // The rows of a bone matrix X: posed = vec4(bind, 1) * rows.
 alias Bone = mat3x4<f32>;
@@ -8,11 +8,11 @@ struct ActiveShape {
     weight: f32,
 }
 
-// Shapes whose weight is not 0, by rising index. A shape at rest costs nothing.
-struct ActiveShapes {
-    count: u32,
-    shapes: array<ActiveShape>,
-}
-
 @group(1) @binding(0) var<storage, read> posed_from_bind: array<Bone>;
-@group(1) @binding(1) var<storage, read> active_shapes: ActiveShapes;
+// Of each avatar one element whose index is the number of shapes whose weight is not 0, and these shapes, by
+// rising index. A shape at rest costs nothing.
+@group(1) @binding(1) var<storage, read> active_shapes: array<ActiveShape>;
+
+// Where those of an avatar begin; only programs for many avatars write these.
+var<private> first_bone: u32 = 0u;
+var<private> first_shape: u32 = 0u;

@@ -16,8 +16,9 @@ struct Deformed {
 fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     var blended = bind;
     let block_count = (part.vertex_count + SHAPE_BLOCK - 1u) / SHAPE_BLOCK;
-    for (var i = 0u; i < active_shapes.count; i++) {
-        let shape = active_shapes.shapes[i];
+    let active_count = active_shapes[first_shape].index;
+    for (var i = 1u; i <= active_count; i++) {
+        let shape = active_shapes[first_shape + i];
         if shape.index < part.first_weight {
             continue;
         }
@@ -42,15 +43,15 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
 // The matrices are summed instead of the transformed points: one product each for the position and the
 // normal.
 fn mean_of(bones: VertexBones) -> Bone {
-    return bones.weights.x * posed_from_bind[bones.indices.x]
-        + bones.weights.y * posed_from_bind[bones.indices.y]
-        + bones.weights.z * posed_from_bind[bones.indices.z]
-        + bones.weights.w * posed_from_bind[bones.indices.w];
+    return bones.weights.x * posed_from_bind[first_bone + bones.indices.x]
+        + bones.weights.y * posed_from_bind[first_bone + bones.indices.y]
+        + bones.weights.z * posed_from_bind[first_bone + bones.indices.z]
+        + bones.weights.w * posed_from_bind[first_bone + bones.indices.w];
 }
 
 fn vertex_posed_from_bind(vertex: u32) -> Bone {
     if part.has_vertex_bones == 0u {
-        return posed_from_bind[part.rigid_bone];
+        return posed_from_bind[first_bone + part.rigid_bone];
     }
     let posed = mean_of(vertex_bones[vertex * BONE_SETS]);
     if BONE_SETS > 1u {

@@ -4,8 +4,8 @@
 use super::gpu;
 use avatar_render::headless::Gpu;
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Environment, Lamp, Light, Renderer, RendererConfig, Scene, Shading,
-    Targets, ToneMap,
+    AvatarCrowd, AvatarModel, AvatarState, Camera, Environment, Lamp, Light, Renderer, RendererConfig, Scene,
+    Shading, Targets, ToneMap,
 };
 use glam::{Vec2, Vec3};
 use half::f16;
@@ -80,6 +80,22 @@ impl Stage {
             let view = self.texture.create_view(&Default::default());
             self.renderer
                 .draw(encoder, &view, &self.targets, &gpu.queue, scene, avatars)
+                .expect("what belongs together");
+        })
+    }
+
+    /// The same of a frame with crowds.
+    pub(crate) fn bytes_of_crowds(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
+    ) -> Vec<u8> {
+        self.bytes_after(gpu, |encoder| {
+            let view = self.texture.create_view(&Default::default());
+            self.renderer
+                .draw_crowds(encoder, &view, &self.targets, &gpu.queue, scene, avatars, crowds, None)
                 .expect("what belongs together");
         })
     }

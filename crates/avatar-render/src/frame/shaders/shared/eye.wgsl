@@ -20,8 +20,7 @@ struct BoneIn {
     @location(7) row_z: vec4f,
 }
 
-@vertex
-fn eye_vertex_main(in: VertexIn, bone: BoneIn) -> EyeOut {
+fn eye_out(in: VertexIn, bone: BoneIn) -> EyeOut {
     let vertex = vertex_out(in);
     let to_eye = frame.eye_world - in.position_world;
     // The matrix is rigid: its transpose turns back.
@@ -29,6 +28,11 @@ fn eye_vertex_main(in: VertexIn, bone: BoneIn) -> EyeOut {
     return EyeOut(
         vertex.position_clip, vertex.position_world, vertex.normal_world, vertex.uv, vertex.depth,
         vertex.curvature, in.bind_position_u.xyz, to_eye_bind);
+}
+
+@vertex
+fn eye_vertex_main(in: VertexIn, bone: BoneIn) -> EyeOut {
+    return eye_out(in, bone);
 }
 
 fn vertex_of(in: EyeOut) -> VertexOut {

@@ -2,7 +2,7 @@
 
 @vertex
 fn part_outline_main(in: VertexIn) -> StandardOut {
-    return pushed(in, ExtraIn(vec2f(0.0), vec4f(1.0)));
+    return pushed(in, NO_EXTRA);
 }
 
 @vertex

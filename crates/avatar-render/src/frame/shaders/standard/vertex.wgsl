@@ -6,6 +6,8 @@ struct ExtraIn {
     @location(9) color: vec4f,
 }
 
+const NO_EXTRA: ExtraIn = ExtraIn(vec2f(0.0), vec4f(1.0));
+
 struct StandardOut {
     // Several passes compare depths of the same vertex.
     @invariant @builtin(position) position_clip: vec4f,
@@ -24,7 +26,7 @@ fn standard_out(in: VertexIn, extra: ExtraIn) -> StandardOut {
 
 @vertex
 fn standard_main(in: VertexIn) -> StandardOut {
-    return standard_out(in, ExtraIn(vec2f(0.0), vec4f(1.0)));
+    return standard_out(in, NO_EXTRA);
 }
 
 @vertex

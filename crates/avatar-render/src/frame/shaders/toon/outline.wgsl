@@ -5,8 +5,7 @@
 const LINE_PIXELS: f32 = 1.6;
 const LINE_COLOR: vec3f = vec3f(0.012, 0.008, 0.012);
 
-@vertex
-fn outline_vertex_main(in: VertexIn) -> VertexOut {
+fn outline_out(in: VertexIn) -> VertexOut {
     var out = vertex_out(in);
     let across = (frame.clip_from_world * vec4f(in.normal_world, 0.0)).xy * frame.pixels;
     let direction = across / max(length(across), 1e-6);
@@ -15,6 +14,11 @@ fn outline_vertex_main(in: VertexIn) -> VertexOut {
     let offset = direction * width * 2.0 / frame.pixels * out.position_clip.w;
     out.position_clip = vec4f(out.position_clip.xy + offset, out.position_clip.zw);
     return out;
+}
+
+@vertex
+fn outline_vertex_main(in: VertexIn) -> VertexOut {
+    return outline_out(in);
 }
 
 @fragment

@@ -1,0 +1,80 @@
+//! Records the draws of crowds: a part of all avatars of a chunk at once.
+
+use crate::deform::crowd_chunk::Chosen;
+use crate::frame::pipelines::PartPipelines;
+use crate::frame::record::{Recording, bind_part, sides};
+use crate::frame::standard::{Sides, Step};
+use crate::model::finish::Finish;
+use crate::model::part::ModelPart;
+use avatar_mesh::PartKind;
+
+impl<'a> Recording<'a> {
+    /// The parts of faces of this kind.
+    pub(crate) fn draw_crowds_kind(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        chosen: Chosen,
+        kind: PartKind,
+        pipeline: impl Fn(&'a PartPipelines) -> Option<&'a wgpu::RenderPipeline>,
+    ) {
+        let is_wanted = |part: &ModelPart| part.kind == kind && part.finish.get().is_none();
+        self.draw_crowds(pass, chosen, is_wanted, |parts, _| pipeline(parts));
+    }
+
+    /// The parts that are wanted, each with its pipeline.
+    pub(crate) fn draw_crowds(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        chosen: Chosen,
+        is_wanted: impl Fn(&ModelPart) -> bool,
+        pipeline: impl Fn(&'a PartPipelines, &ModelPart) -> Option<&'a wgpu::RenderPipeline>,
+    ) {
+        for (model, crowd) in self.crowds {
+            for (index, part) in model.parts_with_triangles().filter(|(_, part)| is_wanted(part)) {
+                let Some(pipeline) = pipeline(self.renderer.crowd_parts(), part) else { continue };
+                let mut is_bound = false;
+                for chunk in &crowd.pose.chunks {
+                    let count = chunk.count(chosen);
+                    let Some(own) = chunk.parts.get(index).filter(|_| count > 0) else { continue };
+                    if !std::mem::replace(&mut is_bound, true) {
+                        pass.set_pipeline(pipeline);
+                        bind_part(pass, part);
+                        pass.insert_debug_marker(&part.label);
+                    }
+                    pass.set_bind_group(3, own.group(chosen), &[]);
+                    pass.draw_indexed(0..part.geometry.index_count, 0, 0..count);
+                }
+            }
+        }
+    }
+
+    /// Surfaces of interchange files that are wanted.
+    pub(crate) fn draw_standard_crowds(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        step: Step,
+        is_wanted: fn(Finish) -> bool,
+    ) {
+        let chosen = if step == Step::CutShadow { Chosen::Casting } else { Chosen::Drawn };
+        let is_wanted = |part: &ModelPart| part.finish.get().is_some_and(is_wanted);
+        self.draw_crowds(pass, chosen, is_wanted, |parts, part| {
+            Some(self.standard_of(parts, step, sides(step, part), part))
+        });
+    }
+
+    /// Corneas, and what else is blended: part by part, the avatars of a chunk from far to near.
+    pub(crate) fn draw_blended_crowds(&self, pass: &mut wgpu::RenderPass<'_>) {
+        for sides in [Sides::Back, Sides::Front] {
+            let is_wanted = |part: &ModelPart| {
+                let finish = part.finish.get().filter(|finish| finish.is_blended());
+                finish.is_some_and(|finish| finish.is_double_sided || sides == Sides::Front)
+            };
+            self.draw_crowds(pass, Chosen::Drawn, is_wanted, |parts, part| {
+                Some(self.standard_of(parts, Step::Blended, sides, part))
+            });
+        }
+        self.draw_crowds_kind(pass, Chosen::Drawn, PartKind::Cornea, |parts| {
+            parts.picture.iter().find(|(drawable, _)| drawable.is_transparent).map(|(_, pipeline)| pipeline)
+        });
+    }
+}

@@ -1,0 +1,4 @@
+@vertex
+fn crowd_outline_main(in: CrowdIn) -> VertexOut {
+    return outline_out(of_one(in));
+}

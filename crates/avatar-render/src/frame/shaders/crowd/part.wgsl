@@ -1,0 +1,4 @@
+@vertex
+fn crowd_main(in: CrowdIn) -> VertexOut {
+    return vertex_out(of_one(in));
+}
