@@ -2,8 +2,8 @@
 //! 1280×720 at four samples, without textures, in plain shading and in low quality. All of them move before
 //! each frame: the head turns and shapes follow.
 //!
-//! `cargo bench -p avatar-render --bench crowd [-- SECONDS] [-- PACK]`: about so many seconds for each row, of
-//! a folder in the raw format; without one of the built-in avatar.
+//! `cargo bench -p avatar-render --bench crowd -- [SECONDS] [PACK]`: about so many seconds for each row, of a
+//! folder in the raw format; without one of the built-in avatar.
 //!
 //! Prints milliseconds, the fastest and the median of all frames: `pose`, handing bones and weights over;
 //! `record`, everything that one core does until the frame is submitted; `frame`, from then until it is
@@ -43,7 +43,7 @@ impl Source for Folder {
 /// One way to draw so many avatars.
 enum Avatars {
     OneByOne(Vec<AvatarState>),
-    Crowd(AvatarCrowd),
+    Crowd(Box<AvatarCrowd>),
 }
 
 /// Milliseconds of one frame.
@@ -108,12 +108,15 @@ fn main() {
                 moving: Vec::new(),
                 still: Vec::new(),
             };
-            let mut rows =
-                [row("as a crowd", Avatars::Crowd(crowd)), row("one by one", Avatars::OneByOne(states))];
+            let mut rows = [
+                row("as a crowd", Avatars::Crowd(Box::new(crowd))),
+                row("one by one", Avatars::OneByOne(states)),
+            ];
             // For what is made at the first use.
             for row in &mut rows {
                 stage.step(row);
-                (row.moving.clear(), row.still.clear());
+                row.moving.clear();
+                row.still.clear();
             }
             let start = Instant::now();
             while start.elapsed().as_secs_f64() < seconds || rows[0].moving.len() < 3 {

@@ -1,4 +1,5 @@
-//! The poses of a crowd: bone matrices and blend weights of all its avatars, and what is to be done about them.
+//! The poses of a crowd: bone matrices and blend weights of all its avatars, and which of them the next frame
+//! deforms and draws.
 
 use crate::deform::crowd_chunk::{Chunk, CrowdBuffers, GpuCrowdChunk, bytes_of};
 use crate::deform::pose::{StateError, avatar_layout, bounds, is_somewhere, widened};

@@ -128,21 +128,23 @@ impl Deformer {
         }
     }
 
-    /// Deforms all parts of avatars into the buffers of their poses.
+    /// Deforms all parts of those avatars that moved since they were deformed, into the buffers of their
+    /// poses. Returns their number, without those of crowds.
     pub(crate) fn record<'a>(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
-        avatars: impl Iterator<Item = (&'a [ModelPart], &'a Pose)> + Clone,
+        avatars: impl Iterator<Item = (&'a [ModelPart], &'a Pose)>,
         crowds: impl Iterator<Item = (&'a [ModelPart], &'a CrowdPose)>,
-    ) {
+    ) -> usize {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("deform"),
             timestamp_writes: timestamps,
         });
-        let mut set = Ability::default();
-        pass.set_pipeline(self.pipeline(set));
-        for (parts, pose) in avatars.clone() {
+        let mut set = None;
+        let mut moved = 0;
+        for (parts, pose) in avatars.filter(|(_, pose)| pose.take_moved()) {
+            moved += 1;
             pass.set_bind_group(1, &pose.bind_group, &[]);
             for (part, posed) in parts.iter().zip(&pose.parts) {
                 if part.geometry.vertex_count > 0 {
@@ -150,9 +152,9 @@ impl Deformer {
                         has_further_bones: part.geometry.has_further_bones,
                         is_uneven: !posed.is_even,
                     };
-                    if set != ability {
+                    if set != Some(ability) {
                         pass.set_pipeline(self.pipeline(ability));
-                        set = ability;
+                        set = Some(ability);
                     }
                     let groups = part.geometry.vertex_count.div_ceil(DEFORM_WORKGROUP_SIZE);
                     pass.set_bind_group(0, &posed.output, &[]);
@@ -160,17 +162,19 @@ impl Deformer {
                     pass.dispatch_workgroups(groups, 1, 1);
                 }
             }
-        }
-        let mut reversed =
-            avatars.flat_map(|(_, pose)| &pose.parts).filter_map(PosedPart::reversed).peekable();
-        if reversed.peek().is_some() {
-            let built =
-                || compute_pipeline(&self.device, &REVERSE_PASS, &[&reversed_layout(&self.device)], &[]);
-            pass.set_pipeline(self.reverse.get_or_init(built));
-            reversed.for_each(|reversed| reversed.record(&mut pass));
+            for reversed in pose.parts.iter().filter_map(PosedPart::reversed) {
+                pass.set_pipeline(self.reverse.get_or_init(|| reverse_pipeline(&self.device)));
+                set = None;
+                reversed.record(&mut pass);
+            }
         }
         self.record_crowds(&mut pass, crowds);
+        moved
     }
+}
+
+fn reverse_pipeline(device: &wgpu::Device) -> wgpu::ComputePipeline {
+    compute_pipeline(device, &REVERSE_PASS, &[&reversed_layout(device)], &[])
 }
 
 fn pipeline(device: &wgpu::Device, ability: Ability) -> wgpu::ComputePipeline {
@@ -181,4 +185,35 @@ fn pipeline(device: &wgpu::Device, ability: Ability) -> wgpu::ComputePipeline {
 fn crowd_pipeline(device: &wgpu::Device, ability: Ability) -> wgpu::ComputePipeline {
     let groups = [&output_layout(device), &avatar_layout(device), &Geometry::layout(device)];
     compute_pipeline(device, &DEFORM_CROWD_PASS, &groups, &ability.choices())
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "tests stop at the first surprise")]
+mod tests {
+    use super::*;
+    use crate::gpu::device::gpu_for_tests;
+    use glam::Affine3A;
+    use std::iter;
+
+    #[test]
+    fn what_did_not_move_is_not_deformed_again() {
+        let Some(gpu) = gpu_for_tests() else { return };
+        let deformer = Deformer::new(&gpu.device);
+        let mut poses = [(); 2].map(|()| Pose::new(&gpu.device, &[], 1, 1));
+        let deformed = |poses: &[Pose; 2]| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            // Twice in one frame is once.
+            let all = poses.iter().chain(poses).map(|pose| (&[][..], pose));
+            let count = deformer.record(&mut encoder, None, all, iter::empty());
+            gpu.queue.submit([encoder.finish()]);
+            count
+        };
+        assert_eq!(deformed(&poses), 2, "new ones have moved");
+        assert_eq!(deformed(&poses), 0);
+        poses[1].set(&gpu.queue, &[Affine3A::IDENTITY], &[0.5]).expect("one bone, one weight");
+        assert_eq!(deformed(&poses), 1);
+        let wrong = poses[0].set(&gpu.queue, &[], &[0.5]);
+        assert_eq!(wrong, Err(crate::StateError::BoneCount { expected: 1, found: 0 }));
+        assert_eq!(deformed(&poses), 0, "what is refused moves nothing");
+    }
 }

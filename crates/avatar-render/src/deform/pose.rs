@@ -11,6 +11,8 @@ use crate::model::part::ModelPart;
 use avatar_mesh::Bounds;
 use bytemuck::Zeroable;
 use glam::{Affine3A, Vec3};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use wgpu::util::DeviceExt;
 
 /// WGSL of a pose.
@@ -55,6 +57,10 @@ pub(crate) struct Pose {
     turns: Vec<Turn>,
     /// Makes room for parts that bones mirror.
     device: wgpu::Device,
+    /// Whether bones and weights are newer than the deformed vertices.
+    has_moved: AtomicBool,
+    /// The box around all parts, once it was asked for.
+    bounds: OnceLock<Option<Bounds>>,
 }
 
 /// Layout of group 1 of the passes that deform and grow.
@@ -99,6 +105,8 @@ impl Pose {
         Self {
             turns: vec![Turn::Even; bones.len()],
             device: device.clone(),
+            has_moved: AtomicBool::new(true),
+            bounds: OnceLock::new(),
             bones,
             active_shapes: active_shapes(shape_count),
             shape_count,
@@ -128,6 +136,8 @@ impl Pose {
         if weights.len() != self.shape_count {
             return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
         }
+        self.has_moved = AtomicBool::new(true);
+        self.bounds = OnceLock::new();
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
         self.turns.iter_mut().zip(bones).for_each(|(turn, bone)| *turn = Turn::of(bone));
         self.parts.iter_mut().for_each(|part| part.set_turns(&self.device, &self.turns));
@@ -143,7 +153,13 @@ impl Pose {
     /// take the shadows of other avatars away. Rounding in f32 is not added: shadow maps leave more room
     /// around avatars.
     pub(crate) fn bounds(&self, parts: &[ModelPart]) -> Option<Bounds> {
-        bounds(parts, &self.bones, &self.active_shapes)
+        *self.bounds.get_or_init(|| bounds(parts, &self.bones, &self.active_shapes))
+    }
+
+    /// Whether the vertices must be deformed before the next pass draws them; from then on they are taken for
+    /// deformed.
+    pub(crate) fn take_moved(&self) -> bool {
+        self.has_moved.swap(false, Ordering::Relaxed)
     }
 
     /// Where the middle of a part is now, roughly.

@@ -1,21 +1,8 @@
 //! Begins the passes of a frame.
 
-use crate::frame::passes::Pass;
+use crate::frame::passes::{Pass, PictureStep};
 use crate::frame::record::Recording;
 use crate::frame::timer::Span;
-
-/// The position of a pass among those that draw into the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PictureStep {
-    /// There is no other.
-    Only,
-    /// It clears the picture.
-    First,
-    /// It draws over what is there.
-    Between,
-    /// It leaves the picture in the caller's view.
-    Last,
-}
 
 impl<'a> Recording<'a> {
     /// One of the passes that draw into the picture: the first clears it, the last leaves it in the caller's
@@ -86,14 +73,5 @@ impl<'a> Recording<'a> {
     pub(crate) fn set_groups(&self, pass: &mut wgpu::RenderPass<'_>, view: &wgpu::BindGroup) {
         pass.set_bind_group(0, &self.renderer.resources.bind_group, &[self.frame_offset]);
         pass.set_bind_group(1, view, &[]);
-    }
-}
-
-/// Depth is reversed: 0 is far.
-pub(crate) fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
-        stencil_ops: None,
     }
 }

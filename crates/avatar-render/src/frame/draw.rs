@@ -83,6 +83,10 @@ impl Renderer {
     /// and the map cast shadows, in the picture or not. The softness of shadows and the reach of ambient
     /// occlusion follow from the height of the avatar that looks largest.
     ///
+    /// An avatar that has not moved since the last frame is not deformed again, and one that neither the
+    /// picture nor its shadow shows is neither deformed, grown nor drawn. A frame takes what it deforms for
+    /// deformed: submit what was recorded, in the order of recording.
+    ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be
     /// recorded before a submission, with 6144 heads of hair in all. They share one environment, that of the
     /// last; a change of the environment takes some milliseconds.
@@ -190,6 +194,7 @@ impl Renderer {
                 let shadow_from_world = view.shadow_from_world.to_cols_array_2d();
                 self.shadow_views.push(queue, &GpuShadowView { shadow_from_world })
             }),
+            lamps: shadows.0.get(..lamps).unwrap_or_default(),
             timer,
             has_hair,
             pixels_per_unit,

@@ -75,3 +75,25 @@ impl Pass {
         }
     }
 }
+
+/// The position of a pass among those that draw into the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PictureStep {
+    /// There is no other.
+    Only,
+    /// It clears the picture.
+    First,
+    /// It draws over what is there.
+    Between,
+    /// It leaves the picture in the caller's view.
+    Last,
+}
+
+/// Depth is reversed: 0 is far.
+pub(crate) fn depth_attachment(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+        stencil_ops: None,
+    }
+}

@@ -5,11 +5,10 @@ use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::deform::crowd_chunk::Chosen;
 use crate::deform::posed::PosedPart;
-use crate::frame::begin::{PictureStep, depth_attachment};
 use crate::frame::part_pipelines::{
     BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, EXTRA_SLOT, POSED_SLOT, PassPipelines,
 };
-use crate::frame::passes::Pass;
+use crate::frame::passes::{Pass, PictureStep, depth_attachment};
 use crate::frame::pipelines::PartPipelines;
 use crate::frame::renderer::Renderer;
 use crate::frame::standard::{Sides, Step};
@@ -20,6 +19,8 @@ use crate::model::finish::{Finish, Opacity};
 use crate::model::part::ModelPart;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::scene::Scene;
+use crate::view::seen::is_in_view;
+use crate::view::shadows::ShadowView;
 use avatar_mesh::PartKind;
 use std::sync::PoisonError;
 
@@ -34,6 +35,8 @@ pub(crate) struct Recording<'a> {
     pub(crate) clear: wgpu::Color,
     pub(crate) frame_offset: u32,
     pub(crate) shadow_offsets: [u32; SHADOW_COUNT],
+    /// What lamps see that cast shadows.
+    pub(crate) lamps: &'a [ShadowView],
     pub(crate) timer: Option<&'a PassTimer>,
     /// Whether any of the avatars has hair in this view.
     pub(crate) has_hair: bool,
@@ -46,13 +49,25 @@ pub(crate) struct Recording<'a> {
 type Item<'a> = (&'a ModelPart, &'a PosedPart, &'a AvatarState);
 
 impl<'a> Recording<'a> {
+    /// Whether the picture may show an avatar.
+    pub(crate) fn shows(&self, model: &AvatarModel, state: &AvatarState) -> bool {
+        state.bounds(model).is_some_and(|bounds| is_in_view(&self.scene.camera, bounds))
+    }
+
+    /// Whether it may show the avatar or its shadow. Others are neither deformed nor drawn.
+    pub(crate) fn concerns(&self, model: &AvatarModel, state: &AvatarState) -> bool {
+        let casts = |bounds| self.lamps.iter().any(|lamp| lamp.meets(bounds));
+        self.shows(model, state) || state.bounds(model).is_some_and(casts)
+    }
+
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, pass: Pass) {
         let (renderer, targets) = (self.renderer, self.targets);
         let pipelines = &renderer.parts.passes;
         match pass {
             Pass::Deform => {
                 let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
-                let avatars = self.avatars.iter().map(|(model, state)| state.deforming(model));
+                let wanted = self.avatars.iter().filter(|(model, state)| self.concerns(model, state));
+                let avatars = wanted.map(|(model, state)| state.deforming(model));
                 let crowds = self.crowds.iter().map(|(model, crowd)| (&*model.parts, &crowd.pose));
                 renderer.deformer.record(encoder, timestamps, avatars, crowds);
             }
@@ -169,7 +184,7 @@ impl<'a> Recording<'a> {
                     part.kind == kind
                         && part.finish.get().is_none_or(|finish| finish.opacity == Opacity::Opaque)
                 };
-                for (part, posed, _) in self.items(is_whole) {
+                for (part, posed, _) in self.items(Chosen::Casting, is_whole) {
                     pass.set_index_buffer(part.geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
                     pass.set_vertex_buffer(0, posed.vertices.slice(..));
                     pass.draw_indexed(0..part.geometry.index_count, 0, 0..1);
@@ -226,6 +241,9 @@ impl<'a> Recording<'a> {
         let mut far = self.renderer.far_to_near.lock().unwrap_or_else(PoisonError::into_inner);
         for (avatar, part) in far.sort(self.avatars, eye) {
             let Some((model, state)) = self.avatars.get(avatar) else { continue };
+            if !self.shows(model, state) {
+                continue;
+            }
             let (Some(part), Some(posed)) = (model.parts.get(part), state.pose.parts.get(part)) else {
                 continue;
             };
@@ -249,13 +267,21 @@ impl<'a> Recording<'a> {
         pass.pop_debug_group();
     }
 
-    /// The parts that are wanted, those of one model together.
-    fn items<F: Fn(&ModelPart) -> bool + Copy + 'a>(&self, is_wanted: F) -> impl Iterator<Item = Item<'a>> {
+    /// The parts that are wanted of the avatars that are chosen, those of one model together.
+    fn items<F: Fn(&ModelPart) -> bool + Copy + 'a>(
+        &self,
+        chosen: Chosen,
+        is_wanted: F,
+    ) -> impl Iterator<Item = Item<'a>> {
         let of_group = move |group: &'a [(&'a AvatarModel, &'a AvatarState)]| {
             let parts = group.first().into_iter().flat_map(|(model, _)| model.parts_with_triangles());
             let wanted = parts.filter(move |(_, part)| is_wanted(part));
             wanted.flat_map(move |(index, part)| {
-                group.iter().filter_map(move |(_, state)| Some((part, state.pose.parts.get(index)?, *state)))
+                let seen = group.iter().filter(move |(model, state)| match chosen {
+                    Chosen::Drawn => self.shows(model, state),
+                    Chosen::Casting => self.concerns(model, state),
+                });
+                seen.filter_map(move |(_, state)| Some((part, state.pose.parts.get(index)?, *state)))
             })
         };
         self.avatars.chunk_by(|(a, _), (b, _)| std::ptr::eq(*a, *b)).flat_map(of_group)
@@ -272,7 +298,7 @@ impl<'a> Recording<'a> {
         is_wanted: F,
     ) {
         let mut bound: Option<&ModelPart> = None;
-        for (part, posed, state) in self.items(is_wanted) {
+        for (part, posed, state) in self.items(Chosen::Drawn, is_wanted) {
             if !bound.is_some_and(|bound| std::ptr::eq(bound, part)) {
                 bind_part(pass, part);
                 bound = Some(part);
@@ -284,7 +310,8 @@ impl<'a> Recording<'a> {
     /// Surfaces of interchange files that are wanted.
     fn draw_standard(&self, pass: &mut wgpu::RenderPass<'_>, step: Step, is_wanted: fn(Finish) -> bool) {
         let mut bound: Option<&ModelPart> = None;
-        for (part, posed, state) in self.items(move |part| part.finish.get().is_some_and(is_wanted)) {
+        let chosen = if step == Step::CutShadow { Chosen::Casting } else { Chosen::Drawn };
+        for (part, posed, state) in self.items(chosen, move |part| part.finish.get().is_some_and(is_wanted)) {
             if !bound.is_some_and(|bound| std::ptr::eq(bound, part)) {
                 pass.set_pipeline(self.standard(step, sides(step, part), part));
                 bind_part(pass, part);

@@ -3,8 +3,7 @@
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::deform::pose::Pose;
-use crate::frame::begin::PictureStep;
-use crate::frame::passes::Pass;
+use crate::frame::passes::{Pass, PictureStep};
 use crate::frame::record::Recording;
 use crate::frame::timer::Span;
 use crate::gpu::ring::Reserved;
@@ -39,14 +38,16 @@ pub(crate) struct DrawnStrands {
 impl<'a> Recording<'a> {
     /// The avatars with hair in view, and which of their strands are drawn if at most `most` are.
     fn with_hair(&self, most: f32) -> impl Iterator<Item = (GpuHairView, &'a HairState)> {
-        self.avatars.iter().filter_map(move |avatar| {
+        let wanted = self.avatars.iter().filter(|(model, state)| self.concerns(model, state));
+        wanted.filter_map(move |avatar| {
             strands_in_view(*avatar, &self.scene.camera, self.pixels_per_unit, most)
         })
     }
 
     /// How many strands of each avatar are to grow.
     pub(crate) fn growing(&self) -> impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone {
-        self.avatars.iter().filter_map(|avatar| {
+        let wanted = self.avatars.iter().filter(|(model, state)| self.concerns(model, state));
+        wanted.filter_map(|avatar| {
             let camera = &self.scene.camera;
             let (view, hair) = strands_in_view(*avatar, camera, self.pixels_per_unit, f32::INFINITY)?;
             Some((&avatar.1.pose, hair, view.count() as u32))

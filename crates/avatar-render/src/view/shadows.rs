@@ -131,6 +131,27 @@ mod tests {
             prop_assert!((seen.truncate() - nearer.truncate()).length() < 1e-3);
         }
 
+        /// A box of which a point is in the view meets it; one aside, behind or beyond it does not.
+        #[test]
+        fn boxes_with_a_point_in_the_view_meet_it(
+            at in prop::array::uniform3(-0.99f32..0.99), size in 0.01f32..40.0, corner in 0u8..8,
+        ) {
+            let bounds = Bounds { min: Vec3::splat(-3.0), max: Vec3::splat(3.0) };
+            let toward = Vec3::new(0.3, 0.5, 0.8).normalize_or_zero();
+            let view = view(toward, bounds, [bounds].into_iter(), 1024);
+            let [x, y, z] = at;
+            let p = view.shadow_from_world.inverse().project_point3(Vec3::new(x, y, (z + 1.0) / 2.0));
+            let sign = |bit: u8| f32::from(corner >> bit & 1);
+            let min = p - size * Vec3::new(sign(0), sign(1), sign(2));
+            let around = Bounds { min, max: min + size };
+            prop_assert!(view.meets(around));
+            let aside = toward.cross(Vec3::Y).normalize_or_zero() * (100.0 + 2.0 * size);
+            for off in [aside, -aside, toward * (100.0 + 2.0 * size), toward * -(100.0 + 2.0 * size)] {
+                let away = Bounds { min: min + off, max: min + off + size };
+                prop_assert!(!view.meets(away), "{}", off);
+            }
+        }
+
         #[test]
         fn a_mirrored_lamp_has_the_mirrored_view(x in 0.05f32..1.0, y in -1.0f32..1.0, z in -1.0f32..1.0) {
             let bounds = Bounds { min: Vec3::new(-2.0, -3.0, -1.0), max: Vec3::new(2.0, 1.0, 4.0) };

@@ -65,7 +65,7 @@ fn pose(avatar: usize) -> ([Affine3A; 2], [f32; 2]) {
     let turned = Quat::from_rotation_y(0.2 * (column - 2.5)) * Quat::from_rotation_x(0.15 * (row - 1.5));
     let head = Affine3A::from_rotation_translation(turned, place);
     let look = Affine3A::from_rotation_y(0.05 * (avatar as f32 - 12.0));
-    // Weights out of 0 to 1 have tight boxes, as avatars of their own have them: shadow maps are fitted alike.
+    // Weights out of 0 to 1 have tight boxes, as avatars of their own have: shadow maps are fitted alike.
     ([head, head * look], [-0.1 - avatar as f32 / 64.0, 1.25 - (avatar * 5 % 24) as f32 / 12.0])
 }
 
@@ -183,7 +183,7 @@ fn who_is_out_of_view_still_casts_a_shadow_into_it() {
     let stage = Stage::new(gpu, low, 64, FORMAT);
     let scene = scene(8.0);
     // On the way to the key lamp, beyond the edge of the picture.
-    let key = Vec3::from(scene.light.key.direction_world).normalize();
+    let key = scene.light.key.direction_world.normalize_or_zero();
     for distance in [6.0, 12.0] {
         let place = |at: Vec3| [Affine3A::from_translation(at)];
         let mut states = [(); 2].map(|()| AvatarState::new(&gpu.device, &model));
