@@ -258,7 +258,7 @@ impl<'a> Stage<'a> {
                 renderer.draw(&mut encoder, view, targets, queue, &scene, &avatars)
             }
             Avatars::Crowd(crowd) => {
-                let crowds = &mut [(self.model, crowd)];
+                let crowds = &mut [(self.model, &mut **crowd)];
                 renderer.draw_crowds(&mut encoder, view, targets, queue, &scene, &[], crowds, None)
             }
         };
