@@ -1,5 +1,6 @@
+use crate::skin_lanes::SkinLanes;
 use crate::turning::{all_turn_evenly, blended, is_mirroring, normal_matrix, wide};
-use crate::{Deformed, Mesh, SmoothNormals};
+use crate::{Deformed, Mesh, Skinning, SmoothNormals};
 use glam::{Affine3A, DMat3, Vec3, Vec3A};
 
 /// A blended or skinned normal shorter than this has no direction: the undeformed normal takes its place.
@@ -93,8 +94,15 @@ pub fn deform_with(
             check("the further bone weights", skinning.more_weights.len())?;
         }
     }
-    blend(mesh, weights, normals, out)?;
-    skin(mesh, bones, out)
+    // Without shapes, bones take positions and normals from the mesh: a copy of them would be for nothing.
+    let is_blended = mesh.skinning.is_none() || weights.iter().any(|weight| *weight != 0.0);
+    if is_blended {
+        blend(mesh, weights, normals, out)?;
+    } else {
+        check_lengths(mesh, weights, &normals, out)?;
+        out.tangents.copy_from_slice(&mesh.tangents);
+    }
+    skin(mesh, bones, is_blended, out)
 }
 
 /// The part of [`deform()`] before the bones: `v + Σ_k b_k · d_k`, and the same for normals and tangents,
@@ -131,30 +139,36 @@ pub fn blend(
     Ok(())
 }
 
-/// The part of [`deform()`] after the shapes. Lengths fit.
-fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), DeformError> {
+/// The part of [`deform()`] after the shapes. Lengths fit. Where nothing is blended, positions and normals
+/// are not in `out` yet.
+fn skin(mesh: &Mesh, bones: &[Affine3A], is_blended: bool, out: &mut Deformed) -> Result<(), DeformError> {
     let is_even = all_turn_evenly(mesh, bones);
     match &mesh.skinning {
         Some(skinning) => {
-            let vertices = out.positions.iter_mut().zip(&mut out.normals).zip(&mesh.normals);
-            let influences = skinning.bones.iter().zip(&skinning.weights);
-            for (vertex, (((position, normal), undeformed), (four, weights))) in
-                vertices.zip(influences).enumerate()
-            {
-                let along = blended_normal(*normal, *undeformed);
-                let mut sums = Sums { position: (*position).into(), normal: along, posed: [Vec3A::ZERO; 2] };
-                sums.add(vertex, bones, four, weights)?;
-                if let (Some(four), Some(weights)) =
-                    (skinning.more_bones.get(vertex), skinning.more_weights.get(vertex))
-                {
-                    sums.add(vertex, bones, four, weights)?;
+            let one_by_one = |positions: &mut [Vec3], normals: &mut [Vec3], first: usize| {
+                if !is_blended {
+                    positions.copy_from_slice(&mesh.positions[first..first + positions.len()]);
+                    normals.copy_from_slice(&mesh.normals[first..first + normals.len()]);
                 }
-                *position = sums.posed[0].into();
-                let mut turned = unit(sums.posed[1], *undeformed);
-                if !is_even {
-                    turned = standing(&blended(skinning, bones, vertex), along, turned);
-                }
-                *normal = turned.into();
+                skin_each(mesh, skinning, bones, is_even, first, positions, normals)
+            };
+            if is_even && skinning.more_bones.is_empty() && all_exist(skinning, bones) {
+                let mut done = Ok(());
+                lanes::run(SkinLanes {
+                    skinning,
+                    bones,
+                    from: (!is_blended).then_some((&*mesh.positions, &*mesh.normals)),
+                    positions: &mut out.positions,
+                    normals: &mut out.normals,
+                    left: |positions: &mut [Vec3], normals: &mut [Vec3], first| {
+                        if done.is_ok() {
+                            done = one_by_one(positions, normals, first);
+                        }
+                    },
+                });
+                done?;
+            } else {
+                one_by_one(&mut out.positions, &mut out.normals, 0)?;
             }
             for (vertex, (tangent, undeformed)) in out.tangents.iter_mut().zip(&mesh.tangents).enumerate() {
                 let along = blended_normal(tangent.truncate(), undeformed.truncate());
@@ -185,6 +199,48 @@ fn skin(mesh: &Mesh, bones: &[Affine3A], out: &mut Deformed) -> Result<(), Defor
                 *tangent = unit(x.transform_vector3a(along), undeformed.truncate()).extend(handedness);
             }
         }
+    }
+    Ok(())
+}
+
+/// Whether no bone is beyond the palette, also of those without weight.
+fn all_exist(skinning: &Skinning, bones: &[Affine3A]) -> bool {
+    let largest = skinning.bones.as_flattened().iter().fold(0, |most, bone| (*bone).max(most));
+    usize::from(largest) < bones.len()
+}
+
+/// Positions and normals of the vertices from `first` on, one after the other.
+fn skin_each(
+    mesh: &Mesh,
+    skinning: &Skinning,
+    bones: &[Affine3A],
+    is_even: bool,
+    first: usize,
+    positions: &mut [Vec3],
+    normals: &mut [Vec3],
+) -> Result<(), DeformError> {
+    let rest = |length: usize| first.min(length)..;
+    let undeformed = &mesh.normals[rest(mesh.normals.len())];
+    let vertices = positions.iter_mut().zip(normals).zip(undeformed);
+    let influences = skinning.bones[rest(skinning.bones.len())]
+        .iter()
+        .zip(&skinning.weights[rest(skinning.weights.len())]);
+    for (place, (((position, normal), undeformed), (four, weights))) in vertices.zip(influences).enumerate() {
+        let vertex = first + place;
+        let along = blended_normal(*normal, *undeformed);
+        let mut sums = Sums { position: (*position).into(), normal: along, posed: [Vec3A::ZERO; 2] };
+        sums.add(vertex, bones, four, weights)?;
+        if let (Some(four), Some(weights)) =
+            (skinning.more_bones.get(vertex), skinning.more_weights.get(vertex))
+        {
+            sums.add(vertex, bones, four, weights)?;
+        }
+        *position = sums.posed[0].into();
+        let mut turned = unit(sums.posed[1], *undeformed);
+        if !is_even {
+            turned = standing(&blended(skinning, bones, vertex), along, turned);
+        }
+        *normal = turned.into();
     }
     Ok(())
 }

@@ -88,6 +88,7 @@ mod winding;
 pub mod weights;
 mod smooth;
 mod turning;
+mod skin_lanes;
 mod deform;
 mod deform_bounds;
 

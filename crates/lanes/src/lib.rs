@@ -4,8 +4,8 @@
 //! compiled for every kind of vectors and run by [`run`] for the widest that the processor has. In it, a
 //! [`Wide`] is as many numbers of a [`Lanes`] as one vector holds; [`steps`] of them make the whole.
 //!
-//! Only sums, products and comparisons are offered, each rounded by itself as in scalar code, so results are
-//! the same bits on every processor.
+//! Only sums, products, quotients, square roots and comparisons are offered, each rounded by itself as in
+//! scalar code, so results are the same bits on every processor.
 //!
 //! ```
 //! use lanes::{Lanes, Simd, Wide, Work};

@@ -63,6 +63,19 @@ impl<S: Simd> Wide<S> {
         Self { numbers: simd.select_f32s(mask, yes.numbers, no.numbers), ..self }
     }
 
+    /// `yes` where `self == other`, else `no`.
+    #[inline(always)]
+    pub fn equal(self, other: Self, yes: Self, no: Self) -> Self {
+        let mask = self.simd.equal_f32s(self.numbers, other.numbers);
+        Self { numbers: self.simd.select_f32s(mask, yes.numbers, no.numbers), ..self }
+    }
+
+    /// The square root, rounded as [`f32::sqrt`].
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        Self { numbers: self.simd.sqrt_f32s(self.numbers), ..self }
+    }
+
     /// The number, not below `min` and not above `max`; NaN stays NaN.
     #[inline(always)]
     pub fn clamp(self, min: Self, max: Self) -> Self {

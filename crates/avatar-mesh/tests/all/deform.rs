@@ -3,7 +3,7 @@
 #![allow(clippy::panic, clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::common::Random;
-use avatar_mesh::{DeformError, Deformed, Mesh, Shape, Skinning, deform};
+use avatar_mesh::{DeformError, Deformed, Mesh, Offsets, Shape, Skinning, deform};
 use glam::{Affine3A, Quat, Vec3};
 use proptest::prelude::*;
 
@@ -131,6 +131,46 @@ proptest! {
         // Weights in eighths that sum to 1: at rest rounding may cost a step of f32, no more.
         for i in 0..30 {
             prop_assert!(still.positions[i].distance(mesh.positions[i]) < 4e-6);
+        }
+    }
+
+    /// Sixteen vertices are computed at once; meshes of less than that are computed one by one.
+    #[test]
+    fn vertices_side_by_side_are_the_same_bits_as_alone(
+        seed in any::<u64>(), vertices in 1..70usize, bones in 1..5usize, short in 0..100usize,
+    ) {
+        let mut random = Random(seed);
+        let mut mesh = random.mesh(vertices, 2, bones);
+        let skinning = mesh.skinning.as_mut().unwrap();
+        // The vertices of some blocks follow one bone.
+        let from = random.below(vertices);
+        skinning.weights[from..].fill([1.0, 0.0, 0.0, 0.0]);
+        skinning.bones[from..].fill([random.below(bones) as u16; 4]);
+        // A normal that the shape takes away, and one that bones take away.
+        if let Some(normal) = mesh.normals.get_mut(short) {
+            *normal = -0.5 * mesh.shapes[0].normals.as_ref().unwrap().get(short).unwrap();
+        }
+        let mut palette: Vec<Affine3A> = (0..bones).map(|_| random.rigid()).collect();
+        palette[0].matrix3 *= [0.0, 1.0][random.below(2)];
+        let whole = deformed(&mesh, &palette, &[0.5, 0.0]);
+        for vertex in 0..vertices {
+            let mut single = Mesh {
+                positions: vec![mesh.positions[vertex]],
+                normals: vec![mesh.normals[vertex]],
+                skinning: mesh.skinning.clone(),
+                ..Mesh::default()
+            };
+            let skinning = single.skinning.as_mut().unwrap();
+            skinning.bones = vec![skinning.bones[vertex]];
+            skinning.weights = vec![skinning.weights[vertex]];
+            single.shapes = mesh.shapes.iter().map(|shape| {
+                let offset = |offsets: &Offsets| vec![offsets.get(vertex).unwrap()];
+                Shape::new("s", offset(&shape.positions)).with_normals(offset(shape.normals.as_ref().unwrap()))
+            }).collect();
+            let single = deformed(&single, &palette, &[0.5, 0.0]);
+            let bits = |v: Vec3| v.to_array().map(f32::to_bits);
+            prop_assert_eq!(bits(whole.positions[vertex]), bits(single.positions[0]));
+            prop_assert_eq!(bits(whole.normals[vertex]), bits(single.normals[0]));
         }
     }
 
