@@ -33,6 +33,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Where drawing takes long, [`Drafts`] draw what moves with as much care as [`Pace`] finds time for.
+//!
 //! [`Screen`] draws on the surface of any window; `examples/window.rs` does the same with the program's own
 //! device.
 
@@ -40,6 +42,8 @@ mod upload;
 mod view;
 mod performer;
 mod screen;
+mod pace;
+mod drafts;
 #[cfg(feature = "default-face")]
 mod default_face;
 
@@ -51,6 +55,8 @@ pub use avatar_render;
 pub use avatar_render::{glam, wgpu};
 #[cfg(feature = "default-face")]
 pub use default_face::DefaultFace;
+pub use drafts::{DraftError, Drafts};
+pub use pace::{Pace, Step};
 pub use performer::{Performer, PerformerError};
 /// The crate that moves controls.
 pub use pose_anim;

@@ -58,14 +58,16 @@ impl App {
         if let (Some(overlay), Some(painted)) = (&presenter.overlay, &mut painted) {
             overlay.mark(painted);
         }
-        presenter.draw(session, painted.as_ref(), is_at_rest)?;
+        let is_whole_again = presenter.draw(session, painted.as_ref(), is_at_rest)?;
 
         let (moves, swings) = (session.face.moves(), presenter.frames.swings());
         let again = painted.map_or(Duration::MAX, |painted| painted.again);
         presenter.frames.end(began, moves, again);
         // Nothing moves: no frame until something happens.
-        if moves || swings || has_acted || again.is_zero() || has_more {
+        if moves || swings || has_acted || again.is_zero() || has_more || is_whole_again {
             presenter.redraw();
+        } else if let Some(due) = presenter.stage.as_mut().and_then(Stage::comes_to_rest) {
+            presenter.frames.no_later(due);
         }
         Ok(())
     }
@@ -178,11 +180,12 @@ impl Presenter {
         Some(overlay.run(stage.window(), &model, actions))
     }
 
-    fn draw(&mut self, session: &Session, painted: Option<&Painted>, is_at_rest: bool) -> Result<()> {
+    fn draw(&mut self, session: &Session, painted: Option<&Painted>, is_at_rest: bool) -> Result<bool> {
         let shot = self.shot(session, painted.map(|painted| painted.free));
-        let Some(stage) = &mut self.stage else { return Ok(()) };
+        let Some(stage) = &mut self.stage else { return Ok(false) };
         stage.advance_hair(self.frames.swing(is_at_rest, stage.has_swinging_hair()));
-        stage.draw(&shot, self.overlay.as_mut().zip(painted))
+        let moves = !is_at_rest || self.frames.swings();
+        stage.draw(&shot, self.overlay.as_mut().zip(painted), moves)
     }
 
     /// Draws the small picture of one pose that has none, while nothing moves and the poses are seen. Returns
@@ -192,7 +195,8 @@ impl Presenter {
         let (Some(overlay), Some(stage)) = (&self.overlay, &mut self.stage) else { return Ok(false) };
         let state = overlay.panel.state();
         let are_seen = state.tab == avatar_panel::Tab::Poses && !state.folded;
-        if !is_at_rest || !are_seen {
+        // The face itself comes first.
+        if !is_at_rest || !are_seen || stage.shows_draft() {
             return Ok(false);
         }
         let poses = &session.books.poses().poses;

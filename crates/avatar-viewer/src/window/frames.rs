@@ -55,10 +55,14 @@ impl Frames {
         self.again.take_if(|again| *again <= Instant::now()).is_some()
     }
 
+    /// A frame is to be drawn at that time, if none is before.
+    pub(super) fn no_later(&mut self, then: Instant) {
+        self.again = Some(self.again.map_or(then, |again| again.min(then)));
+    }
+
     /// Something beside the face has to be shown, which need not be at once: the panel's own frames are few.
     pub(super) fn soon(&mut self) {
-        let soon = Instant::now() + SOON;
-        self.again = Some(self.again.map_or(soon, |again| again.min(soon)));
+        self.no_later(Instant::now() + SOON);
     }
 
     pub(super) fn forget_miniatures(&mut self) {

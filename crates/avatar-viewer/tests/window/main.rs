@@ -13,6 +13,7 @@ mod desk;
 mod keys;
 mod look;
 mod hair;
+mod motion;
 mod panel;
 mod files;
 mod vrm;

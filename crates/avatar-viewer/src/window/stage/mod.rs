@@ -1,5 +1,7 @@
-use super::overlay::{Overlay, Painted};
-use super::shot::{Kept, Shot, kept};
+mod drawing;
+mod motion;
+
+use super::shot::{Kept, Shot};
 use crate::adapter;
 use crate::look_args::LookArgs;
 use anyhow::{Context, Result, bail};
@@ -7,10 +9,11 @@ use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking, open_for_surface_blocking};
 use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, Targets};
-use avatar_stage::{Framing, SAMPLES, View, upload_with_hair};
+use avatar_stage::{Drafts, Framing, SAMPLES, View, upload_with_hair};
 use image::RgbaImage;
+use motion::Motion;
 use std::sync::Arc;
-use wgpu::CurrentSurfaceTexture as Acquired;
+use std::time::Instant;
 use winit::dpi::PhysicalSize;
 use winit::event_loop::OwnedDisplayHandle;
 use winit::window::Window;
@@ -39,8 +42,13 @@ pub(super) struct Stage {
     /// is not drawn again.
     kept: Option<Kept>,
     can_keep: bool,
+    /// Drafts while something moves, on adapters that draw in software. `None` on others: they draw nothing but
+    /// whole pictures.
+    motion: Option<Motion>,
     /// Whether the hair moved in the frame before.
     hair_moved: bool,
+    /// Whether a whole picture has been drawn: what draws it is compiled for the first.
+    has_drawn: bool,
     /// Whether the timer has measured a frame that was not asked for yet.
     is_measured: bool,
 }
@@ -112,6 +120,9 @@ impl Stage {
         let mut avatar = AvatarState::new(device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         let style = hair.map(|hair| hair.style);
+        let is_software = gpu.info.device_type == wgpu::DeviceType::Cpu;
+        let motion = (is_software && can_keep)
+            .then(|| Motion::new(Drafts::new(device, config.format, shading), Instant::now()));
         let mut stage = Self {
             window,
             gpu,
@@ -128,7 +139,9 @@ impl Stage {
             miniatures: None,
             kept: None,
             can_keep,
+            motion,
             hair_moved: false,
+            has_drawn: false,
             is_measured: false,
         };
         stage.resize(size)?;
@@ -232,6 +245,7 @@ impl Stage {
     pub(super) fn picture(&mut self, shot: &Shot<'_>, width: u32, height: u32) -> Result<RgbaImage> {
         let shading = self.look.shading(&self.gpu.info);
         let canvas = Canvas::new(&self.gpu, width, height, SAMPLES, shading)?;
+        self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
         self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
         let scene = shot.scene(width, height, &self.look);
         let picture = canvas.render(&self.gpu, &scene, &[(&self.model, &self.avatar)])?;
@@ -311,84 +325,5 @@ impl Stage {
     /// Whether there is hair that swings on after the head has stopped.
     pub(super) fn has_swinging_hair(&self) -> bool {
         self.model.strand_count() > 0 && self.style.is_some_and(|style| style.swings())
-    }
-
-    /// Draws one frame, the panel over the picture. A surface that is not ready loses this frame, not the
-    /// window.
-    pub(super) fn draw(&mut self, shot: &Shot<'_>, panel: Option<(&mut Overlay, &Painted)>) -> Result<()> {
-        if self.targets.is_none() {
-            return Ok(());
-        }
-        let frame = match self.surface.get_current_texture() {
-            Acquired::Success(frame) | Acquired::Suboptimal(frame) => frame,
-            Acquired::Timeout => {
-                self.window.request_redraw();
-                return Ok(());
-            }
-            Acquired::Validation => {
-                let error = self.gpu.errors.take().unwrap_or_default();
-                self.forget_kept();
-                bail!("expected a picture of the window to draw on, found: {error}");
-            }
-            Acquired::Occluded => return Ok(()),
-            Acquired::Outdated => {
-                self.resize(self.window.inner_size())?;
-                self.window.request_redraw();
-                return Ok(());
-            }
-            Acquired::Lost => {
-                self.surface =
-                    self.gpu.instance.create_surface(self.window.clone()).context("the lost surface")?;
-                self.resize(self.window.inner_size())?;
-                self.window.request_redraw();
-                return Ok(());
-            }
-        };
-        let Some(targets) = &self.targets else { return Ok(()) };
-        let (width, height) = (self.config.width, self.config.height);
-        let label = Some("frame");
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
-        let keeps = panel.is_some() && self.can_keep;
-        if keeps && self.kept.is_none() {
-            self.kept = Some(kept(&self.gpu.device, &self.config, shot));
-        }
-        let kept = self.kept.as_mut().filter(|_| keeps);
-        if !kept.as_ref().is_some_and(|kept| kept.shows(shot)) {
-            self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
-            let scene = shot.scene(width, height, &self.look);
-            let texture = kept.as_ref().map_or(&frame.texture, |kept| &kept.texture);
-            let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
-            let avatars = [(&self.model, &self.avatar)];
-            let timer = self.timer.as_ref();
-            self.renderer.draw_timed(
-                &mut encoder,
-                &target,
-                targets,
-                &self.gpu.queue,
-                &scene,
-                &avatars,
-                timer,
-            )?;
-            self.is_measured = timer.is_some();
-        }
-        if let Some(kept) = self.kept.as_mut().filter(|_| keeps) {
-            kept.note(shot);
-            let (from, to) = (kept.texture.as_image_copy(), frame.texture.as_image_copy());
-            encoder.copy_texture_to_texture(from, to, kept.texture.size());
-        }
-        if let Some((overlay, painted)) = panel {
-            overlay.draw(&self.gpu, &mut encoder, &frame.texture, self.panel_format, painted);
-        }
-        self.gpu.queue.submit([encoder.finish()]);
-        self.window.pre_present_notify();
-        self.gpu.queue.present(frame);
-        match self.gpu.errors.take() {
-            None => Ok(()),
-            Some(error) => {
-                // What the kept picture shows now is not known.
-                self.forget_kept();
-                bail!("expected adapter {:?} to draw the frame, found: {error}", self.gpu.info.name)
-            }
-        }
     }
 }

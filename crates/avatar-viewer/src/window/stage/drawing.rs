@@ -1,0 +1,167 @@
+//! Draws the frames of the window.
+
+use super::Stage;
+use super::motion::{Motion, Wanted};
+use crate::window::overlay::{Overlay, Painted};
+use crate::window::shot::{Shot, kept};
+use anyhow::{Context, Result, bail};
+use avatar_render::{HairDetail, Scene};
+use avatar_stage::Pace;
+use std::time::Instant;
+use wgpu::CurrentSurfaceTexture as Acquired;
+
+impl Stage {
+    /// Draws one frame, the panel over the picture; `moves` says whether another one follows at once. A surface
+    /// that is not ready loses this frame, not the window. Returns whether a draft gave way to the whole
+    /// picture.
+    pub(in crate::window) fn draw(
+        &mut self,
+        shot: &Shot<'_>,
+        panel: Option<(&mut Overlay, &Painted)>,
+        moves: bool,
+    ) -> Result<bool> {
+        let began = match &mut self.motion {
+            Some(motion) => motion.begin(&self.gpu.device),
+            None => Instant::now(),
+        };
+        if self.targets.is_none() {
+            return Ok(false);
+        }
+        let Some(frame) = self.acquire()? else { return Ok(false) };
+        let label = Some("frame");
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
+        let keeps = self.can_keep && (panel.is_some() || self.motion.is_some());
+        if keeps && self.kept.is_none() {
+            self.kept = Some(kept(&self.gpu.device, &self.config, shot));
+        }
+        let is_same = keeps && self.kept.as_ref().is_some_and(|kept| kept.shows(shot));
+        let was_draft = self.shows_draft();
+        let wanted = match &mut self.motion {
+            Some(motion) => motion.next(is_same, moves, began),
+            None if is_same => Wanted::Same,
+            None => Wanted::Level(0),
+        };
+        if wanted != Wanted::Same {
+            self.draw_face(&mut encoder, &frame.texture, shot, wanted, began)?;
+        }
+        if let Some(kept) = self.kept.as_mut().filter(|_| keeps) {
+            kept.note(shot);
+            match &self.motion {
+                Some(motion) if motion.is_draft() => {
+                    let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+                    motion.drafts.show(&self.gpu.device, &mut encoder, &view);
+                }
+                _ => {
+                    let (from, to) = (kept.texture.as_image_copy(), frame.texture.as_image_copy());
+                    encoder.copy_texture_to_texture(from, to, kept.texture.size());
+                }
+            }
+        }
+        if let Some((overlay, painted)) = panel {
+            overlay.draw(&self.gpu, &mut encoder, &frame.texture, self.panel_format, painted);
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+        self.window.pre_present_notify();
+        self.gpu.queue.present(frame);
+        match self.gpu.errors.take() {
+            None => Ok(was_draft && !self.shows_draft()),
+            Some(error) => {
+                // What the kept picture shows now is not known.
+                self.forget_kept();
+                self.motion.iter_mut().for_each(Motion::forget);
+                bail!("expected adapter {:?} to draw the frame, found: {error}", self.gpu.info.name)
+            }
+        }
+    }
+
+    /// Whether the window shows less than the whole picture.
+    pub(in crate::window) fn shows_draft(&self) -> bool {
+        self.motion.as_ref().is_some_and(Motion::is_draft)
+    }
+
+    /// A frame has been shown after which none follows at once. Returns when one should: with the whole picture
+    /// where a draft is shown.
+    pub(in crate::window) fn comes_to_rest(&mut self) -> Option<Instant> {
+        let motion = self.motion.as_mut()?;
+        motion.wait(&self.gpu.device);
+        motion.due()
+    }
+
+    /// Records what is wanted of the face.
+    fn draw_face(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        surface: &wgpu::Texture,
+        shot: &Shot<'_>,
+        wanted: Wanted,
+        began: Instant,
+    ) -> Result<()> {
+        let (level, is_shown) = match (wanted, &self.motion) {
+            (Wanted::Level(level), _) => (level, true),
+            (Wanted::WarmUp, Some(motion)) => (motion.draft(), false),
+            _ => return Ok(()),
+        };
+        let (width, height) = (self.config.width, self.config.height);
+        self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
+        let scene = shot.scene(width, height, &self.look);
+        let counts = match Pace::step(level) {
+            None => self.draw_whole(encoder, surface, &scene)?,
+            Some(step) => {
+                let Some(motion) = &mut self.motion else { return Ok(()) };
+                let gpu = (&self.gpu.device, &self.gpu.queue);
+                let detail = self.look.hair_detail(&self.gpu.info);
+                self.avatar.set_hair_detail(HairDetail { draft: Some(step.strands), ..detail });
+                let avatars = [(&self.model, &self.avatar)];
+                let timer = self.timer.as_ref().filter(|_| is_shown);
+                motion.drafts.draw(gpu, encoder, step, (width, height), &scene, &avatars, timer)?
+            }
+        };
+        self.is_measured |= is_shown && self.timer.is_some();
+        match &mut self.motion {
+            Some(motion) if is_shown => motion.shows(level, began, counts),
+            Some(motion) => motion.warmed_up(),
+            None => {}
+        }
+        Ok(())
+    }
+
+    /// Records the whole picture: on the one that is kept, or else on the surface. Returns whether it is not
+    /// the first.
+    fn draw_whole(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        surface: &wgpu::Texture,
+        scene: &Scene,
+    ) -> Result<bool> {
+        let Some(targets) = &self.targets else { return Ok(false) };
+        self.avatar.set_hair_detail(self.look.hair_detail(&self.gpu.info));
+        let texture = self.kept.as_ref().map_or(surface, |kept| &kept.texture);
+        let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let avatars = [(&self.model, &self.avatar)];
+        let timer = self.timer.as_ref();
+        self.renderer.draw_timed(encoder, &target, targets, &self.gpu.queue, scene, &avatars, timer)?;
+        Ok(std::mem::replace(&mut self.has_drawn, true))
+    }
+
+    /// The picture of the surface to draw on, unless it is not ready.
+    fn acquire(&mut self) -> Result<Option<wgpu::SurfaceTexture>> {
+        match self.surface.get_current_texture() {
+            Acquired::Success(frame) | Acquired::Suboptimal(frame) => return Ok(Some(frame)),
+            Acquired::Occluded => return Ok(None),
+            Acquired::Timeout => {}
+            Acquired::Validation => {
+                let error = self.gpu.errors.take().unwrap_or_default();
+                self.forget_kept();
+                bail!("expected a picture of the window to draw on, found: {error}");
+            }
+            Acquired::Outdated => self.resize(self.window.inner_size())?,
+            Acquired::Lost => {
+                self.surface =
+                    self.gpu.instance.create_surface(self.window.clone()).context("the lost surface")?;
+                self.resize(self.window.inner_size())?;
+            }
+        }
+        self.window.request_redraw();
+        Ok(None)
+    }
+}

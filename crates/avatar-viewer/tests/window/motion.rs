@@ -1,0 +1,88 @@
+//! Frames in motion: drafts that follow each other smoothly where software draws, and the whole picture at
+//! rest.
+
+use crate::desk::{Desk, can_run, difference, key_of, render};
+use image::RgbImage;
+use std::time::{Duration, Instant};
+
+/// What the window shows for so long, each picture once.
+fn pictures(desk: &Desk, secs: f64) -> Vec<RgbImage> {
+    let start = Instant::now();
+    let mut pictures = vec![desk.picture()];
+    while start.elapsed().as_secs_f64() < secs {
+        let now = desk.picture();
+        if difference(&now, pictures.last().expect("the first")) != Some(0) {
+            pictures.push(now);
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    pictures
+}
+
+/// The mean difference of a channel.
+fn mean_difference(a: &RgbImage, b: &RgbImage) -> f64 {
+    let sum: u64 = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    sum as f64 / a.as_raw().len() as f64
+}
+
+#[test]
+fn a_motion_is_shown_in_drafts_and_ends_with_the_whole_picture() {
+    if !can_run() {
+        return;
+    }
+    let options = ["--size", "640x360", "--hair", "bob", "--hair-density", "0.3"];
+    let (first, pose) = (render(&options), "surprise");
+    let expected = render(&[&options[..], &["--pose", pose]].concat());
+    let far = mean_difference(&first, &expected);
+    let mut desk = Desk::open(&options);
+    desk.shows(&first, "whole from the start");
+    desk.settled();
+    desk.key(&key_of(pose));
+    let shown = pictures(&desk, 2.5);
+    println!("{} pictures in 2.5 s", shown.len());
+    desk.shows(&expected, "whole again at rest");
+    // A draft of the end of the motion is nearer to it than its beginning is.
+    let last = shown.iter().rev().find(|picture| difference(picture, &expected) != Some(0));
+    let off = mean_difference(last.expect("the beginning at least"), &expected);
+    assert!(shown.len() > 4, "{} pictures", shown.len());
+    println!("the last before: {off}; the beginning: {far}");
+    assert!(off < far, "{off} beside {far}: the last picture before the whole one is one of the same face");
+    desk.key("Escape");
+    desk.closes();
+}
+
+#[test]
+#[ignore = "measures: how many pictures a second the window of scripts/run shows, and how soon the whole one"]
+fn pictures_a_second() {
+    assert!(can_run());
+    let settings = tempfile::tempdir().expect("a temporary folder");
+    for hair in ["bob", "off"] {
+        let mut desk = Desk::with_panel(&["--hair", hair], settings.path());
+        // A window is black until its first frame.
+        let black = RgbImage::new(1280, 720);
+        desk.changes_from(&black, "the first picture");
+        desk.settled();
+        for pose in ["smile", "surprise", "anger", "smile"] {
+            desk.key(&key_of(pose));
+            let shown = pictures(&desk, 1.5);
+            if let Some(folder) = std::env::var_os("MIMIK_PICTURES") {
+                let name = format!("{hair}-{pose}.png");
+                let middle = shown.get(shown.len() / 2).expect("one");
+                middle.save(std::path::Path::new(&folder).join(name)).expect("saved");
+            }
+            let start = Instant::now();
+            let settled = desk.settled();
+            println!(
+                "{hair}, {pose}: {:.1} pictures a second; the whole one after {:.2} s more",
+                shown.len() as f64 / 1.5,
+                start.elapsed().as_secs_f64()
+            );
+            if let Some(folder) = std::env::var_os("MIMIK_PICTURES") {
+                let name = format!("{hair}-{pose}-rest.png");
+                settled.save(std::path::Path::new(&folder).join(name)).expect("saved");
+            }
+        }
+        desk.key("Escape");
+        desk.closes();
+    }
+}
