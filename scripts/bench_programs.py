@@ -13,14 +13,11 @@ import time
 
 import bench_table as table
 import bench_window as window
+from bench_window import Missing
 
 OZZ = "ozz-animation-rs"
 OZZ_VERSION = "0.11.0"
 COUNTS = [1, 4, 16]
-
-
-class Missing(Exception):
-    """What a program needs is not there; the text says what."""
 
 
 def tell(text):
@@ -35,7 +32,9 @@ def output(command, **options):
         raise Missing(f"{command[0]}: {error.strerror}") from error
     if done.returncode != 0:
         words = (done.stderr.strip() or done.stdout.strip()).splitlines() or ["no message"]
-        raise Missing(f"{pathlib.Path(command[0]).name} ended with {done.returncode}: {words[-1]}")
+        # Compilers say "build failed" last.
+        words = [line for line in words if line.startswith("error")] or words[-1:]
+        raise Missing(f"{pathlib.Path(command[0]).name} ended with {done.returncode}: {words[0]}")
     return done.stdout
 
 
@@ -70,26 +69,40 @@ class Load:
 
 
 class Program:
-    """One that is built; `measure` runs it once: {key: (least, median)}."""
+    """One that is built. `measure` runs it once and returns {key: (least, median)}, or raises Missing."""
 
-    def __init__(self, name, measure, workshop):
-        self.name, self._measure, self._workshop = name, measure, workshop
+    def __init__(self, name, measure):
+        self.name, self.measure = name, measure
 
-    def measure(self):
-        try:
-            return self._measure()
-        except Missing as missing:
-            self._workshop.leave_out(f"{self.name}: {missing}")
-            return {}
+
+def run_in_turns(ready, rounds, leave_out):
+    """Every program once in each round: {key: [(least, median), …]}, a pair for each round.
+
+    One that fails once is left out altogether, so that rounds of all series are the same rounds.
+    """
+    kept = {program: [] for program in ready}
+    for turn in range(rounds):
+        for program in list(kept):
+            tell(f"round {turn + 1} of {rounds}: {program.name}")
+            try:
+                kept[program].append(program.measure())
+            except Missing as missing:
+                leave_out(f"{program.name}: {missing}")
+                del kept[program]
+    series = {}
+    for found in kept.values():
+        for pairs in found:
+            for key, pair in pairs.items():
+                series.setdefault(key, []).append(pair)
+    return series
 
 
 class Workshop:
     """Where programs are built, what they share, and what could not be had."""
 
-    def __init__(self, root, given):
-        self.root, self.given = root, given
+    def __init__(self, root, given, scratch):
+        self.root, self.given, self.scratch = root, given, pathlib.Path(scratch)
         self.left_out, self.adapter = [], ""
-        self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="mimik-bench-"))
 
     def leave_out(self, what):
         if what not in self.left_out:
@@ -194,7 +207,7 @@ def _viewer(*arguments, key):
             seconds = time.monotonic() - start
             return {key: (seconds, seconds)}
 
-        yield Program(key, measure, workshop)
+        yield Program(key, measure)
 
     return prepare
 
@@ -207,7 +220,7 @@ def _window(workshop):
         rate = window.pictures_a_second([program, "--hair", "bob"], seconds, workshop.scratch)
         return {"window": (rate, rate)}
 
-    yield Program("window", measure, workshop)
+    yield Program("window", measure)
 
 
 def _divan(package, name):
@@ -219,7 +232,7 @@ def _divan(package, name):
             found = table.divan(output([program, "--bench", *short]))
             return {f"{package} {bench}": pair for bench, pair in found.items()}
 
-        yield Program(f"{package} {name}", measure, workshop)
+        yield Program(f"{package} {name}", measure)
 
     return prepare
 
@@ -233,7 +246,7 @@ def _floor(workshop):
             found[name], found[f"{name}: copy"] = work, copy
         return found
 
-    yield Program("floor", measure, workshop)
+    yield Program("floor", measure)
 
 
 def _growth(workshop):
@@ -242,7 +255,7 @@ def _growth(workshop):
     def measure():
         return table.growth(output([program, "5", "100000", "growth"]))
 
-    yield Program("growth", measure, workshop)
+    yield Program("growth", measure)
 
 
 def _crowd(workshop):
@@ -262,7 +275,7 @@ def _crowd(workshop):
             for column, pair in columns.items()
         }
 
-    yield Program("crowd", measure, workshop)
+    yield Program("crowd", measure)
 
 
 def _bevy(workshop):
@@ -282,7 +295,7 @@ def _bevy(workshop):
                     raise Missing("no line of times")
                 return {f"bevy {light} {count}": pair}
 
-            yield Program(f"bevy {light} {count}", measure, workshop)
+            yield Program(f"bevy {light} {count}", measure)
 
 
 def _ozz(workshop):
@@ -293,7 +306,7 @@ def _ozz(workshop):
         pairs = {name: table.labelled(text, name) for name in (OZZ, "glam")}
         return {name: pair for name, pair in pairs.items() if pair}
 
-    yield Program("ozz", measure, workshop)
+    yield Program("ozz", measure)
 
 
 PROGRAMS = {

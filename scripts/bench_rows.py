@@ -93,7 +93,8 @@ def _faces(get):
     what = "a face of 1,024: player, couplings, bones"
     yield _line(what, crowd, "≤ 120", "one by one", single, "ns")
     bones = _a_face(get("rig-core crowd/1024"))
-    yield _line("its nine joints alone", bones, "≤ 30, ≤ 0.25", "ozz-animation-rs 0.11.0", get("ozz-animation-rs"), "ns")
+    ozz = get("ozz-animation-rs")
+    yield _line("its nine joints alone", bones, "≤ 30, ≤ 0.25", "ozz-animation-rs 0.11.0", ozz, "ns")
     yield _line("its nine joints alone", bones, "", "glam 0.34, one by one", get("glam"), "ns")
 
 

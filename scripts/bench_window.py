@@ -19,10 +19,12 @@ KEY_SECS = 0.2
 LOOK_SECS = 0.004
 
 
+class Missing(Exception):
+    """What a measurement needs is not there; the text says what."""
+
+
 def pictures_a_second(command, seconds, scratch):
     """Opens the window and presses keys of poses for so long. Raises Missing where that cannot be."""
-    from bench_programs import Missing
-
     for name in ["Xvfb", "xdotool"]:
         if shutil.which(name) is None:
             raise Missing(f"{name} is not installed")
@@ -76,8 +78,6 @@ def _look(pixels, places):
 
 def _wait_for_face(pixels, window):
     """Until the middle of the screen is not one colour, and has stayed as it is for a second."""
-    from bench_programs import Missing
-
     places = looked_at(len(pixels))
     end, seen, since = time.monotonic() + PATIENCE_SECS, None, 0.0
     while time.monotonic() < end:
@@ -93,8 +93,6 @@ def _wait_for_face(pixels, window):
 
 
 def _count(pixels, window, environment, seconds):
-    from bench_programs import Missing
-
     places, changes, pressed = looked_at(len(pixels)), 0, 0
     last = _look(pixels, places)
     start = next_key = time.monotonic()
