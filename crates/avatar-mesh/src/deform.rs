@@ -1,10 +1,7 @@
 use crate::skin_lanes::SkinLanes;
-use crate::turning::{all_turn_evenly, blended, is_mirroring, normal_matrix, wide};
+use crate::turning::{MIN_NORMAL_LENGTH, all_turn_evenly, blended, is_mirroring, normal_matrix, wide};
 use crate::{Deformed, Mesh, Skinning, SmoothNormals};
 use glam::{Affine3A, DMat3, Vec3, Vec3A};
-
-/// A blended or skinned normal shorter than this has no direction: the undeformed normal takes its place.
-pub const MIN_NORMAL_LENGTH: f32 = 1e-6;
 
 /// What becomes of normals when shapes move positions.
 #[derive(Debug, Default)]

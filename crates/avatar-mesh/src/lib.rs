@@ -100,7 +100,7 @@ pub mod coherence;
 pub mod obj;
 
 pub use bounds::Bounds;
-pub use deform::{DeformError, MIN_NORMAL_LENGTH, ShapeNormals, blend, deform, deform_with};
+pub use deform::{DeformError, ShapeNormals, blend, deform, deform_with};
 pub use deform_bounds::{BoneBounds, DeformBounds};
 pub use mesh::{Deformed, Mesh};
 pub use offsets::{Offsets, OffsetsError};
@@ -108,7 +108,7 @@ pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec
 pub use shape::Shape;
 pub use skinning::Skinning;
 pub use smooth::SmoothNormals;
-pub use turning::{deformed_triangles, mirrors, normal_matrix, turns_evenly};
+pub use turning::{MIN_NORMAL_LENGTH, deformed_triangles, mirrors, normal_matrix, turns_evenly};
 pub use validate::{MeshError, MeshWarning, WEIGHT_SUM_LIMIT, WEIGHT_SUM_TOLERANCE};
 pub use weld::{Welded, weld, weld_positions};
 pub use winding::Winding;

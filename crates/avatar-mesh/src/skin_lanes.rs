@@ -1,6 +1,7 @@
 //! Skinning of [`LANES`] vertices at once, with the bits of one by one.
 
-use crate::{MIN_NORMAL_LENGTH, Skinning};
+use crate::Skinning;
+use crate::turning::MIN_NORMAL_LENGTH;
 use glam::{Affine3A, Vec3};
 use lanes::{LANES, Lanes, Simd, Wide, Work, steps};
 

@@ -4,6 +4,9 @@ use crate::{Mesh, Skinning};
 use glam::{Affine3A, DMat3};
 use std::borrow::Cow;
 
+/// A blended or skinned normal shorter than this has no direction: the undeformed normal takes its place.
+pub const MIN_NORMAL_LENGTH: f32 = 1e-6;
+
 /// How far axes may be from equal lengths and right angles before normals need a matrix of their own:
 /// relative, and well below what is seen.
 const MAX_UNEVENNESS: f64 = 1e-4;
