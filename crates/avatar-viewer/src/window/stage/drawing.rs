@@ -11,9 +11,9 @@ use std::time::Instant;
 use wgpu::CurrentSurfaceTexture as Acquired;
 
 impl Stage {
-    /// Draws one frame, the panel over the picture; `moves` says whether another one follows at once. A surface
-    /// that is not ready loses this frame, not the window. Returns whether a draft gave way to the whole
-    /// picture.
+    /// Draws one frame, the panel over the picture; `moves` says whether another one follows at once. A
+    /// surface that is not ready loses this frame, not the window. Returns whether a draft gave way to the
+    /// whole picture.
     pub(in crate::window) fn draw(
         &mut self,
         shot: &Shot<'_>,
@@ -79,8 +79,8 @@ impl Stage {
         self.motion.as_ref().is_some_and(Motion::is_draft)
     }
 
-    /// A frame has been shown after which none follows at once. Returns when one should: with the whole picture
-    /// where a draft is shown.
+    /// A frame has been shown after which none follows at once. Returns when one should: with the whole
+    /// picture where a draft is shown.
     pub(in crate::window) fn comes_to_rest(&mut self) -> Option<Instant> {
         let motion = self.motion.as_mut()?;
         motion.wait(&self.gpu.device);

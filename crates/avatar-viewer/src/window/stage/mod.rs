@@ -42,8 +42,8 @@ pub(super) struct Stage {
     /// is not drawn again.
     kept: Option<Kept>,
     can_keep: bool,
-    /// Drafts while something moves, on adapters that draw in software. `None` on others: they draw nothing but
-    /// whole pictures.
+    /// Drafts while something moves, on adapters that draw in software. `None` on others: they draw nothing
+    /// but whole pictures.
     motion: Option<Motion>,
     /// Whether the hair moved in the frame before.
     hair_moved: bool,

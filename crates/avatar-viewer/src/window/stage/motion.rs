@@ -65,8 +65,8 @@ impl<D> Motion<D> {
         }
     }
 
-    /// When another picture of the same is due, if nothing moves. A frame that began after that and drew nothing
-    /// had no window to draw on: one that is seen again is drawn again.
+    /// When another picture of the same is due, if nothing moves. A frame that began after that and drew
+    /// nothing had no window to draw on: one that is seen again is drawn again.
     pub(super) fn due(&self) -> Option<Instant> {
         let is_due = self.shown.is_some_and(|shown| shown > 0 || !self.is_warm);
         is_due.then(|| self.changed + RESTS).filter(|due| *due > self.began)
