@@ -117,8 +117,8 @@ fn packed(face: &[Local; JOINTS]) -> Vec<SoaTransform> {
     packed
 }
 
-/// Skeletons can only be read, so this writes one in the format that is read: byte order, tag, version, number
-/// of joints, length of all names, names, parents, transforms at rest.
+/// Skeletons can only be read, so this writes one in the format that is read: byte order, tag, version,
+/// number of joints, length of all names, names, parents, transforms at rest.
 fn skeleton() -> Skeleton {
     let names: Vec<String> = (0..JOINTS).map(|joint| format!("{joint}\0")).collect();
     let mut file = vec![1u8];
