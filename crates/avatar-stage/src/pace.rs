@@ -32,8 +32,8 @@ const fn step(shorter_side: u32, has_shadows: bool, strands: u32) -> Step {
 /// one. What each takes is estimated: first by what they took on the machine that they were chosen on, then
 /// by what they take here. Right after a change of level it is the level that is learnt; later, time that
 /// grows or falls is the machine's, and all levels' with it. A level is left for a cheaper one when its
-/// frames take too long, and for a finer one only where that one's are expected to take much less than they may, so
-/// that the level does not go to and fro.
+/// frames take too long, and for a finer one only where that one's are expected to take much less than they
+/// may, so that the level does not go to and fro.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace {
     level: usize,
