@@ -5,7 +5,7 @@
 //! `lit`: its physical material with one directional light and ambient light, no shadows; `unlit`: base
 //! colours. The scene is that of avatar-render's bench `crowd`: 1280×720 at four samples; a grid of cells of
 //! 28 × 32 units, as many columns as rows; a camera of 30° across the height of the picture, so far away that
-//! the rows fill it. The GLB's first animation plays, 1/30 s a frame. A frame lasts from one update of the app
+//! the rows fill it. The GLB's first animation plays, 1/30 s a frame. A frame lasts from an update of the app
 //! to the moment at which the device has nothing left to do; drawing does not overlap with the next update.
 //!
 //! Prints one line: the adapter, then the least and the median of all frames after as many to warm up as a
