@@ -2,8 +2,8 @@
 //! 1280×720 at four samples, without textures, in plain shading and in low quality. All of them move before
 //! each frame: the head turns and shapes follow.
 //!
-//! `cargo bench -p avatar-render --bench crowd -- [SECONDS] [PACK]`: about so many seconds for each row, of a
-//! folder in the raw format; without one of the built-in avatar.
+//! `cargo bench -p avatar-render --bench crowd -- [SECONDS] [MOST] [PACK]`: about so many seconds for each
+//! row, at most so many avatars, of a folder in the raw format; without one of the built-in avatar.
 //!
 //! Prints milliseconds, the fastest and the median of all frames: `pose`, handing bones and weights over;
 //! `record`, everything that one core does until the frame is submitted; `frame`, from then until it is
@@ -74,7 +74,8 @@ struct Stage<'a> {
 }
 
 fn main() {
-    let seconds = std::env::args().filter_map(|arg| arg.parse().ok()).next().unwrap_or(4.0f64);
+    let mut numbers = std::env::args().filter_map(|arg| arg.parse().ok());
+    let (seconds, most) = (numbers.next().unwrap_or(4.0f64), numbers.next().unwrap_or(1000.0));
     let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne");
     let given = std::env::args().skip(1).map(PathBuf::from).find(|path| path.is_dir());
     let folder = given.unwrap_or(built_in);
@@ -98,7 +99,7 @@ fn main() {
         );
         let mut stage = Stage::new(&gpu, &pack, &model, quality);
         let mut least = Vec::new();
-        for count in COUNTS {
+        for count in COUNTS.into_iter().filter(|count| *count as f64 <= most) {
             let states = (0..count).map(|_| AvatarState::new(&gpu.device, &model)).collect();
             let crowd = AvatarCrowd::new(&gpu.device, &model, count).expect("room");
             let row = |name, avatars| Row {
@@ -113,13 +114,13 @@ fn main() {
                 row("one by one", Avatars::OneByOne(states)),
             ];
             // For what is made at the first use.
-            for row in &mut rows {
+            for row in rows.iter_mut().filter(|_| count <= 64) {
                 stage.step(row);
                 row.moving.clear();
                 row.still.clear();
             }
             let start = Instant::now();
-            while start.elapsed().as_secs_f64() < seconds || rows[0].moving.len() < 3 {
+            while start.elapsed().as_secs_f64() < seconds || rows[0].moving.is_empty() {
                 rows.iter_mut().for_each(|row| stage.step(row));
             }
             rows.iter().for_each(Row::print);
@@ -127,7 +128,10 @@ fn main() {
             let whole = |row: &Row| fastest(&row.moving, |times| times.record + times.frame);
             least.push((count, whole(&rows[0]), whole(&rows[1])));
         }
-        let further = |of: fn(&(usize, f64, f64)) -> f64| (of(&least[2]) - of(&least[0])) / 15.0;
+        let [Some(one), Some(sixteen)] = [1, 16].map(|n| least.iter().find(|(count, ..)| *count == n)) else {
+            continue;
+        };
+        let further = |of: fn(&(usize, f64, f64)) -> f64| (of(sixteen) - of(one)) / 15.0;
         println!(
             "each further avatar, from 1 to 16: {:.2} ms in a crowd, {:.2} ms one by one",
             further(|row| row.1),

@@ -1,5 +1,6 @@
 //! Pictures of one size.
 
+use crate::avatar::crowd::AvatarCrowd;
 use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::frame::draw::DrawError;
@@ -115,10 +116,40 @@ impl Canvas {
         scene: &Scene,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Result<Image, RenderImageError> {
+        self.render_crowds_async(gpu, scene, avatars, &mut []).await
+    }
+
+    /// Draws a picture with crowds beside the other avatars, and waits for it.
+    ///
+    /// # Errors
+    /// Avatars or crowds that do not fit together, or a lost device.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn render_crowds(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
+    ) -> Result<Image, RenderImageError> {
+        pollster::block_on(self.render_crowds_async(gpu, scene, avatars, crowds))
+    }
+
+    /// The same, for callers that cannot block.
+    ///
+    /// # Errors
+    /// As above.
+    pub async fn render_crowds_async(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
+    ) -> Result<Image, RenderImageError> {
         let (width, height) = self.targets.size();
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-        self.renderer.draw(&mut encoder, &self.view, &self.targets, &gpu.queue, scene, avatars)?;
+        let (view, targets) = (&self.view, &self.targets);
+        self.renderer.draw_crowds(&mut encoder, view, targets, &gpu.queue, scene, avatars, crowds, None)?;
         encoder.copy_texture_to_buffer(
             self.color.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
