@@ -119,10 +119,14 @@ impl Pace {
         } else {
             self.frames = self.frames.saturating_add(1);
             if !self.is_known[level] || self.frames <= LEARNING {
+                let is_new = !self.is_known[level];
                 self.learn(level, secs);
                 if !std::mem::replace(&mut self.is_scaled, true) {
                     let is_known = self.is_known;
                     self.scale(secs / expected, |level| !is_known[level]);
+                } else if is_new && SURPRISE * secs < expected {
+                    // What was seen before was no slow machine, but other work at that moment.
+                    self.scale(secs / expected, |other| other != level);
                 }
             } else {
                 let mean = expected + WEIGHT * (secs.min(SURPRISE * expected) - expected);
@@ -236,6 +240,20 @@ mod tests {
         pace.note(level, 0.4);
         let after = run(&mut pace, SECONDS.map(|secs| 0.7 * secs), 50, || 0.0);
         assert_eq!((before[49], changes(&after)), (level, 0), "{after:?}");
+    }
+
+    #[test]
+    fn a_slow_first_frame_is_forgiven() {
+        for slow in [0.1, 0.4, 3.0] {
+            for frames in [1, 5] {
+                let mut pace = Pace::default();
+                let costs = SECONDS.map(|secs| 0.7 * secs);
+                let undisturbed = run(&mut Pace::default(), costs, 400, || 0.0)[399];
+                run(&mut pace, [slow; LEVELS], frames, || 0.0);
+                let after = run(&mut pace, costs, 400, || 0.0);
+                assert!(after[399].abs_diff(undisturbed) <= 1, "{slow}, {frames}: {after:?}");
+            }
+        }
     }
 
     #[test]
