@@ -96,7 +96,8 @@ impl Drafts {
         Ok(was_there)
     }
 
-    /// Records that the last draft is shown on a target of any size. Without one nothing happens.
+    /// Records that the last draft is shown on a target of any size, of the format given to [`Drafts::new`].
+    /// Without a draft nothing happens.
     pub fn show(
         &self,
         device: &wgpu::Device,

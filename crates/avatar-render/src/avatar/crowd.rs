@@ -9,8 +9,13 @@ use glam::Affine3A;
 /// a part of all of them takes one call instead of one for each.
 ///
 /// Their deformed vertices share buffers, as many avatars in each as WebGPU's default limits bind; so the
-/// memory of all of them is there from the start: 32 bytes for each vertex of each avatar. What did not move
-/// is not deformed again, and what is out of view, or hidden, is neither deformed nor drawn.
+/// memory of all of them is there from the start: 32 bytes for each vertex of each avatar, on the GPU. What
+/// did not move is not deformed again, and what is out of view, or hidden, is neither deformed nor drawn.
+///
+/// Boxes around avatars are looser than those of an [`AvatarState`](crate::AvatarState) while all weights are
+/// from 0 to 1, which saves most of the time of [`AvatarCrowd::set`]; shadow maps, which are fitted around
+/// them, are a little coarser then. [`Renderer::draw_crowds`](crate::Renderer::draw_crowds) says in what
+/// order blended parts are drawn.
 ///
 /// Avatars of a crowd have no hair and share their materials; near ones that need more are better
 /// [`AvatarState`](crate::AvatarState)s, which one frame can draw beside a crowd.
@@ -24,7 +29,8 @@ impl AvatarCrowd {
     /// So many avatars of this model at bind pose, all in one place, all shapes at rest.
     ///
     /// # Errors
-    /// More avatars than the device binds bones or weights of.
+    /// More avatars than the device binds bones or weights of. Too little memory for vertices is an error of
+    /// the device.
     pub fn new(device: &wgpu::Device, model: &AvatarModel, avatars: usize) -> Result<Self, CrowdError> {
         let pose = CrowdPose::new(device, &model.parts, model.palette_len(), model.shape_count(), avatars)?;
         Ok(Self { model: model.id, pose })
@@ -42,8 +48,9 @@ impl AvatarCrowd {
 
     /// Sets the pose of one avatar, from the next frame on: bones and weights as for
     /// [`AvatarState::set`](crate::AvatarState::set), the bones with its place in the world. `model` is the
-    /// one that the crowd was made of. An avatar that is not set keeps its pose, and costs nothing but being
-    /// drawn. Allocates nothing.
+    /// one that the crowd was made of. An avatar that is not set keeps its pose and is not deformed again. The
+    /// next frame uploads bones and weights from the first to the last avatar that was set. Allocates
+    /// nothing.
     ///
     /// # Errors
     /// No such avatar, another model, another number of bones or weights than the model has, or bones that

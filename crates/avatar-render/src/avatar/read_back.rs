@@ -96,6 +96,8 @@ impl Deformer {
         });
         let mut encoder = device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("deform and read back") });
+        // A frame that deformed it may not have been submitted.
+        state.pose.deform_again();
         self.record(&mut encoder, None, [state.deforming(model)].into_iter(), iter::empty());
         encoder.copy_buffer_to_buffer(&posed.vertices, 0, &readable, 0, size);
         queue.submit([encoder.finish()]);
@@ -158,6 +160,7 @@ impl Grower {
         });
         let mut encoder = device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("grow and read back") });
+        state.pose.deform_again();
         deformer.record(&mut encoder, None, [state.deforming(model)].into_iter(), iter::empty());
         self.record(&mut encoder, None, state.growing_all(model).into_iter());
         encoder.copy_buffer_to_buffer(&grown.points, 0, &readable, 0, size);

@@ -90,7 +90,14 @@ impl AvatarState {
         Some((&self.pose, self.hair.as_ref()?, strands))
     }
 
-    /// A box around the avatar as it is now; `None` if no part has a finite one.
+    /// A box around the avatar with its hair; `None` if no part has a finite one.
+    pub(crate) fn bounds_with_hair(&self, model: &AvatarModel) -> Option<Bounds> {
+        let bounds = self.bounds(model)?;
+        let reach = model.hair.as_ref().filter(|_| self.hair.is_some()).map_or(0.0, |hair| hair.reach);
+        Some(Bounds { min: bounds.min - reach, max: bounds.max + reach })
+    }
+
+    /// A box around the avatar without hair, as it is now; `None` if no part has a finite one.
     pub(crate) fn bounds(&self, model: &AvatarModel) -> Option<Bounds> {
         self.pose.bounds(&model.parts)
     }

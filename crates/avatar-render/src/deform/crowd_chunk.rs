@@ -23,8 +23,10 @@ pub(crate) struct GpuCrowdChunk {
 /// The avatars of a crowd that a pass draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Chosen {
-    /// In view.
+    /// In view, from near to far.
     Drawn,
+    /// The same from far to near.
+    Blended,
     /// In view, or between a lamp and what is in view.
     Casting,
 }
@@ -35,6 +37,7 @@ pub(crate) struct CrowdBuffers {
     pub(crate) bones: wgpu::Buffer,
     pub(crate) shapes: wgpu::Buffer,
     pub(crate) drawn: wgpu::Buffer,
+    pub(crate) blended: wgpu::Buffer,
     pub(crate) casting: wgpu::Buffer,
     pub(crate) moved: wgpu::Buffer,
 }
@@ -60,6 +63,7 @@ pub(crate) struct ChunkPart {
     pub(crate) output: wgpu::BindGroup,
     /// Group 3 of the passes that draw.
     drawn: wgpu::BindGroup,
+    blended: wgpu::BindGroup,
     casting: wgpu::BindGroup,
 }
 
@@ -111,7 +115,7 @@ impl Chunk {
     /// How many avatars are chosen.
     pub(crate) fn count(&self, chosen: Chosen) -> u32 {
         match chosen {
-            Chosen::Drawn => self.drawn,
+            Chosen::Drawn | Chosen::Blended => self.drawn,
             Chosen::Casting => self.casting,
         }
     }
@@ -150,6 +154,7 @@ impl ChunkPart {
         Self {
             output: group(output_layout, &[&vertices, &chunk, &buffers.moved]),
             drawn: group(crowd_layout, &[&vertices, &chunk, &buffers.drawn, &buffers.bones]),
+            blended: group(crowd_layout, &[&vertices, &chunk, &buffers.blended, &buffers.bones]),
             casting: group(crowd_layout, &[&vertices, &chunk, &buffers.casting, &buffers.bones]),
         }
     }
@@ -158,6 +163,7 @@ impl ChunkPart {
     pub(crate) fn group(&self, chosen: Chosen) -> &wgpu::BindGroup {
         match chosen {
             Chosen::Drawn => &self.drawn,
+            Chosen::Blended => &self.blended,
             Chosen::Casting => &self.casting,
         }
     }

@@ -51,11 +51,15 @@ pub enum CrowdError {
 pub struct CrowdWork {
     /// Avatars that it drew into the picture.
     pub drawn: usize,
-    /// Avatars that it drew into shadow maps, the drawn ones among them.
+    /// Avatars that are in view or may cast shadows into it, the drawn ones among them.
     pub casting: usize,
     /// Avatars that it deformed.
     pub deformed: usize,
 }
+
+/// The deformed vertices of a part in one buffer: as many bytes as WebGPU's default limits bind, so that a
+/// crowd is cut in the same way everywhere.
+const CHUNK_BYTES: u64 = 128 << 20;
 
 /// What one avatar of a crowd is at present.
 #[derive(Clone, Copy, Debug, Default)]
@@ -92,6 +96,7 @@ pub(crate) struct CrowdPose {
     pub(crate) chunks: Vec<Chunk>,
     /// Memory for lists of avatars, at the place of their chunks.
     drawn: Vec<u32>,
+    blended: Vec<u32>,
     casting: Vec<u32>,
     moved: Vec<u32>,
     /// Memory for distances.
@@ -127,6 +132,7 @@ impl CrowdPose {
             bones: room("crowd: bones", bone_bytes.max(size_of::<GpuBone>())),
             shapes: room("crowd: active shapes", shape_stride * size_of::<GpuActiveShape>()),
             drawn: room("crowd: drawn", size_of::<u32>()),
+            blended: room("crowd: blended", size_of::<u32>()),
             casting: room("crowd: casting shadows", size_of::<u32>()),
             moved: room("crowd: moved", size_of::<u32>()),
         };
@@ -141,7 +147,7 @@ impl CrowdPose {
         let largest = parts.iter().map(bytes_of).max().unwrap_or(1).max(1);
         // A row of workgroups for each avatar.
         let rows = limits.max_compute_workgroups_per_dimension as usize;
-        let per_chunk = most(largest as usize).clamp(1, rows.max(1));
+        let per_chunk = ((binding.min(CHUNK_BYTES) / largest) as usize).clamp(1, rows.max(1));
         let head = GpuCrowdChunk {
             first_avatar: 0,
             vertex_count: 0,
@@ -171,6 +177,7 @@ impl CrowdPose {
             bind_group,
             chunks,
             drawn: vec![0; count],
+            blended: vec![0; count],
             casting: vec![0; count],
             moved: vec![0; count],
             distances: Vec::with_capacity(count),
@@ -262,7 +269,7 @@ impl CrowdPose {
 
     /// Chooses what the next frame draws, and writes what the GPU does not know yet. `is_in_view` and `casts`
     /// tell of a box whether the picture may show it, and whether its shadow may fall into the picture.
-    /// Drawn ones are listed from far to near. Allocates nothing.
+    /// Drawn ones are listed by their distance. Allocates nothing.
     pub(crate) fn choose(
         &mut self,
         queue: &wgpu::Queue,
@@ -291,9 +298,12 @@ impl CrowdPose {
                     }
                 }
             }
-            self.distances.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            // What is near hides what is far. Of equals the first is drawn first, and blended last.
+            self.distances.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             chunk.drawn = self.distances.len() as u32;
             let drawn = self.distances.iter().map(|(_, avatar)| *avatar);
+            let far_to_near = drawn.clone().rev();
+            self.blended[own.clone()].iter_mut().zip(far_to_near).for_each(|(place, avatar)| *place = avatar);
             self.drawn[own].iter_mut().zip(drawn).for_each(|(place, avatar)| *place = avatar);
         }
         let unwritten = std::mem::take(&mut self.unwritten);
@@ -301,6 +311,7 @@ impl CrowdPose {
         write(queue, &self.buffers.shapes, &self.shapes, &unwritten, 1 + self.shape_count);
         let all = 0..self.places.len();
         write(queue, &self.buffers.drawn, &self.drawn, &all, 1);
+        write(queue, &self.buffers.blended, &self.blended, &all, 1);
         write(queue, &self.buffers.casting, &self.casting, &all, 1);
         if self.chunks.iter().any(|chunk| chunk.moved > 0) {
             write(queue, &self.buffers.moved, &self.moved, &all, 1);
@@ -339,4 +350,71 @@ fn around(boxes: &[(usize, Bounds)], excess: [f32; 2], bones: &[GpuBone]) -> Opt
     let moved = boxes.iter().filter_map(|(bone, around)| Some(bones.get(*bone)?.moved(*around)));
     let union = moved.filter(is_somewhere).reduce(Bounds::union)?;
     Some(widened(union, excess)).filter(is_somewhere)
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "tests stop at the first surprise")]
+mod tests {
+    use super::*;
+    use crate::gpu::device::gpu_for_tests;
+    use crate::gpu::texture::Textures;
+    use crate::model::desc::{PartBones, PartDesc, PartTextures};
+    use crate::model::part::PartLayouts;
+    use avatar_mesh::{Mesh, PartKind, Shape, Skinning};
+
+    /// The boxes of usual weights, of unusual ones, and of bone weights that do not add up to 1, against the
+    /// vertices that the CPU deforms.
+    #[test]
+    fn boxes_hold_all_vertices_with_any_weights() {
+        let Some(gpu) = gpu_for_tests() else { return };
+        let positions: Vec<Vec3> = (0..24u8)
+            .map(|k| Vec3::new(f32::from(k % 4) - 1.5, f32::from(k / 4) - 2.5, 0.3 * f32::from(k % 3)))
+            .collect();
+        let count = positions.len();
+        let push = |along: Vec3| positions.iter().map(|p| along * (p.y + 3.0)).collect::<Vec<_>>();
+        for off in [0.0, 0.25] {
+            let mesh = Mesh {
+                normals: vec![Vec3::Y; count],
+                uvs: vec![glam::Vec2::ZERO; count],
+                triangles: vec![[0, 1, 2]],
+                skinning: Some(Skinning {
+                    bones: vec![[0, 1, 0, 0]; count],
+                    weights: (0..count)
+                        .map(|k| [0.04 * k as f32, 1.0 - 0.04 * k as f32 - off, 0.0, 0.0])
+                        .collect(),
+                    ..Skinning::default()
+                }),
+                shapes: vec![
+                    Shape::new("out", push(Vec3::X)),
+                    Shape::new("up", push(Vec3::new(-0.5, 1.0, 0.0))),
+                ],
+                positions: positions.clone(),
+                ..Mesh::default()
+            };
+            let desc = PartDesc {
+                label: "part",
+                mesh: &mesh,
+                first_weight: 0,
+                kind: PartKind::Skin,
+                bones: PartBones::PerVertex,
+                textures: PartTextures::default(),
+            };
+            let layouts = PartLayouts::new(&gpu.device);
+            let known = &mut Textures::default();
+            let part = ModelPart::new(&gpu.device, &gpu.queue, &layouts, known, &desc, &[desc], 2, 1.0);
+            let parts = [part.expect("a part")];
+            let mut pose = CrowdPose::new(&gpu.device, &parts, 2, 2, 2).expect("room");
+            for weights in [[0.0, 0.0], [0.5, 1.0], [1.0, 1.0], [0.3, 0.0], [-0.5, 0.2], [1.7, -1.0]] {
+                let bones = [Affine3A::from_translation(Vec3::X * 3.0), Affine3A::from_rotation_z(0.7)];
+                pose.set(&parts, 1, &bones, &weights).expect("two bones, two weights");
+                let bounds = pose.places[1].bounds.expect("a box");
+                let mut deformed = mesh.deformed();
+                avatar_mesh::deform(&mesh, &bones, &weights, &mut deformed).expect("a mesh that fits");
+                for position in deformed.positions {
+                    let off = (bounds.min - position).max(position - bounds.max).max_element();
+                    assert!(off < 1e-5, "{weights:?}: {position} is outside of {bounds:?} by {off}");
+                }
+            }
+        }
+    }
 }

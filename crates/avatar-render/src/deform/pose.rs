@@ -156,6 +156,11 @@ impl Pose {
         *self.bounds.get_or_init(|| bounds(parts, &self.bones, &self.active_shapes))
     }
 
+    /// Lets the next pass deform the vertices, whether they have moved or not.
+    pub(crate) fn deform_again(&self) {
+        self.has_moved.store(true, Ordering::Relaxed);
+    }
+
     /// Whether the vertices must be deformed before the next pass draws them; from then on they are taken for
     /// deformed.
     pub(crate) fn take_moved(&self) -> bool {

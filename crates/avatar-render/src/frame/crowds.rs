@@ -1,6 +1,6 @@
 //! Records the draws of crowds: a part of all avatars of a chunk at once.
 
-use crate::deform::crowd_chunk::Chosen;
+use crate::deform::crowd_chunk::{Chosen, Chunk};
 use crate::frame::pipelines::PartPipelines;
 use crate::frame::record::{Recording, bind_part, sides};
 use crate::frame::standard::{Sides, Step};
@@ -29,7 +29,8 @@ impl<'a> Recording<'a> {
         is_wanted: impl Fn(&ModelPart) -> bool,
         pipeline: impl Fn(&'a PartPipelines, &ModelPart) -> Option<&'a wgpu::RenderPipeline>,
     ) {
-        for (model, crowd) in self.crowds {
+        let is_seen = |chunk: &Chunk| chunk.count(chosen) > 0;
+        for (model, crowd) in self.crowds.iter().filter(|(_, crowd)| crowd.pose.chunks.iter().any(is_seen)) {
             for (index, part) in model.parts_with_triangles().filter(|(_, part)| is_wanted(part)) {
                 let Some(pipeline) = pipeline(self.renderer.crowd_parts(), part) else { continue };
                 let mut is_bound = false;
@@ -69,11 +70,11 @@ impl<'a> Recording<'a> {
                 let finish = part.finish.get().filter(|finish| finish.is_blended());
                 finish.is_some_and(|finish| finish.is_double_sided || sides == Sides::Front)
             };
-            self.draw_crowds(pass, Chosen::Drawn, is_wanted, |parts, part| {
+            self.draw_crowds(pass, Chosen::Blended, is_wanted, |parts, part| {
                 Some(self.standard_of(parts, Step::Blended, sides, part))
             });
         }
-        self.draw_crowds_kind(pass, Chosen::Drawn, PartKind::Cornea, |parts| {
+        self.draw_crowds_kind(pass, Chosen::Blended, PartKind::Cornea, |parts| {
             parts.picture.iter().find(|(drawable, _)| drawable.is_transparent).map(|(_, pipeline)| pipeline)
         });
     }

@@ -6,13 +6,14 @@ use crate::avatar::state::AvatarState;
 use crate::frame::passes::{FRAME_PASSES, Pass};
 use crate::frame::record::Recording;
 use crate::frame::renderer::Renderer;
+use crate::frame::sight::Sight;
 use crate::frame::strands::strands_in_view;
 use crate::frame::targets::Targets;
 use crate::frame::timer::PassTimer;
 use crate::gpu::color::srgb_from_linear;
 use crate::hair::pipelines::MOST_HEADS;
 use crate::view::scene::Scene;
-use crate::view::seen::{Seen, is_in_view};
+use crate::view::seen::{Frustum, Seen};
 use crate::view::shadows::{GpuShadowView, ShadowViews};
 use crate::view::uniforms::{GpuFrame, pixels_per_unit};
 
@@ -83,9 +84,11 @@ impl Renderer {
     /// and the map cast shadows, in the picture or not. The softness of shadows and the reach of ambient
     /// occlusion follow from the height of the avatar that looks largest.
     ///
-    /// An avatar that has not moved since the last frame is not deformed again, and one that neither the
-    /// picture nor its shadow shows is neither deformed, grown nor drawn. A frame takes what it deforms for
-    /// deformed: submit what was recorded, in the order of recording.
+    /// An avatar that has not moved since the last frame is not deformed again, and one of which the picture
+    /// shows neither itself nor its shadow is neither deformed, grown nor drawn. A frame takes what it deforms
+    /// for deformed: submit what was recorded, in the order of recording. If an encoder is dropped instead,
+    /// its avatars show the pose before, until they are set again. Hair of an avatar that was out of view for
+    /// more than half a second hangs still when it comes back.
     ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be
     /// recorded before a submission, with 6144 heads of hair in all. They share one environment, that of the
@@ -129,10 +132,11 @@ impl Renderer {
 
     /// [`Renderer::draw_timed`] with crowds beside the other avatars.
     ///
-    /// Blended parts of crowds are drawn after those of the others, and part by part, so that of two blended
-    /// parts of different avatars the nearer may be drawn first. A crowd that stands in several frames must
-    /// be submitted with each of them before the next one is recorded: a frame writes what of the crowd it
-    /// shows, and takes its avatars for deformed from then on.
+    /// Blended parts of crowds are drawn after those of the others, part by part in the order of the model, its
+    /// corneas last, and each for the avatars from far to near: of two blended parts that overlap, the nearer
+    /// may be drawn first. A crowd that stands in several frames must be submitted with each of them before
+    /// the next one is recorded: a frame writes what of the crowd it shows, and takes its avatars for
+    /// deformed from then on.
     ///
     /// # Errors
     /// As above, or a crowd of another model.
@@ -153,14 +157,6 @@ impl Renderer {
             return Err(DrawError::CrowdOfAnotherModel { crowd });
         }
         let pixels_per_unit = pixels_per_unit(&scene.camera, targets.size());
-        let has_strands = |avatar: &&(&AvatarModel, &AvatarState)| {
-            strands_in_view(**avatar, &scene.camera, pixels_per_unit, f32::INFINITY).is_some()
-        };
-        let heads = avatars.iter().filter(has_strands).count();
-        if heads > MOST_HEADS as usize {
-            return Err(DrawError::TooManyHeads { found: heads, limit: MOST_HEADS as usize });
-        }
-        let has_hair = heads > 0;
         let terms = self.config().shading.terms();
         let boxes = avatars.iter().map(|(model, state)| (state.bounds(model), model.height));
         let of_crowds = crowds
@@ -170,11 +166,20 @@ impl Renderer {
         let seen = Seen::new(&scene.camera, boxes.clone());
         let casters = boxes.filter_map(|(bounds, _)| bounds);
         let shadows = ShadowViews::new(&scene.light, seen.bounds, casters, terms.shadows);
-        let lamps = terms.shadows.lamps() as usize;
+        let lamps = shadows.0.get(..terms.shadows.lamps() as usize).unwrap_or_default();
+        let sight = Sight { frustum: Frustum::new(&scene.camera), lamps };
+        let has_strands = |avatar: &&(&AvatarModel, &AvatarState)| {
+            sight.concerns(avatar.0, avatar.1)
+                && strands_in_view(**avatar, &scene.camera, pixels_per_unit, f32::INFINITY).is_some()
+        };
+        let heads = avatars.iter().filter(has_strands).count();
+        if heads > MOST_HEADS as usize {
+            return Err(DrawError::TooManyHeads { found: heads, limit: MOST_HEADS as usize });
+        }
+        let has_hair = heads > 0;
         for (_, crowd) in crowds.iter_mut() {
-            let is_in_view = |bounds| is_in_view(&scene.camera, bounds);
-            let casts = |bounds| shadows.0.iter().take(lamps).any(|view| view.meets(bounds));
-            crowd.pose.choose(queue, scene.camera.eye(), is_in_view, casts);
+            let shows = |bounds| sight.shows(bounds);
+            crowd.pose.choose(queue, scene.camera.eye(), shows, |bounds| sight.casts(bounds));
         }
         let irradiance = self.resources.environment.irradiance(queue, &scene.light.environment, terms);
         let mut gpu_frame = GpuFrame::new(scene, &irradiance, &shadows, targets.size(), seen.height);
@@ -194,7 +199,7 @@ impl Renderer {
                 let shadow_from_world = view.shadow_from_world.to_cols_array_2d();
                 self.shadow_views.push(queue, &GpuShadowView { shadow_from_world })
             }),
-            lamps: shadows.0.get(..lamps).unwrap_or_default(),
+            sight,
             timer,
             has_hair,
             pixels_per_unit,

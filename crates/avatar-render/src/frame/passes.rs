@@ -5,9 +5,9 @@ use crate::view::shading::Terms;
 /// A pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pass {
-    /// Compute: deforms all parts of all avatars.
+    /// Compute: deforms all parts of avatars that moved.
     Deform,
-    /// Compute: grows every strand anew on the deformed skin.
+    /// Compute: grows the strands of avatars in view anew on the deformed skin.
     GrowHair,
     /// What the key and rim lamps see: depth.
     Shadows,

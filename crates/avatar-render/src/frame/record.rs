@@ -11,6 +11,7 @@ use crate::frame::part_pipelines::{
 use crate::frame::passes::{Pass, PictureStep, depth_attachment};
 use crate::frame::pipelines::PartPipelines;
 use crate::frame::renderer::Renderer;
+use crate::frame::sight::Sight;
 use crate::frame::standard::{Sides, Step};
 use crate::frame::targets::Targets;
 use crate::frame::timer::{PassTimer, Span};
@@ -19,8 +20,6 @@ use crate::model::finish::{Finish, Opacity};
 use crate::model::part::ModelPart;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::scene::Scene;
-use crate::view::seen::is_in_view;
-use crate::view::shadows::ShadowView;
 use avatar_mesh::PartKind;
 use std::sync::PoisonError;
 
@@ -35,8 +34,7 @@ pub(crate) struct Recording<'a> {
     pub(crate) clear: wgpu::Color,
     pub(crate) frame_offset: u32,
     pub(crate) shadow_offsets: [u32; SHADOW_COUNT],
-    /// What lamps see that cast shadows.
-    pub(crate) lamps: &'a [ShadowView],
+    pub(crate) sight: Sight<'a>,
     pub(crate) timer: Option<&'a PassTimer>,
     /// Whether any of the avatars has hair in this view.
     pub(crate) has_hair: bool,
@@ -51,13 +49,12 @@ type Item<'a> = (&'a ModelPart, &'a PosedPart, &'a AvatarState);
 impl<'a> Recording<'a> {
     /// Whether the picture may show an avatar.
     pub(crate) fn shows(&self, model: &AvatarModel, state: &AvatarState) -> bool {
-        state.bounds(model).is_some_and(|bounds| is_in_view(&self.scene.camera, bounds))
+        state.bounds_with_hair(model).is_some_and(|bounds| self.sight.shows(bounds))
     }
 
     /// Whether it may show the avatar or its shadow. Others are neither deformed nor drawn.
     pub(crate) fn concerns(&self, model: &AvatarModel, state: &AvatarState) -> bool {
-        let casts = |bounds| self.lamps.iter().any(|lamp| lamp.meets(bounds));
-        self.shows(model, state) || state.bounds(model).is_some_and(casts)
+        self.sight.concerns(model, state)
     }
 
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, pass: Pass) {
@@ -278,7 +275,7 @@ impl<'a> Recording<'a> {
             let wanted = parts.filter(move |(_, part)| is_wanted(part));
             wanted.flat_map(move |(index, part)| {
                 let seen = group.iter().filter(move |(model, state)| match chosen {
-                    Chosen::Drawn => self.shows(model, state),
+                    Chosen::Drawn | Chosen::Blended => self.shows(model, state),
                     Chosen::Casting => self.concerns(model, state),
                 });
                 seen.filter_map(move |(_, state)| Some((part, state.pose.parts.get(index)?, *state)))

@@ -27,6 +27,8 @@ pub(crate) struct HairModel {
     pub(crate) part: usize,
     pub(crate) strand_count: u32,
     pub(crate) guide_count: u32,
+    /// The longest strand: how far hair reaches beyond the skin at most, up to its swinging.
+    pub(crate) reach: f32,
     /// Swings per second of the tips of guides.
     pub(crate) swing: f32,
     pub(crate) hair: wgpu::Buffer,
@@ -113,6 +115,7 @@ impl HairModel {
             part,
             strand_count,
             guide_count,
+            reach: groom.strands().iter().map(|planted| planted.length).fold(0.0, f32::max),
             swing: groom.style().scalp.swing,
             hair: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("hair"),

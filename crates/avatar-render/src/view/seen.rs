@@ -24,8 +24,9 @@ impl Seen {
     /// `avatars` are the boxes around avatars and the heights of their skins. Sizes are those of whole
     /// avatars, not of what is visible of them: shadows must not change while a camera comes nearer.
     pub(crate) fn new(camera: &Camera, avatars: impl Iterator<Item = (Option<Bounds>, f32)> + Clone) -> Self {
+        let frustum = Frustum::new(camera);
         let in_view = avatars.clone().filter_map(|(bounds, height)| {
-            let bounds = bounds.filter(|bounds| is_in_view(camera, *bounds))?;
+            let bounds = bounds.filter(|bounds| frustum.meets(*bounds))?;
             Some((bounds, apparent_size(camera, bounds), height))
         });
         // Of several that look equally large, the first.
@@ -51,16 +52,28 @@ fn apparent_size(camera: &Camera, bounds: Bounds) -> f32 {
     bounds.size().length() / distance.max(camera.valid_near())
 }
 
-/// Whether a box may be in the picture: it is not wholly beyond one of the picture's edges or behind the
-/// camera. Boxes near the corners may pass without being seen (U. Assarsson and T. Möller, "Optimized View
-/// Frustum Culling Algorithms for Bounding Boxes", 2000).
-pub(crate) fn is_in_view(camera: &Camera, bounds: Bounds) -> bool {
-    let clip_from_world = camera.clip_from_world();
-    let [x, y, w] = [0, 1, 3].map(|row| clip_from_world.row(row));
-    let (center, half) = (bounds.center(), bounds.size() * 0.5 * ROOM);
-    let is_inside =
-        |plane: Vec4| plane.truncate().dot(center) + plane.truncate().abs().dot(half) + plane.w >= 0.0;
-    [w + x, w - x, w + y, w - y, w].into_iter().all(is_inside)
+/// What the picture can show: the half spaces of its edges and the one before the camera.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frustum {
+    planes: [Vec4; 5],
+}
+
+impl Frustum {
+    pub(crate) fn new(camera: &Camera) -> Self {
+        let clip_from_world = camera.clip_from_world();
+        let [x, y, w] = [0, 1, 3].map(|row| clip_from_world.row(row));
+        Self { planes: [w + x, w - x, w + y, w - y, w] }
+    }
+
+    /// Whether a box may be in the picture: it is not wholly beyond one of the picture's edges or behind the
+    /// camera. Boxes near the corners may pass without being seen (U. Assarsson and T. Möller, "Optimized
+    /// View Frustum Culling Algorithms for Bounding Boxes", 2000).
+    pub(crate) fn meets(&self, bounds: Bounds) -> bool {
+        let (center, half) = (bounds.center(), bounds.size() * 0.5 * ROOM);
+        let is_inside =
+            |plane: &Vec4| plane.truncate().dot(center) + plane.truncate().abs().dot(half) + plane.w >= 0.0;
+        self.planes.iter().all(is_inside)
+    }
 }
 
 #[cfg(test)]

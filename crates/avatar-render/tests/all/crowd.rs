@@ -167,6 +167,31 @@ fn what_did_not_move_or_is_out_of_view_is_not_deformed_and_what_is_hidden_not_dr
 }
 
 #[test]
+fn one_that_moved_out_of_view_is_deformed_when_it_comes_into_view() {
+    let Some(gpu) = gpu() else { return };
+    let model = model(gpu);
+    let (_, low) = shadings()[1];
+    let stage = Stage::new(gpu, low, 64, FORMAT);
+    let away = Scene { camera: Camera::orbit(Vec3::X * 900.0, 5.0, 0.0, 0.0, 0.4, 1.0), ..scene(4.0) };
+    let (bones, weights) = pose(8);
+    let near = Camera::orbit(bones[0].translation.into(), 5.0, 0.0, 0.0, 0.4, 1.0);
+    let near = Scene { camera: near, ..scene(4.0) };
+    let new = || {
+        let mut state = AvatarState::new(&gpu.device, &model);
+        state.set(&gpu.queue, &bones, &weights).expect("two bones, two weights");
+        state
+    };
+    let expected = stage.bytes(gpu, &near, &[(&model, &new())]);
+    let mut state = AvatarState::new(&gpu.device, &model);
+    let empty = stage.bytes(gpu, &away, &[(&model, &state)]);
+    assert!(empty.chunks_exact(4).all(|pixel| pixel == &empty[..4]), "nothing is in view");
+    state.set(&gpu.queue, &bones, &weights).expect("two bones, two weights");
+    assert!(stage.bytes(gpu, &away, &[(&model, &state)]) == empty);
+    assert!(stage.bytes(gpu, &near, &[(&model, &state)]) == expected);
+    assert!(expected != empty);
+}
+
+#[test]
 fn who_is_out_of_view_still_casts_a_shadow_into_it() {
     let Some(gpu) = gpu() else { return };
     let mesh = ball(Vec3::ZERO, 1.0, 12);

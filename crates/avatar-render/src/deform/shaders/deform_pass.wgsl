@@ -1,4 +1,4 @@
-// Deforms every vertex of a part into a buffer, once a frame: every later pass draws from it, and it can be
+// Deforms every vertex of a part into a buffer, once a pose: every later pass draws from it, and it can be
 // read back.
 
 @group(0) @binding(0) var<storage, read_write> deformed: array<DeformedVertex>;
