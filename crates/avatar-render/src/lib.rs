@@ -102,7 +102,8 @@ pub use avatar_look::{
 };
 /// The crate whose meshes are drawn.
 pub use avatar_mesh;
-pub use deform::crowd_pose::{CrowdError, CrowdWork};
+pub use deform::crowd_error::CrowdError;
+pub use deform::crowd_pose::CrowdWork;
 pub use deform::deformer::Deformer;
 pub use deform::pose::StateError;
 pub use frame::draw::DrawError;

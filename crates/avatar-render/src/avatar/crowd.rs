@@ -1,7 +1,8 @@
 //! Many avatars of one model.
 
 use crate::avatar::model::AvatarModel;
-use crate::deform::crowd_pose::{CrowdError, CrowdPose, CrowdWork};
+use crate::deform::crowd_error::CrowdError;
+use crate::deform::crowd_pose::{CrowdPose, CrowdWork};
 use crate::gpu::identity::Identity;
 use glam::Affine3A;
 
@@ -48,8 +49,8 @@ impl AvatarCrowd {
 
     /// Sets the pose of one avatar, from the next frame on: bones and weights as for
     /// [`AvatarState::set`](crate::AvatarState::set), the bones with its place in the world. `model` is the
-    /// one that the crowd was made of. An avatar that is not set keeps its pose and is not deformed again. The
-    /// next frame uploads bones and weights from the first to the last avatar that was set. Allocates
+    /// one that the crowd was made of. An avatar that is not set keeps its pose and is not deformed again.
+    /// The next frame uploads bones and weights from the first to the last avatar that was set. Allocates
     /// nothing.
     ///
     /// # Errors
