@@ -86,9 +86,9 @@ impl Renderer {
     ///
     /// An avatar that has not moved since the last frame is not deformed again, and one of which the picture
     /// shows neither itself nor its shadow is neither deformed, grown nor drawn. A frame takes what it
-    /// deforms for deformed: submit what was recorded, in the order of recording. If an encoder is dropped instead,
-    /// its avatars show the pose before, until they are set again. Hair of an avatar that was out of view for
-    /// more than half a second hangs still when it comes back.
+    /// deforms for deformed: submit what was recorded, in the order of recording. If an encoder is dropped
+    /// instead, its avatars show the pose before, until they are set again. Hair of an avatar that was out of
+    /// view for more than half a second hangs still when it comes back.
     ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be
     /// recorded before a submission, with 6144 heads of hair in all. They share one environment, that of the
@@ -133,9 +133,9 @@ impl Renderer {
     /// [`Renderer::draw_timed`] with crowds beside the other avatars.
     ///
     /// Blended parts of crowds are drawn after those of the others, part by part in the order of the model,
-    /// its corneas last, and each for the avatars from far to near: of two blended parts that overlap, the nearer
-    /// may be drawn first. A crowd that stands in several frames must be submitted with each of them before
-    /// the next one is recorded: a frame writes what of the crowd it shows, and takes its avatars for
+    /// its corneas last, and each for the avatars from far to near: of two blended parts that overlap, the
+    /// nearer may be drawn first. A crowd that stands in several frames must be submitted with each of them
+    /// before the next one is recorded: a frame writes what of the crowd it shows, and takes its avatars for
     /// deformed from then on.
     ///
     /// # Errors
