@@ -201,7 +201,9 @@ mod tests {
         let deformer = Deformer::new(&gpu.device);
         let mut poses = [(); 2].map(|()| Pose::new(&gpu.device, &[], 1, 1));
         let deformed = |poses: &[Pose; 2]| {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let label = Some("test");
+            let described = wgpu::CommandEncoderDescriptor { label };
+            let mut encoder = gpu.device.create_command_encoder(&described);
             // Twice in one frame is once.
             let all = poses.iter().chain(poses).map(|pose| (&[][..], pose));
             let count = deformer.record(&mut encoder, None, all, iter::empty());

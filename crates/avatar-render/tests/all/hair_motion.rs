@@ -2,13 +2,13 @@
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use crate::common::gpu;
-use crate::common::head::Head;
+use crate::common::head::{Head, canvas};
 use crate::common::nearest::Nearest;
 use avatar_groom::{SEGMENTS, Strand, Style};
 use avatar_mesh::deform;
 use avatar_pack::FaceState;
 use avatar_render::headless::Gpu;
-use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
+use avatar_render::{AvatarModel, AvatarState, Camera, Deformer, Grower, Scene};
 
 const STRANDS: f32 = 4000.0;
 /// The head turns by 30° in so many seconds, and stops.
@@ -180,4 +180,23 @@ fn hair_is_still_until_time_passes_and_after_it_is_told() {
         assert!(most(&apart(&stage.strands(), &there)) < 1e-4);
         stage.turn(30.0);
     }
+}
+
+#[test]
+fn tips_that_stand_out_of_the_skin_are_seen_where_the_skin_is_not() {
+    let Some(gpu) = gpu() else { return };
+    let head = Head::new();
+    // Twice as long as it comes: beyond all room that a box around skin has.
+    let mut style = Style::MOHAWK;
+    style.scalp.length *= 2.0;
+    let mut stage = Stage::new(gpu, &head, style);
+    let points = stage.strands().into_iter().flatten();
+    let tip = points.max_by(|a, b| a.y.total_cmp(&b.y)).expect("a strand");
+    let skin = head.skin().bounds().expect("a skin");
+    assert!(tip.y > skin.max.y + 0.2 * skin.size().y, "{tip} above {skin:?}");
+    let camera = Camera::orbit(tip, skin.size().y, 0.0, 0.0, 0.03, 1.0);
+    let scene = Scene { camera, ..head.scene(0.0, 0.8) };
+    let picture = canvas(gpu, 64, 4).render(gpu, &scene, &[(&stage.model, &stage.state)]).expect("a picture");
+    let drawn = picture.rgba.chunks_exact(4).filter(|pixel| pixel[3] > 0).count();
+    assert!(drawn > 20, "{drawn} pixels of hair");
 }
