@@ -2,13 +2,13 @@
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use crate::common::gpu;
-use crate::common::head::{Head, canvas};
+use crate::common::head::Head;
 use crate::common::nearest::Nearest;
 use avatar_groom::{SEGMENTS, Strand, Style};
 use avatar_mesh::deform;
 use avatar_pack::FaceState;
-use avatar_render::headless::Gpu;
-use avatar_render::{AvatarModel, AvatarState, Camera, Deformer, Grower, Scene};
+use avatar_render::headless::{Canvas, Gpu};
+use avatar_render::{AvatarModel, AvatarState, Camera, Deformer, Grower, Scene, Shading};
 
 const STRANDS: f32 = 4000.0;
 /// The head turns by 30° in so many seconds, and stops.
@@ -196,7 +196,9 @@ fn tips_that_stand_out_of_the_skin_are_seen_where_the_skin_is_not() {
     assert!(tip.y > skin.max.y + 0.2 * skin.size().y, "{tip} above {skin:?}");
     let camera = Camera::orbit(tip, skin.size().y, 0.0, 0.0, 0.03, 1.0);
     let scene = Scene { camera, ..head.scene(0.0, 0.8) };
-    let picture = canvas(gpu, 64, 4).render(gpu, &scene, &[(&stage.model, &stage.state)]).expect("a picture");
+    // Without shadows, for whose sake it would be drawn as well.
+    let canvas = Canvas::new(gpu, 64, 64, 4, Shading::Plain).expect("a canvas");
+    let picture = canvas.render(gpu, &scene, &[(&stage.model, &stage.state)]).expect("a picture");
     let drawn = picture.rgba.chunks_exact(4).filter(|pixel| pixel[3] > 0).count();
     assert!(drawn > 20, "{drawn} pixels of hair");
 }
