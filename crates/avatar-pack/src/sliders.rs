@@ -43,6 +43,7 @@ impl Sliders {
         expressions::add(list, values.get(*first_slider..).unwrap_or_default(), weights);
         Ok(())
     }
+
     /// [`Self::run`] for many faces, with the same bits: by block of [`lanes::LANES`] faces, `values` have
     /// one number per slider and `weights` one per shape. Allocates nothing.
     ///
