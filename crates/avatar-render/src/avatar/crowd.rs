@@ -49,9 +49,9 @@ impl AvatarCrowd {
 
     /// Sets the pose of one avatar, from the next frame on: bones and weights as for
     /// [`AvatarState::set`](crate::AvatarState::set), the bones with its place in the world. `model` is the
-    /// one that the crowd was made of. An avatar that is not set keeps its pose and is not deformed again.
-    /// The next frame uploads bones and weights from the first to the last avatar that was set. Allocates
-    /// nothing.
+    /// one that the crowd was made of. An avatar that is not set keeps its pose and is not deformed again;
+    /// neither is one that is set to the pose that it has, bit for bit. The next frame uploads bones and
+    /// weights from the first to the last avatar with another pose. Allocates nothing.
     ///
     /// # Errors
     /// No such avatar, another model, another number of bones or weights than the model has, or bones that
@@ -67,6 +67,12 @@ impl AvatarCrowd {
             return Err(CrowdError::OtherModel);
         }
         self.pose.set(&model.parts, avatar, bones, weights)
+    }
+
+    /// Lets the next frame deform all avatars that it shows, whether they moved or not: for a frame that was
+    /// recorded but never submitted, whose work the next one takes for done.
+    pub fn redo(&mut self) {
+        self.pose.redo();
     }
 
     /// Hides an avatar, or shows it again, from the next frame on. A hidden one casts no shadow.

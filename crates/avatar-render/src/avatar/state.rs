@@ -50,14 +50,15 @@ impl AvatarState {
     /// Stops the motion of hair, from the next frame on.
     pub fn still_hair(&mut self) {
         if let Some(hair) = &mut self.hair {
-            hair.swing.stop();
+            hair.hang_still();
         }
     }
 
-    /// Sets the pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order;
+    /// Sets the pose, from the next frame on. `bones` are the bone matrices `X` in the palette's order;
     /// they may include a placement in the world, which must not scale if the model has hair. `weights` has
     /// one blend weight per shape; shapes with weight 0 cost nothing. Bones may scale unevenly, shear and
-    /// mirror: normals stay normals, and fronts fronts. Allocates nothing, but for a part that bones mirror
+    /// mirror: normals stay normals, and fronts fronts. The pose that it has already, bit for bit, costs
+    /// nothing: it is neither written nor deformed again. Allocates nothing, but for a part that bones mirror
     /// for the first time.
     ///
     /// # Errors
@@ -68,9 +69,17 @@ impl AvatarState {
         bones: &[Affine3A],
         weights: &[f32],
     ) -> Result<(), StateError> {
-        self.pose.set(queue, bones, weights)?;
-        self.hair.iter().for_each(|hair| hair.set_pose(queue, bones));
+        if self.pose.set(queue, bones, weights)? {
+            self.hair.iter().for_each(|hair| hair.set_pose(queue, bones));
+        }
         Ok(())
+    }
+
+    /// Lets the next frame deform the avatar and grow its hair, whether it moved or not: for a frame that was
+    /// recorded but never submitted, whose work the next one takes for done.
+    pub fn redo(&self) {
+        self.pose.deform_again();
+        self.hair.iter().for_each(HairState::grow_again);
     }
 
     /// Whether this state was made for this model with the hair that it has now.

@@ -3,7 +3,7 @@
 
 use crate::deform::crowd_chunk::{Chunk, CrowdBuffers, GpuCrowdChunk, bytes_of};
 use crate::deform::crowd_error::CrowdError;
-use crate::deform::pose::{StateError, avatar_layout, bounds, is_somewhere, widened};
+use crate::deform::pose::{StateError, are_active, are_set, avatar_layout, bounds, is_somewhere, widened};
 use crate::gpu::buffers::written_buffer;
 use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
@@ -176,13 +176,16 @@ impl CrowdPose {
         if weights.len() != shape_count {
             return Err(StateError::WeightCount { expected: shape_count, found: weights.len() }.into());
         }
+        let own_bones = &mut self.bones[avatar * bone_count..][..bone_count];
+        let own_shapes = &mut self.shapes[avatar * (1 + shape_count)..][..1 + shape_count];
+        if are_set(own_bones, bones) && are_active(own_shapes, weights) {
+            return Ok(());
+        }
         let is_uneven = bones.iter().any(|bone| !turns_evenly(bone));
         if is_uneven && let Some(bone) = bones.iter().position(|bone| !turns_evenly(bone) && mirrors(bone)) {
             return Err(CrowdError::Mirrored { bone });
         }
-        let own_bones = &mut self.bones[avatar * bone_count..][..bone_count];
         own_bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
-        let own_shapes = &mut self.shapes[avatar * (1 + shape_count)..][..1 + shape_count];
         let mut active = 0;
         for (shape, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
             active += 1;
@@ -201,6 +204,12 @@ impl CrowdPose {
             false => self.unwritten.start.min(avatar)..self.unwritten.end.max(avatar + 1),
         };
         Ok(())
+    }
+
+    /// Lets the next frame write and deform all avatars.
+    pub(crate) fn redo(&mut self) {
+        self.places.iter_mut().for_each(|place| place.has_moved = true);
+        self.unwritten = 0..self.places.len();
     }
 
     /// Hides or shows one avatar.

@@ -117,24 +117,25 @@ impl Pose {
         }
     }
 
-    /// Sets the pose, from the next submission on. `bones` are the bone matrices `X` in the palette's order;
-    /// they may include a placement in the world, which must not scale if the model has hair. `weights` has
-    /// one blend weight per shape; shapes with weight 0 cost nothing. Allocates nothing, but for a part that
-    /// bones mirror for the first time.
+    /// Sets the pose as [`AvatarState::set`](crate::AvatarState::set) tells. Returns whether it is another
+    /// one than before: the same bones and weights, bit for bit, are neither written nor deformed again.
     ///
     /// # Errors
-    /// Another number of bones or weights than the model has; the state is unchanged then.
+    /// Another number of bones or weights than the model has; the pose is unchanged then.
     pub(crate) fn set(
         &mut self,
         queue: &wgpu::Queue,
         bones: &[Affine3A],
         weights: &[f32],
-    ) -> Result<(), StateError> {
+    ) -> Result<bool, StateError> {
         if bones.len() != self.bones.len() {
             return Err(StateError::BoneCount { expected: self.bones.len(), found: bones.len() });
         }
         if weights.len() != self.shape_count {
             return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
+        }
+        if are_set(&self.bones, bones) && are_active(&self.active_shapes, weights) {
+            return Ok(false);
         }
         self.has_moved = AtomicBool::new(true);
         self.bounds = OnceLock::new();
@@ -146,7 +147,7 @@ impl Pose {
             queue.write_buffer(&self.bone_buffer, 0, bytemuck::cast_slice(&self.bones));
         }
         queue.write_buffer(&self.shape_buffer, 0, bytemuck::cast_slice(&self.active_shapes));
-        Ok(())
+        Ok(true)
     }
 
     /// A box around all parts as they are now. Boxes that are not finite are ignored, so that they cannot
@@ -189,6 +190,21 @@ fn set_active(active: &mut Vec<GpuActiveShape>, weights: &[f32]) {
     active.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
     let count = active.len().saturating_sub(1);
     active.iter_mut().take(1).for_each(|head| *head = GpuActiveShape::head(count));
+}
+
+/// Whether these bones are written already, bit for bit.
+pub(crate) fn are_set(written: &[GpuBone], bones: &[Affine3A]) -> bool {
+    let is_set = |(gpu, bone)| bytemuck::bytes_of::<GpuBone>(gpu) == bytemuck::bytes_of(&GpuBone::new(bone));
+    written.iter().zip(bones).all(is_set)
+}
+
+/// Whether these weights are listed already, bit for bit. `active` begins with the number of those that
+/// follow; what stands behind them does not count.
+pub(crate) fn are_active(active: &[GpuActiveShape], weights: &[f32]) -> bool {
+    let Some((head, shapes)) = active.split_first() else { return false };
+    let listed = shapes.iter().take(head.index as usize).map(|shape| (shape.index, shape.weight.to_bits()));
+    let wanted = (0u32..).zip(weights).filter(|(_, weight)| **weight != 0.0);
+    listed.eq(wanted.map(|(shape, weight)| (shape, weight.to_bits())))
 }
 
 /// A box around all parts with these bones and active shapes; see [`Pose::bounds`].

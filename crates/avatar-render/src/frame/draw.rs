@@ -84,10 +84,11 @@ impl Renderer {
     /// and the map cast shadows, in the picture or not. The softness of shadows and the reach of ambient
     /// occlusion follow from the height of the avatar that looks largest.
     ///
-    /// An avatar that has not moved since the last frame is not deformed again, and one of which the picture
-    /// shows neither itself nor its shadow is neither deformed, grown nor drawn. A frame takes what it
-    /// deforms for deformed: submit what was recorded, in the order of recording. If an encoder is dropped
-    /// instead, its avatars show the pose before, until they are set again. Hair of an avatar that was out of
+    /// An avatar that has not moved since the last frame is not deformed again, nor does its hair grow again
+    /// if it does not swing either. One of which the picture shows neither itself nor its shadow is neither
+    /// deformed, grown nor drawn. A frame takes what it deforms for deformed: submit what was recorded, in
+    /// the order of recording. If an encoder is dropped instead, call [`AvatarState::redo`] of its avatars,
+    /// which otherwise show the pose before until they move. Hair of an avatar that was out of
     /// view for more than half a second hangs still when it comes back.
     ///
     /// Neighbours in `avatars` that share a model share its bindings as well. Up to 256 frames may be

@@ -7,7 +7,7 @@ use crate::view::shading::Terms;
 pub(crate) enum Pass {
     /// Compute: deforms all parts of avatars that moved.
     Deform,
-    /// Compute: grows the strands of avatars in view anew on the deformed skin.
+    /// Compute: grows the strands of avatars in view that moved or whose hair swings, on the deformed skin.
     GrowHair,
     /// What the key and rim lamps see: depth.
     Shadows,

@@ -70,7 +70,7 @@ impl<'a> Recording<'a> {
             }
             Pass::GrowHair => {
                 let timestamps = self.timer.and_then(|timer| timer.compute_pass(pass));
-                renderer.grower.record(encoder, timestamps, self.growing());
+                renderer.grower.record_due(encoder, timestamps, self.growing());
             }
             Pass::Shadows => self.shadows(encoder),
             Pass::HairShadow => self.hair_shadow(encoder),

@@ -44,7 +44,7 @@ impl<'a> Recording<'a> {
         })
     }
 
-    /// How many strands of each avatar are to grow.
+    /// How many strands of each avatar the picture shows.
     pub(crate) fn growing(&self) -> impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone {
         let wanted = self.avatars.iter().filter(|(model, state)| self.concerns(model, state));
         wanted.filter_map(|avatar| {

@@ -9,7 +9,7 @@ use crate::hair::swing::swing_pipeline;
 use crate::hair::uniforms::GROW_WORKGROUP_SIZE;
 use std::sync::OnceLock;
 
-/// The passes that grow hair in every frame. [`Grower::run`] reads their results back.
+/// The passes that grow hair on what moved. [`Grower::run`] reads their results back.
 #[derive(Debug)]
 pub struct Grower {
     device: wgpu::Device,
@@ -35,6 +35,21 @@ impl Grower {
         self.built.get().is_some()
     }
 
+    /// Grows those of the given strands that are not where the pose and their swinging want them, and takes
+    /// them for grown from then on. Returns for how many avatars.
+    pub(crate) fn record_due<'a>(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+        wanted: impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone,
+    ) -> usize {
+        let due = wanted.filter(|(_, hair, strands)| hair.must_grow(*strands));
+        let count = due.clone().count();
+        self.record(encoder, timestamps, due.clone());
+        due.for_each(|(_, hair, strands)| hair.set_grown(strands));
+        count
+    }
+
     /// Grows the given numbers of strands on the deformed skins of avatars.
     pub(crate) fn record<'a>(
         &self,
@@ -43,6 +58,10 @@ impl Grower {
         growing: impl Iterator<Item = (&'a Pose, &'a HairState, u32)> + Clone,
     ) {
         if growing.clone().next().is_none() {
+            // The times are read all the same.
+            if timestamps.is_some() {
+                drop(compute_pass(encoder, GROW_PASS.label, timestamps));
+            }
             return;
         }
         let pipelines = self.built.get_or_init(|| Pipelines::new(&self.device));
@@ -101,4 +120,79 @@ fn dispatch(
     pass.set_bind_group(1, &pose.bind_group, &[]);
     pass.set_bind_group(2, &hair.skin, &[]);
     pass.dispatch_workgroups(strands.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used, reason = "tests stop at the first surprise")]
+mod tests {
+    use super::*;
+    use crate::gpu::device::gpu_for_tests;
+    use crate::gpu::texture::Textures;
+    use crate::hair::model::HairModel;
+    use crate::model::desc::{PartBones, PartDesc, PartTextures};
+    use crate::model::part::{ModelPart, PartLayouts};
+    use avatar_groom::{DensityMap, Groom, Style};
+    use avatar_mesh::{Mesh, PartKind};
+    use glam::{Affine3A, Vec2, Vec3};
+
+    #[test]
+    fn hair_grows_again_only_where_something_changed() {
+        let Some(gpu) = gpu_for_tests() else { return };
+        let skin = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            normals: vec![Vec3::Z; 3],
+            uvs: vec![Vec2::ZERO, Vec2::X, Vec2::Y],
+            triangles: vec![[0, 1, 2]],
+            ..Mesh::default()
+        };
+        let desc = PartDesc {
+            label: "skin",
+            mesh: &skin,
+            first_weight: 0,
+            kind: PartKind::Skin,
+            bones: PartBones::Rigid(0),
+            textures: PartTextures::default(),
+        };
+        let (layouts, known) = (PartLayouts::new(&gpu.device), &mut Textures::default());
+        let part = ModelPart::new(&gpu.device, &gpu.queue, &layouts, known, &desc, &[desc], 1, 1.0);
+        let parts = [part.expect("a part")];
+        let density = DensityMap::new(1, 1, vec![255]).expect("a map");
+        let groom = Groom::new(&skin, &density, &[], Style::BOB, 40.0, 3);
+        let model = HairModel::new(&gpu.device, &gpu.queue, 0, &parts[0].geometry, 1, &groom).expect("hair");
+        let mut pose = Pose::new(&gpu.device, &parts, 1, 0);
+        let mut hair = HairState::new(&gpu.device, &model, &pose.parts[0].vertices);
+        let grower = Grower::new(&gpu.device);
+        let grows = |pose: &Pose, hair: &HairState, strands: u32| {
+            let described = wgpu::CommandEncoderDescriptor { label: Some("test") };
+            let mut encoder = gpu.device.create_command_encoder(&described);
+            let wanted = [(pose, hair, strands)].into_iter();
+            let count = grower.record_due(&mut encoder, None, wanted);
+            gpu.queue.submit([encoder.finish()]);
+            count == 1
+        };
+        assert!(grows(&pose, &hair, 20), "new hair");
+        assert!(!grows(&pose, &hair, 20));
+        assert!(!grows(&pose, &hair, 10), "fewer are there already");
+        assert!(grows(&pose, &hair, 30), "more are not");
+        let mut set = |bone: Affine3A, hair: &HairState| {
+            let is_another = pose.set(&gpu.queue, &[bone], &[]).expect("one bone");
+            if is_another {
+                hair.set_pose(&gpu.queue, &[bone]);
+            }
+            (is_another, grows(&pose, hair, 30))
+        };
+        assert_eq!(set(Affine3A::IDENTITY, &hair), (false, false), "the pose that it has");
+        assert_eq!(set(Affine3A::from_rotation_z(0.5), &hair), (true, true));
+        assert_eq!(set(Affine3A::from_rotation_z(0.5), &hair), (false, false));
+        // The first call lets hair hang still; later ones let it swing, as long as time passes.
+        for _ in 0..3 {
+            hair.swing.advance(&gpu.queue, 0.1);
+            assert!(grows(&pose, &hair, 30));
+            assert!(!grows(&pose, &hair, 30), "no time passed");
+        }
+        hair.hang_still();
+        assert!(grows(&pose, &hair, 30), "it hangs where it swung");
+        hair.grow_again();
+        assert!(grows(&pose, &hair, 30));
+    }
 }

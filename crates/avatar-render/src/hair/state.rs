@@ -9,6 +9,7 @@ use crate::hair::swing::SwingState;
 use crate::hair::uniforms::{GpuHairPose, POINT_STRIDE};
 use avatar_groom::OTHER_BONES;
 use glam::Affine3A;
+use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::util::DeviceExt;
 
 /// The hair of one avatar.
@@ -35,6 +36,8 @@ pub(crate) struct HairState {
     other_bones: [u32; OTHER_BONES],
     /// Group 2 of the drawing.
     pub(crate) draw: wgpu::BindGroup,
+    /// So many strands are where the pose and their swinging want them.
+    grown: AtomicU32,
 }
 
 impl HairState {
@@ -110,7 +113,33 @@ impl HairState {
             pose,
             head_bone: hair.head_bone,
             other_bones: hair.other_bones,
+            grown: AtomicU32::new(0),
         }
+    }
+
+    /// Whether so many strands must grow before the next pass draws them.
+    pub(crate) fn must_grow(&self, strands: u32) -> bool {
+        if self.swing.is_due() {
+            // Remembered, since growth spends the time that is due.
+            self.grow_again();
+        }
+        self.grown.load(Ordering::Relaxed) < strands
+    }
+
+    /// Notes that so many strands have grown for the present pose and swinging.
+    pub(crate) fn set_grown(&self, strands: u32) {
+        self.grown.store(strands, Ordering::Relaxed);
+    }
+
+    /// Lets strands grow before the next pass draws them.
+    pub(crate) fn grow_again(&self) {
+        self.set_grown(0);
+    }
+
+    /// Lets strands hang still.
+    pub(crate) fn hang_still(&mut self) {
+        self.swing.stop();
+        self.grow_again();
     }
 
     /// Records the copy of the deformed skin into the texture that growth reads.
@@ -128,8 +157,9 @@ impl HairState {
         }
     }
 
-    /// Sets the bones of the pose.
+    /// Sets the bones of another pose than before.
     pub(crate) fn set_pose(&self, queue: &wgpu::Queue, bones: &[Affine3A]) {
+        self.grow_again();
         let Some(head) = bones.get(self.head_bone as usize) else { return };
         let others = self.other_bones.map(|bone| bones.get(bone as usize).copied().unwrap_or(*head));
         queue.write_buffer(&self.pose, 0, bytemuck::bytes_of(&GpuHairPose::new(*head, others)));

@@ -129,6 +129,11 @@ impl SwingState {
         self.is_moving
     }
 
+    /// Whether time was set that no pass has spent yet.
+    pub(crate) fn is_due(&self) -> bool {
+        self.is_due.load(Ordering::Relaxed)
+    }
+
     pub(crate) fn stop(&mut self) {
         (self.has_begun, self.is_moving) = (false, false);
     }

@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use crate::common::gpu;
-use crate::common::head::Head;
+use crate::common::head::{Head, canvas};
 use crate::common::nearest::Nearest;
 use avatar_groom::{SEGMENTS, Strand, Style};
 use avatar_mesh::deform;
@@ -201,4 +201,45 @@ fn tips_that_stand_out_of_the_skin_are_seen_where_the_skin_is_not() {
     let picture = canvas.render(gpu, &scene, &[(&stage.model, &stage.state)]).expect("a picture");
     let drawn = picture.rgba.chunks_exact(4).filter(|pixel| pixel[3] > 0).count();
     assert!(drawn > 20, "{drawn} pixels of hair");
+}
+
+/// Frames that leave out what did not change show what a new avatar shows.
+#[test]
+fn frames_without_change_and_after_it_are_those_of_a_new_avatar() {
+    let Some(gpu) = gpu() else { return };
+    let head = Head::new();
+    let mut stage = Stage::new(gpu, &head, Style::BOB);
+    let canvas = canvas(gpu, 96, 1);
+    let scenes = [head.scene(0.3, 0.3), head.scene(0.3, 0.8)];
+    let picture = |stage: &Stage<'_>, scene: &Scene| {
+        canvas.render(gpu, scene, &[(&stage.model, &stage.state)]).expect("a picture").rgba
+    };
+    let (mut seen, mut last) = (Vec::new(), Vec::new());
+    // Far and near, since a near head grows more strands; each pose twice.
+    for (degrees, scene) in [(0.0, 0), (0.0, 1), (25.0, 0), (25.0, 1), (0.0, 1), (0.0, 0)] {
+        stage.turn(degrees);
+        last = picture(&stage, &scenes[scene]);
+        stage.turn(degrees);
+        assert!(picture(&stage, &scenes[scene]) == last, "{degrees}, {scene}: set again");
+        let mut new = Stage::new(gpu, &head, Style::BOB);
+        new.turn(degrees);
+        assert!(picture(&new, &scenes[scene]) == last, "{degrees}, {scene}: a new avatar");
+        assert!(!seen.contains(&last) || degrees == 0.0, "{degrees}, {scene}: something moved");
+        seen.push(last.clone());
+    }
+    stage.state.redo();
+    assert!(picture(&stage, &scenes[0]) == last);
+    // Hair that swings is elsewhere in each frame, and where it hangs still when it is told to.
+    stage.state.advance_hair(&gpu.queue, 0.0);
+    picture(&stage, &scenes[1]);
+    stage.turn(25.0);
+    let swinging = [(); 3].map(|()| {
+        stage.state.advance_hair(&gpu.queue, 0.05);
+        let first = picture(&stage, &scenes[1]);
+        assert!(picture(&stage, &scenes[1]) == first, "no time passed");
+        first
+    });
+    assert!(swinging[0] != swinging[1] && swinging[1] != swinging[2]);
+    stage.state.still_hair();
+    assert!(picture(&stage, &scenes[1]) == seen[3], "still");
 }
