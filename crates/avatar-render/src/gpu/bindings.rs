@@ -57,6 +57,23 @@ pub(crate) fn texture_entry(
     }
 }
 
+/// A texture without mip levels that is read texel by texel. As a storage texture it needs no level: software
+/// adapters look up the size of the level of every texel of other textures, which takes longer than reading.
+pub(crate) fn texels_entry(
+    binding: u32,
+    visibility: wgpu::ShaderStages,
+    format: wgpu::TextureFormat,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindGroupLayoutEntry {
+    let access = wgpu::StorageTextureAccess::ReadOnly;
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: wgpu::BindingType::StorageTexture { access, format, view_dimension },
+        count: None,
+    }
+}
+
 /// A sampler.
 pub(crate) fn sampler_entry(
     binding: u32,

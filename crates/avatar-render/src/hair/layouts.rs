@@ -1,30 +1,37 @@
 //! Layouts of the bind groups of hair.
 
-use crate::gpu::bindings::{dynamic_uniform_entry, storage_entry, texture_entry, uniform_entry};
+use crate::gpu::bindings::{
+    dynamic_uniform_entry, storage_entry, texels_entry, texture_entry, uniform_entry,
+};
 use crate::gpu::ring::Ring;
 use crate::hair::detail::GpuHairView;
 use crate::view::inputs::{shadow_entries, texel_entry};
+
+/// Of the texture with the distances from the skin.
+pub(crate) const FIELD_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
 
 /// Layouts of the growing pass: group 0 hair, group 2 the deformed skin.
 pub(crate) fn grow_layouts(device: &wgpu::Device) -> [wgpu::BindGroupLayout; 2] {
     let compute = wgpu::ShaderStages::COMPUTE;
     let float = wgpu::TextureSampleType::Float { filterable: false };
-    let flat = wgpu::TextureViewDimension::D2;
+    let (flat, deep) = (wgpu::TextureViewDimension::D2, wgpu::TextureViewDimension::D3);
+    let (list, vectors) = (wgpu::TextureFormat::Rgba32Uint, wgpu::TextureFormat::Rgba32Float);
+    // WebGPU promises four storage textures; the fifth, which is only read while hair swings, is another.
     [
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("grow hair"),
             entries: &[
                 uniform_entry(0, compute),
-                texture_entry(1, compute, wgpu::TextureSampleType::Uint, flat),
-                texture_entry(2, compute, wgpu::TextureSampleType::Uint, wgpu::TextureViewDimension::D3),
+                texels_entry(1, compute, list, flat),
+                texels_entry(2, compute, FIELD_FORMAT, deep),
                 storage_entry(3, compute, false),
-                texture_entry(4, compute, float, flat),
+                texels_entry(4, compute, vectors, flat),
                 texture_entry(5, compute, float, flat),
             ],
         }),
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("deformed skin"),
-            entries: &[texture_entry(0, compute, float, flat), uniform_entry(1, compute)],
+            entries: &[texels_entry(0, compute, vectors, flat), uniform_entry(1, compute)],
         }),
     ]
 }

@@ -4,6 +4,7 @@ use crate::deform::posed::GpuDeformedVertex;
 use crate::gpu::identity::Identity;
 use crate::gpu::vec4_texture::Vec4Texture;
 use crate::hair::error::HairError;
+use crate::hair::layouts::FIELD_FORMAT;
 use crate::hair::uniforms::{
     GROW_WORKGROUP_SIZE, GpuHair, GpuHairRegion, GpuRoot, IS_GUIDE, NO_GUIDE, POINT_STRIDE,
 };
@@ -140,8 +141,8 @@ fn field_texture(device: &wgpu::Device, queue: &wgpu::Queue, field: &Field) -> w
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D3,
-        format: wgpu::TextureFormat::Rg32Uint,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        format: FIELD_FORMAT,
+        usage: wgpu::TextureUsages::STORAGE_BINDING,
         view_formats: &[],
     };
     let texels = field.texels();

@@ -2,9 +2,9 @@
 // avatar_groom::Field.
 
 // A distance as a share of the largest in 16 bits and shares of the other bones in 8 bits each, then the
-// direction in which the distance grows in 8 bits each. A texture, because software adapters read textures
-// several times faster than buffers.
-@group(0) @binding(2) var field: texture_3d<u32>;
+// direction in which the distance grows in 8 bits each. A storage texture, because software adapters read
+// those several times faster than buffers.
+@group(0) @binding(2) var field: texture_storage_3d<rg32uint, read>;
 
 struct Near {
     // The direction in which the distance grows, of any length.
@@ -15,7 +15,7 @@ struct Near {
 
 // A corner of the grid, times its weight; numbers as they are stored.
 fn field_corner(place: vec3i, weight: f32) -> Near {
-    let texel = textureLoad(field, place, 0).xy;
+    let texel = textureLoad(field, place).xy;
     // Shifting up and back down extends the sign.
     let outward = vec3f(bitcast<vec3i>(texel.yyy << vec3u(24u, 16u, 8u)) >> vec3u(24u));
     let distance = f32(bitcast<i32>(texel.x << 16u) >> 16u);

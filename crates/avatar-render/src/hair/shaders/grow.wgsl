@@ -99,7 +99,7 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
         let curl = (beside * phase.x + side * phase.y) * (curl_radius * min(3.0 * t, 1.0));
         var placed = before + curl;
         if SWINGING && has_guide {
-            let offset = posed_rows * vec4_of(offsets, guide + i);
+            let offset = posed_rows * textureLoad(offsets, texel_of(guide + i), 0).xyz;
             placed = swung(grid, placed, offset, skin.shares, margin * min(4.0 * t, 1.0));
         }
         points[out + i] = vec4f(head_position + placed * posed_rows, max(skin.distance, least));

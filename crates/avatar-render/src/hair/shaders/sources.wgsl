@@ -1,4 +1,5 @@
-// What growth reads: roots, guides, the deformed skin, the pose.
+// What growth reads: roots, guides, the deformed skin, the pose. Lists are storage textures: of others, software
+// adapters look up the size of the mip level for every texel.
 
 // The head's bone, and what the other bones add to a point of the head's bind pose to take it to theirs.
 struct HairPose {
@@ -7,11 +8,11 @@ struct HairPose {
 }
 
 @group(0) @binding(0) var<uniform> hair: Hair;
-@group(0) @binding(1) var roots: texture_2d<u32>;
+@group(0) @binding(1) var roots: texture_storage_2d<rgba32uint, read>;
 // The points of guides, the strands that others follow, as they have grown.
-@group(0) @binding(4) var guides: texture_2d<f32>;
+@group(0) @binding(4) var guides: texture_storage_2d<rgba32float, read>;
 // Per vertex its position and its normal.
-@group(2) @binding(0) var deformed: texture_2d<f32>;
+@group(2) @binding(0) var deformed: texture_storage_2d<rgba32float, read>;
 @group(2) @binding(1) var<uniform> pose: HairPose;
 
 const POINT_STRIDE: u32 = SEGMENTS + 2u;
@@ -31,15 +32,15 @@ fn turned_back(bone: Bone, direction: vec3f) -> vec3f {
     return bone[0].xyz * direction.x + bone[1].xyz * direction.y + bone[2].xyz * direction.z;
 }
 
-fn vec4_of(list: texture_2d<f32>, index: u32) -> vec3f {
-    return textureLoad(list, texel_of(index), 0).xyz;
+fn vec4_of(list: texture_storage_2d<rgba32float, read>, index: u32) -> vec3f {
+    return textureLoad(list, texel_of(index)).xyz;
 }
 
 fn root_of(strand: u32) -> Root {
-    let a = textureLoad(roots, texel_of(4u * strand), 0);
-    let b = textureLoad(roots, texel_of(4u * strand + 1u), 0);
-    let c = textureLoad(roots, texel_of(4u * strand + 2u), 0);
-    let d = textureLoad(roots, texel_of(4u * strand + 3u), 0);
+    let a = textureLoad(roots, texel_of(4u * strand));
+    let b = textureLoad(roots, texel_of(4u * strand + 1u));
+    let c = textureLoad(roots, texel_of(4u * strand + 2u));
+    let d = textureLoad(roots, texel_of(4u * strand + 3u));
     return Root(
         a.xyz, a.w, bitcast<vec3f>(b.xyz), b.w, bitcast<vec3f>(c.xyz), bitcast<f32>(c.w), bitcast<vec3f>(d.xyz),
         bitcast<f32>(d.w));
