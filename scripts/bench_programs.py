@@ -258,6 +258,15 @@ def _growth(workshop):
     yield Program("growth", measure)
 
 
+def _adapter_deform(workshop):
+    program = workshop.bench("avatar-render", "deform")
+
+    def measure():
+        return table.adapter_deform(output([program]))
+
+    yield Program("deform on the adapter", measure)
+
+
 def _crowd(workshop):
     program = workshop.bench("avatar-render", "crowd")
     arguments = ["0.5" if workshop.given.quick else "4"]
@@ -322,5 +331,6 @@ PROGRAMS = {
     "bones": _divan("rig-core", "crowd"),
     "ozz": _ozz,
     "floor": _floor,
+    "adapter deform": _adapter_deform,
     "growth": _growth,
 }

@@ -98,10 +98,10 @@ def _faces(get):
     yield _line("its nine joints alone", bones, "", "glam 0.34, one by one", get("glam"), "ns")
 
 
-def _speed(get, what, goal, key):
+def _speed(get, what, goal, key, beside="a copy of as many bytes"):
     """Microseconds beside those of a copy of as many bytes; the ratio is that of bytes per second."""
     ours, copy = get(key), get(f"{key}: copy")
-    cells = _line(what, ours, goal, "a copy of as many bytes", copy, "µs")
+    cells = _line(what, ours, goal, beside, copy, "µs")
     share = table.ratio(copy, ours) if ours and copy else None
     cells[4] = "" if share is None else f"**{table.number(share)}** of its speed"
     yield cells
@@ -114,7 +114,10 @@ def _loading(get):
 def _deforming(get):
     for count, word in enumerate(["no shape", "one shape", "two shapes"]):
         yield from _speed(get, f"deform its skin on the CPU, {word}", "≥ 0.5", f"deform its skin, {count} shapes")
-    yield from _speed(get, "growth of 100,000 strands", "≥ 0.5", "growth")
+    for count, word in [(0, "no shape"), (1, "one shape"), (2, "two shapes"), (20, "20 small shapes")]:
+        what = f"deform its skin on the adapter, {word}"
+        yield from _speed(get, what, "≥ 0.5", f"deform on the adapter, {count} shapes", "a kernel that copies as many")
+    yield from _speed(get, "growth of 100,000 strands", "≥ 0.5", "growth", "a kernel that copies as many")
 
 
 def _still(get):
@@ -133,6 +136,6 @@ ROWS = [
     Row(6, ["crowd"], _recording),
     Row(7, ["faces", "bones", "ozz"], _faces),
     Row(8, ["floor"], _loading),
-    Row(9, ["floor", "growth"], _deforming),
+    Row(9, ["floor", "adapter deform", "growth"], _deforming),
     Row(10, ["crowd"], _still),
 ]

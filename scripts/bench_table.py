@@ -70,6 +70,18 @@ def growth(text):
     return {"growth": (growing, growing), "growth: copy": (copying, copying)}
 
 
+def adapter_deform(text):
+    """Microseconds of deforming on the adapter by the number of active shapes, and of copying as many bytes, of
+    avatar-render's bench `deform`: {"deform on the adapter, 2 shapes": (work, work), "…: copy": (copy, copy)}."""
+    found = {}
+    for shapes, ms, share in re.findall(r"(\d+) active shapes: ([\d.]+) ms.*: ([\d.]+) of it", text):
+        work = float(ms) * 1e3
+        name = f"deform on the adapter, {shapes} shapes"
+        found[name] = (work, work)
+        found[f"{name}: copy"] = (work * float(share), work * float(share))
+    return found
+
+
 def labelled(text, label):
     """The pair after "least" and "median" in the line that begins with the label, or None."""
     for line in text.splitlines():

@@ -7,6 +7,8 @@
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
+mod kernels;
+
 use avatar_groom::{DensityMap, Groom, SEGMENTS, Style};
 use avatar_pack::{Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
@@ -14,6 +16,7 @@ use avatar_render::{
     AvatarModel, AvatarState, Camera, Grower, HairDetail, Light, PartBones, PartDesc, PartTextures,
     PassTimer, Quality, Renderer, RendererConfig, Scene, Style as Manner, Targets,
 };
+use kernels::{median, pass_and_copy};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -91,7 +94,8 @@ fn main() {
 }
 
 fn print_growth(gpu: &Gpu, model: &AvatarModel, state: &AvatarState, bytes: usize, rounds: usize) {
-    let (growing, copying) = growth_and_copy(gpu, model, state, bytes, rounds);
+    let grower = Grower::new(&gpu.device);
+    let (growing, copying) = pass_and_copy(gpu, bytes, rounds, |encoder| grower.grow(encoder, model, state));
     let rate = |seconds: f64| bytes as f64 / seconds * 1e-9;
     println!(
         "  growth alone {:.2} ms, {:.0} ns per strand, {:.2} GB/s; copying {:.2} GB/s: {:.2} of it\n",
@@ -198,101 +202,4 @@ impl Bench<'_> {
         let passes = passes.into_iter().map(|(name, mut times)| (name, median(&mut times)));
         (median(&mut frames), passes.collect())
     }
-}
-
-const COPY: &str = "
-@group(0) @binding(0) var<storage, read> source: array<vec4f>;
-@group(0) @binding(1) var<storage, read_write> copied: array<vec4f>;
-
-@compute @workgroup_size(64)
-fn copy_main(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    for (var i = id.x; i < arrayLength(&copied); i += groups.x * 64u) {
-        copied[i] = source[i];
-    }
-}
-";
-
-/// Kernels per submission: what a submission costs by itself is little beside them.
-const REPEATS: u32 = 8;
-
-/// A submission's time by the clock.
-fn timed(gpu: &Gpu, record: impl Fn(&mut wgpu::CommandEncoder)) -> f64 {
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    record(&mut encoder);
-    let commands = encoder.finish();
-    let start = Instant::now();
-    gpu.queue.submit([commands]);
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("done");
-    start.elapsed().as_secs_f64()
-}
-
-/// Seconds that growth and a plain kernel take that reads and writes as many bytes, medians of rounds in
-/// turns.
-fn growth_and_copy(
-    gpu: &Gpu,
-    model: &AvatarModel,
-    state: &AvatarState,
-    bytes: usize,
-    rounds: usize,
-) -> (f64, f64) {
-    let device = &gpu.device;
-    let size = (bytes as u64 / 2).next_multiple_of(16);
-    let buffer = || {
-        device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("bench: copy"),
-            size,
-            usage: wgpu::BufferUsages::STORAGE,
-            mapped_at_creation: false,
-        })
-    };
-    let (source, copied) = (buffer(), buffer());
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("bench: copy"),
-        source: wgpu::ShaderSource::Wgsl(COPY.into()),
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("bench: copy"),
-        layout: None,
-        module: &module,
-        entry_point: None,
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("bench: copy"),
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: source.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: copied.as_entire_binding() },
-        ],
-    });
-    let copy = |encoder: &mut wgpu::CommandEncoder| {
-        for _ in 0..REPEATS {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups((size / 16).div_ceil(64).min(65_535) as u32, 1, 1);
-        }
-    };
-    let grower = Grower::new(device);
-    let grow = |encoder: &mut wgpu::CommandEncoder| {
-        (0..REPEATS).for_each(|_| grower.grow(encoder, model, state));
-    };
-    let (mut empty, mut growing, mut copying) = (Vec::new(), Vec::new(), Vec::new());
-    // The first of each makes what is made at the first use.
-    timed(gpu, grow);
-    timed(gpu, copy);
-    for _ in 0..2 * rounds {
-        empty.push(timed(gpu, |_| {}));
-        growing.push(timed(gpu, grow));
-        copying.push(timed(gpu, copy));
-    }
-    let floor = median(&mut empty);
-    let each = |times: &mut [f64]| (median(times) - floor).max(1e-9) / f64::from(REPEATS);
-    (each(&mut growing), each(&mut copying))
-}
-
-fn median(times: &mut [f64]) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times.get(times.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -45,6 +45,16 @@ pub enum GrowerError {
 }
 
 impl Deformer {
+    /// Records the deformation of an avatar, whether it moved or not. [`Renderer::draw`](crate::Renderer::draw)
+    /// does this by itself where it moved; this method is for measuring it. Does nothing with the state of
+    /// another model.
+    pub fn deform(&self, encoder: &mut wgpu::CommandEncoder, model: &AvatarModel, state: &AvatarState) {
+        if state.fits(model) {
+            state.pose.deform_again();
+            self.record(encoder, None, [state.deforming(model)].into_iter(), iter::empty());
+        }
+    }
+
     /// Deforms an avatar and waits for one of its parts. Returns one position and normal per vertex of the
     /// mesh, in its order.
     ///

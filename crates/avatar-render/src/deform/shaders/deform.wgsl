@@ -17,22 +17,31 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     var blended = bind;
     let block_count = (part.vertex_count + SHAPE_BLOCK - 1u) / SHAPE_BLOCK;
     let active_count = active_shapes[first_shape].index;
-    for (var i = 1u; i <= active_count; i++) {
-        let shape = active_shapes[first_shape + i];
-        if shape.index < part.first_weight {
-            continue;
+    let end = part.first_weight + part.shape_count;
+    var next = 1u;
+    loop {
+        // The next active shape that moves the block. A loop of its own: what software adapters skip by a
+        // condition only, they compute and throw away.
+        var stored = RESTING_BLOCK;
+        var weight = 0.0;
+        while stored == RESTING_BLOCK && next <= active_count {
+            let shape = active_shapes[first_shape + next];
+            next++;
+            // Indices rise: all further shapes belong to other parts.
+            if shape.index >= end {
+                break;
+            }
+            if shape.index >= part.first_weight {
+                stored = shape_blocks[(shape.index - part.first_weight) * block_count + block];
+                weight = shape.weight;
+            }
         }
-        // Indices rise: all further shapes belong to other parts.
-        let own = shape.index - part.first_weight;
-        if own >= part.shape_count {
+        if stored == RESTING_BLOCK {
             break;
         }
-        let stored = shape_blocks[own * block_count + block];
-        if stored != RESTING_BLOCK {
-            let offset = shape_offsets[stored * SHAPE_BLOCK + within];
-            blended.position_world += shape.weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
-            blended.normal_world += shape.weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
-        }
+        let offset = shape_offsets[stored * SHAPE_BLOCK + within];
+        blended.position_world += weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
+        blended.normal_world += weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
     }
     if length(blended.normal_world) < MIN_NORMAL_LENGTH {
         blended.normal_world = bind.normal_world;
@@ -41,12 +50,19 @@ fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
 }
 
 // The matrices are summed instead of the transformed points: one product each for the position and the
-// normal.
+// normal. Most vertices follow one or two bones, and a matrix takes longer to read than a vertex.
 fn mean_of(bones: VertexBones) -> Bone {
-    return bones.weights.x * posed_from_bind[first_bone + bones.indices.x]
-        + bones.weights.y * posed_from_bind[first_bone + bones.indices.y]
-        + bones.weights.z * posed_from_bind[first_bone + bones.indices.z]
-        + bones.weights.w * posed_from_bind[first_bone + bones.indices.w];
+    var mean = bones.weights.x * posed_from_bind[first_bone + bones.indices.x];
+    if bones.weights.y != 0.0 {
+        mean += bones.weights.y * posed_from_bind[first_bone + bones.indices.y];
+    }
+    if bones.weights.z != 0.0 {
+        mean += bones.weights.z * posed_from_bind[first_bone + bones.indices.z];
+    }
+    if bones.weights.w != 0.0 {
+        mean += bones.weights.w * posed_from_bind[first_bone + bones.indices.w];
+    }
+    return mean;
 }
 
 fn vertex_posed_from_bind(vertex: u32) -> Bone {

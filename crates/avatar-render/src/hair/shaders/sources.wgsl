@@ -1,5 +1,5 @@
-// What growth reads: roots, guides, the deformed skin, the pose. Lists are storage textures: of others, software
-// adapters look up the size of the mip level for every texel.
+// What growth reads: roots, guides, the deformed skin, the pose. Lists are storage textures: of others,
+// software adapters look up the size of the mip level for every texel.
 
 // The head's bone, and what the other bones add to a point of the head's bind pose to take it to theirs.
 struct HairPose {
