@@ -57,21 +57,21 @@ def _sheet(get):
     yield _line("`sheet` of all poses", get("sheet"), "≤ 5", unit="s")
 
 
-def _whole(get, quality, count):
+def _whole(get, quality, count, way="as a crowd"):
     """Milliseconds of a frame in which all avatars of a crowd move."""
-    return table.added(*(get(f"{quality} {count} as a crowd {part}") for part in ("pose", "record", "frame")))
+    return table.added(*(get(f"{quality} {count} {way} {part}") for part in ("pose", "record", "frame")))
 
 
 def _avatars(get):
     for quality, light, goal in [("Plain", "unlit", "≤ 0.25"), ("Low", "lit", "≤ 0.35")]:
         one, many = get(f"bevy {light} 1"), get(f"bevy {light} 16")
         first = _whole(get, quality, 1)
-        more = table.further(_whole(get, quality, 16), first, 16)
         bevy = f"Bevy 0.19.1, {'unlit' if light == 'unlit' else 'physical, without shadows'}"
         yield _line(f"one avatar, {quality.lower()}", first, "", bevy, one, "ms")
-        yield _line(
-            f"each further one of 16, {quality.lower()}", more, goal, bevy, table.further(many, one, 16), "ms"
-        )
+        theirs = table.further(many, one, 16)
+        for way, name in [("as a crowd", "the whole face"), ("by level", "level of detail")]:
+            more = table.further(_whole(get, quality, 16, way), _whole(get, quality, 1, way), 16)
+            yield _line(f"each further one of 16, {quality.lower()}, {name}", more, goal, bevy, theirs, "ms")
 
 
 def _recording(get):

@@ -52,7 +52,7 @@ def crowd(text):
         elif re.fullmatch(r"[A-Z][a-z]+", line):
             quality = line
         else:
-            row = re.match(r"^(\d+) (as a crowd|one by one) +([\d., ]+)$", line)
+            row = re.match(r"^(\d+) (as a crowd|by level|one by one) +([\d., ]+)$", line)
             if row:
                 numbers = [float(number) for number in re.findall(r"[\d.]+", row.group(3))]
                 pairs = zip(numbers[::2], numbers[1::2])

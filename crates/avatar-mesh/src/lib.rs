@@ -54,6 +54,7 @@
 //! - [`sequence`]: geometries as keys in time, with any transition function.
 //! - [`space`]: weights as points along named axes, and their mixtures.
 //! - [`coherence`]: whether geometries of several files have the same vertices in the same order.
+//! - [`Simplifier`]: fewer triangles for faces that are small in the picture, with all shapes and weights.
 //! - [`DeformBounds`]: boxes around what [`deform()`] makes, from the bones and weights alone.
 //!
 //! ```
@@ -84,6 +85,7 @@ mod validate;
 pub mod raw;
 mod weld;
 mod winding;
+mod simplify;
 
 pub mod weights;
 mod smooth;
@@ -106,6 +108,7 @@ pub use mesh::{Deformed, Mesh};
 pub use offsets::{Offsets, OffsetsError};
 pub use parts::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, PartKind, PartSpec};
 pub use shape::Shape;
+pub use simplify::{Simplified, Simplifier};
 pub use skinning::Skinning;
 pub use smooth::SmoothNormals;
 pub use turning::{MIN_NORMAL_LENGTH, deformed_triangles, mirrors, normal_matrix, turns_evenly};

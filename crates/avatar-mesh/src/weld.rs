@@ -31,31 +31,37 @@ pub fn weld(mesh: &Mesh) -> Welded {
         }
         welded_from_original.push(welded);
     }
-    let mesh = Mesh {
-        positions: pick(&mesh.positions, &originals),
-        uvs: pick(&mesh.uvs, &originals),
-        uvs_1: pick(&mesh.uvs_1, &originals),
-        colors: pick(&mesh.colors, &originals),
-        normals: pick(&mesh.normals, &originals),
-        tangents: pick(&mesh.tangents, &originals),
-        triangles: mesh.triangles.iter().map(|t| t.map(|i| renamed(&welded_from_original, i))).collect(),
+    let triangles = mesh.triangles.iter().map(|t| t.map(|i| renamed(&welded_from_original, i))).collect();
+    let mesh = picked(mesh, &originals, triangles);
+    Welded { mesh, welded_from_original }
+}
+
+/// The mesh of these vertices, which ascend, with all that they carry, and with other triangles.
+pub(crate) fn picked(mesh: &Mesh, originals: &[usize], triangles: Vec<[u32; 3]>) -> Mesh {
+    Mesh {
+        positions: pick(&mesh.positions, originals),
+        uvs: pick(&mesh.uvs, originals),
+        uvs_1: pick(&mesh.uvs_1, originals),
+        colors: pick(&mesh.colors, originals),
+        normals: pick(&mesh.normals, originals),
+        tangents: pick(&mesh.tangents, originals),
+        triangles,
         skinning: mesh.skinning.as_ref().map(|skinning| Skinning {
-            bones: pick(&skinning.bones, &originals),
-            weights: pick(&skinning.weights, &originals),
-            more_bones: pick(&skinning.more_bones, &originals),
-            more_weights: pick(&skinning.more_weights, &originals),
-            blend_index: pick(&skinning.blend_index, &originals),
+            bones: pick(&skinning.bones, originals),
+            weights: pick(&skinning.weights, originals),
+            more_bones: pick(&skinning.more_bones, originals),
+            more_weights: pick(&skinning.more_weights, originals),
+            blend_index: pick(&skinning.blend_index, originals),
         }),
         shapes: (mesh.shapes.iter())
             .map(|shape| Shape {
                 name: shape.name.clone(),
-                positions: pick_offsets(&shape.positions, &originals),
-                normals: shape.normals.as_ref().map(|offsets| pick_offsets(offsets, &originals)),
-                tangents: shape.tangents.as_ref().map(|offsets| pick_offsets(offsets, &originals)),
+                positions: pick_offsets(&shape.positions, originals),
+                normals: shape.normals.as_ref().map(|offsets| pick_offsets(offsets, originals)),
+                tangents: shape.tangents.as_ref().map(|offsets| pick_offsets(offsets, originals)),
             })
             .collect(),
-    };
-    Welded { mesh, welded_from_original }
+    }
 }
 
 fn renamed(welded_from_original: &[u32], vertex: u32) -> u32 {

@@ -249,6 +249,13 @@ impl Pack {
         self.contents.face = face;
     }
 
+    /// Replaces meshes, where there is another, by meshes with the same shapes and bones.
+    pub(crate) fn set_meshes(&mut self, meshes: impl Iterator<Item = Option<Mesh>>) {
+        for (part, mesh) in self.contents.parts.iter_mut().zip(meshes) {
+            part.mesh = mesh.unwrap_or_else(|| std::mem::take(&mut part.mesh));
+        }
+    }
+
     /// The part of this name.
     pub fn part(&self, name: &str) -> Option<&Part> {
         self.parts().iter().find(|part| part.name == name)

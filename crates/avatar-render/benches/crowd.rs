@@ -7,13 +7,14 @@
 //!
 //! Prints milliseconds, the fastest and the median of all frames: `pose`, handing bones and weights over;
 //! `record`, everything that one core does until the frame is submitted; `frame`, from then until it is
-//! there; `still`, the same where nothing moved, so that nothing is deformed. Rows beside each other are
-//! measured in turns. Where a frame takes long, more are recorded than are submitted.
+//! there; `still`, the same where nothing moved, so that nothing is deformed. A crowd `by level` has the
+//! level of detail for its height in the picture, a quarter of a pixel off at most. Rows beside each other
+//! are measured in turns. Where a frame takes long, more are recorded than are submitted.
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it reads the avatar and the clock")]
 
 use avatar_mesh::PartKind;
-use avatar_pack::{FaceState, Pack, Source, SourceError, Textures};
+use avatar_pack::{FaceState, Level, Pack, Source, SourceError, Textures};
 use avatar_render::headless::{Gpu, GpuOptions, open_blocking};
 use avatar_render::{
     AvatarCrowd, AvatarModel, AvatarState, Camera, Light, Quality, Renderer, RendererConfig, Scene, Style,
@@ -56,8 +57,9 @@ struct Times {
     frame: f64,
 }
 
-struct Row {
+struct Row<'a> {
     name: String,
+    model: &'a AvatarModel,
     avatars: Avatars,
     count: usize,
     moving: Vec<Times>,
@@ -67,7 +69,6 @@ struct Row {
 struct Stage<'a> {
     gpu: &'a Gpu,
     pack: &'a Pack,
-    model: &'a AvatarModel,
     renderer: Renderer,
     targets: Targets,
     view: wgpu::TextureView,
@@ -92,28 +93,42 @@ fn main() {
         skin.mesh.positions.len(),
         skin.mesh.triangles.len()
     );
-    let model = avatar_stage::upload_with_hair(&gpu.device, &gpu.queue, &pack, &Textures::default(), None);
-    let model = model.expect("a model");
+    let upload = |pack: &Pack| {
+        avatar_stage::upload_with_hair(&gpu.device, &gpu.queue, pack, &Textures::default(), None)
+            .expect("a model")
+    };
+    let mut models = vec![upload(&pack)];
+    let triangles = |pack: &Pack| pack.parts().iter().map(|part| part.mesh.triangles.len()).sum::<usize>();
+    print!("triangles by level: {}", triangles(&pack));
+    for level in Level::all(&pack, false) {
+        print!(", {}", triangles(&level.pack));
+        models.push(upload(&level.pack));
+    }
+    println!();
     for quality in [Quality::Plain, Quality::Low] {
         println!(
             "\n{quality:?}\n{:<24}{:>16}{:>16}{:>18}{:>18}",
             "ms: least, median", "pose", "record", "frame", "still"
         );
-        let mut stage = Stage::new(&gpu, &pack, &model, quality);
+        let mut stage = Stage::new(&gpu, &pack, quality);
         let mut least = Vec::new();
         for count in COUNTS.into_iter().filter(|count| *count as f64 <= most) {
-            let states = (0..count).map(|_| AvatarState::new(&gpu.device, &model)).collect();
-            let crowd = AvatarCrowd::new(&gpu.device, &model, count).expect("room");
-            let row = |name, avatars| Row {
+            let (model, simple) = (&models[0], &models[stage.level(count)]);
+            let states = (0..count).map(|_| AvatarState::new(&gpu.device, model)).collect();
+            let crowd =
+                |model| Avatars::Crowd(Box::new(AvatarCrowd::new(&gpu.device, model, count).expect("room")));
+            let row = |name, model, avatars| Row {
                 name: format!("{count} {name}"),
+                model,
                 avatars,
                 count,
                 moving: Vec::new(),
                 still: Vec::new(),
             };
             let mut rows = [
-                row("as a crowd", Avatars::Crowd(Box::new(crowd))),
-                row("one by one", Avatars::OneByOne(states)),
+                row("as a crowd", model, crowd(model)),
+                row("by level", simple, crowd(simple)),
+                row("one by one", model, Avatars::OneByOne(states)),
             ];
             // For what is made at the first use.
             for row in rows.iter_mut().filter(|_| count <= 64) {
@@ -130,22 +145,23 @@ fn main() {
             }
             rows.iter().for_each(Row::print);
             assert_eq!(gpu.errors.take(), None);
-            let whole = |row: &Row| {
+            let whole = |row: &Row<'_>| {
                 fastest(&row.moving, |times| match times.frame {
                     0.0 => f64::INFINITY,
                     frame => times.record + frame,
                 })
             };
-            least.push((count, whole(&rows[0]), whole(&rows[1])));
+            least.push((count, rows.each_ref().map(whole)));
         }
-        let [Some(one), Some(sixteen)] = [1, 16].map(|n| least.iter().find(|(count, ..)| *count == n)) else {
+        let [Some((_, one)), Some((_, sixteen))] =
+            [1, 16].map(|n| least.iter().find(|(count, _)| *count == n))
+        else {
             continue;
         };
-        let further = |of: fn(&(usize, f64, f64)) -> f64| (of(sixteen) - of(one)) / 15.0;
+        let [crowd, by_level, one_by_one] = [0, 1, 2].map(|row| (sixteen[row] - one[row]) / 15.0);
         println!(
-            "each further avatar, from 1 to 16: {:.2} ms in a crowd, {:.2} ms one by one",
-            further(|row| row.1),
-            further(|row| row.2)
+            "each further avatar, from 1 to 16: {crowd:.2} ms in a crowd, {by_level:.2} by level, \
+             {one_by_one:.2} one by one"
         );
     }
 }
@@ -160,7 +176,7 @@ fn shown<'a>(times: impl Iterator<Item = &'a Times>, of: impl Fn(&Times) -> f64)
     format!("{:.2}, {:.2}", all[0], all[all.len() / 2])
 }
 
-impl Row {
+impl Row<'_> {
     fn print(&self) {
         println!(
             "{:<24}{:>16}{:>16}{:>18}{:>18}",
@@ -174,7 +190,7 @@ impl Row {
 }
 
 impl<'a> Stage<'a> {
-    fn new(gpu: &'a Gpu, pack: &'a Pack, model: &'a AvatarModel, quality: Quality) -> Self {
+    fn new(gpu: &'a Gpu, pack: &'a Pack, quality: Quality) -> Self {
         let shading = quality.shading(Style::Natural);
         let config = RendererConfig { color_format: FORMAT, samples: 4, shading };
         let renderer = Renderer::new(&gpu.device, &gpu.queue, config).expect("a renderer");
@@ -190,11 +206,11 @@ impl<'a> Stage<'a> {
             view_formats: &[],
         });
         let view = texture.create_view(&Default::default());
-        Self { gpu, pack, model, renderer, targets, view, face: FaceState::new(pack), tick: 0 }
+        Self { gpu, pack, renderer, targets, view, face: FaceState::new(pack), tick: 0 }
     }
 
     /// A frame in which all move, and one in which none does.
-    fn step(&mut self, row: &mut Row) {
+    fn step(&mut self, row: &mut Row<'_>) {
         let pose = self.animate(row);
         let moving = self.frame(row, true);
         row.moving.push(Times { pose, ..moving });
@@ -203,7 +219,7 @@ impl<'a> Stage<'a> {
     }
 
     /// A frame in which all move, which is recorded and thrown away.
-    fn record(&mut self, row: &mut Row) {
+    fn record(&mut self, row: &mut Row<'_>) {
         let pose = self.animate(row);
         let recorded = self.frame(row, false);
         row.moving.push(Times { pose, ..recorded });
@@ -219,8 +235,18 @@ impl<'a> Stage<'a> {
         (count as f64).sqrt().ceil() as usize
     }
 
+    fn rows(count: usize) -> usize {
+        count.div_ceil(Self::columns(count))
+    }
+
+    /// The level of detail for the height that so many avatars have in the picture.
+    fn level(&self, count: usize) -> usize {
+        let height = Self::rows(count) as f32 * CELL[1] * self.scale();
+        Level::for_pixels(self.pack, HEIGHT as f32 / height)
+    }
+
     /// A new pose for every avatar. Returns what handing them over took.
-    fn animate(&mut self, row: &mut Row) -> f64 {
+    fn animate(&mut self, row: &mut Row<'_>) -> f64 {
         self.tick += 1;
         let phase = self.tick as f32 / 30.0;
         let poses: Vec<_> = self.pack.poses().iter().collect();
@@ -231,7 +257,7 @@ impl<'a> Stage<'a> {
         self.face.pose(self.pack, &values).expect("values of this pack");
         let turn = Affine3A::from_rotation_y(0.4 * phase.sin());
         let middle = self.pack.parts()[0].mesh.bounds().map_or(Vec3::ZERO, |bounds| bounds.center());
-        let (columns, rows) = (Self::columns(row.count), row.count.div_ceil(Self::columns(row.count)));
+        let (columns, rows) = (Self::columns(row.count), Self::rows(row.count));
         let cell = Vec3::new(CELL[0], CELL[1], 0.0) * self.scale();
         let (bones, weights) = (self.face.bones(), self.face.weights());
         let placed = |avatar: usize| {
@@ -253,7 +279,7 @@ impl<'a> Stage<'a> {
             }
             Avatars::Crowd(crowd) => {
                 for (avatar, bones) in all.iter().enumerate() {
-                    crowd.set(self.model, avatar, bones, weights).expect("bones and weights of this model");
+                    crowd.set(row.model, avatar, bones, weights).expect("bones and weights of this model");
                 }
             }
         }
@@ -261,8 +287,8 @@ impl<'a> Stage<'a> {
     }
 
     /// Without submission the frame takes no time.
-    fn frame(&self, row: &mut Row, is_submitted: bool) -> Times {
-        let rows = row.count.div_ceil(Self::columns(row.count)) as f32;
+    fn frame(&self, row: &mut Row<'_>, is_submitted: bool) -> Times {
+        let rows = Self::rows(row.count) as f32;
         let fov = 30f32.to_radians();
         let distance = rows * CELL[1] * self.scale() * 0.5 / (fov * 0.5).tan();
         let camera = Camera::orbit(Vec3::ZERO, distance, 0.0, 0.0, fov, WIDTH as f32 / HEIGHT as f32);
@@ -276,11 +302,11 @@ impl<'a> Stage<'a> {
         let (renderer, view, targets, queue) = (&self.renderer, &self.view, &self.targets, &gpu.queue);
         let drawn = match &mut row.avatars {
             Avatars::OneByOne(states) => {
-                let avatars: Vec<_> = states.iter().map(|state| (self.model, state)).collect();
+                let avatars: Vec<_> = states.iter().map(|state| (row.model, state)).collect();
                 renderer.draw(&mut encoder, view, targets, queue, &scene, &avatars)
             }
             Avatars::Crowd(crowd) => {
-                let crowds = &mut [(self.model, &mut **crowd)];
+                let crowds = &mut [(row.model, &mut **crowd)];
                 renderer.draw_crowds(&mut encoder, view, targets, queue, &scene, &[], crowds, None)
             }
         };

@@ -128,6 +128,16 @@ impl View {
         Camera::orbit(bounds.center() - aside, whole * self.distance, yaw, pitch, fov, aspect)
     }
 
+    /// How many pixels a unit of the world has, where the avatar's box at bind pose is nearest, in a picture
+    /// of this width and height: what [`avatar_pack::Level::for_pixels`] goes by. Infinity within the box.
+    pub fn pixels_per_unit(&self, pack: &Pack, [width, height]: [u32; 2]) -> f32 {
+        let camera = self.camera(pack, width as f32 / height.max(1) as f32);
+        let bounds = pack.bounds().unwrap_or(Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE });
+        let eye = camera.eye();
+        let distance = eye.distance(eye.max(bounds.min).min(bounds.max));
+        height as f32 / (2.0 * distance * (camera.vertical_fov_rad / 2.0).tan())
+    }
+
     /// The scene of a picture of this aspect (width by height). `background` is sRGB with straight alpha.
     pub fn scene(&self, pack: &Pack, aspect: f32, background: [u8; 4], light: Light) -> Scene {
         Scene { camera: self.camera(pack, aspect), background: linear_from_srgb8(background), light }

@@ -1,5 +1,6 @@
 use crate::face_args::FaceArgs;
 use crate::hair_args::HairArgs;
+use crate::lod_args::LodArgs;
 use crate::look_args::LookArgs;
 use crate::numbers::{count, positive};
 use crate::output::STANDARD;
@@ -85,6 +86,8 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) face: FaceArgs,
     #[command(flatten)]
+    pub(crate) lod: LodArgs,
+    #[command(flatten)]
     pub(crate) look: LookArgs,
     /// The picture; its end says the format: .png, .jpg (or .jpeg) or .webp (without loss). `-` is standard
     /// output. What the face does is written into it
@@ -119,6 +122,8 @@ pub(crate) struct RecordArgs {
     #[arg(long, value_parser = positive, allow_hyphen_values = true, value_name = "SECONDS")]
     pub(crate) duration: Option<f64>,
     #[command(flatten)]
+    pub(crate) lod: LodArgs,
+    #[command(flatten)]
     pub(crate) look: LookArgs,
     /// The film; its end says the format: .gif, .png (animated) or .mp4. A name without one is a folder of
     /// pictures; `-` is standard output
@@ -138,6 +143,8 @@ pub(crate) struct RecordArgs {
 pub(crate) struct SheetArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
+    #[command(flatten)]
+    pub(crate) lod: LodArgs,
     #[command(flatten)]
     pub(crate) look: LookArgs,
     /// The picture; its end says the format: .png, .jpg (or .jpeg) or .webp (without loss). `-` is standard
@@ -243,6 +250,9 @@ pub(crate) struct InfoArgs {
     /// Print JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
+    /// Make the levels of detail and tell their triangles and errors; takes seconds
+    #[arg(long)]
+    pub(crate) levels: bool,
 }
 
 #[derive(Debug, Args)]
@@ -262,6 +272,11 @@ impl Size {
     /// Width by height.
     pub(crate) fn aspect(self) -> f32 {
         self.width.max(1) as f32 / self.height.max(1) as f32
+    }
+
+    /// Width and height.
+    pub(crate) fn sides(self) -> [u32; 2] {
+        [self.width, self.height]
     }
 }
 

@@ -14,6 +14,7 @@ mod picture_file;
 mod hair_args;
 mod label;
 mod look_args;
+mod lod_args;
 mod progress;
 mod threads;
 mod reading;

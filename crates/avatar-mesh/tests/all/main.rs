@@ -15,6 +15,7 @@ mod offsets;
 mod raw;
 mod sequence;
 mod shape;
+mod simplify;
 mod space;
 mod turning;
 mod validate;

@@ -8,6 +8,7 @@ mod faces;
 mod gaze;
 mod growth;
 mod hair;
+mod levels;
 mod materials;
 mod pack;
 mod pictures;

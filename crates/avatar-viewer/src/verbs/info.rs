@@ -1,7 +1,7 @@
 use crate::cli::InfoArgs;
 use crate::standard;
 use anyhow::Result;
-use avatar_pack::{ImportReport, Pack, Texture, Textures};
+use avatar_pack::{ImportReport, Level, Pack, Texture, Textures};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -13,6 +13,8 @@ struct Report<'a> {
     controls: Vec<ControlReport>,
     poses: Vec<PoseReport>,
     clips: Vec<ClipReport>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    levels: Vec<LevelReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     import: Option<ImportedReport>,
     warnings: Vec<String>,
@@ -48,6 +50,32 @@ struct ClipReport {
     seconds: f32,
 }
 
+/// A level of detail.
+#[derive(Serialize)]
+struct LevelReport {
+    level: usize,
+    /// Height of the avatar in the picture up to which it is made; the whole avatar has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pixels: Option<f32>,
+    vertices: usize,
+    triangles: usize,
+    error: f32,
+}
+
+fn levels(pack: &Pack) -> Vec<LevelReport> {
+    let made = Level::all(pack, false);
+    let of_levels = made.iter().map(|level| (&level.pack, level.error));
+    let all = std::iter::once((pack, 0.0)).chain(of_levels).enumerate();
+    all.map(|(level, (pack, error))| LevelReport {
+        level,
+        pixels: level.checked_sub(1).and_then(|place| Level::HEIGHTS.get(place).copied()),
+        vertices: pack.parts().iter().map(|part| part.mesh.positions.len()).sum(),
+        triangles: pack.parts().iter().map(|part| part.mesh.triangles.len()).sum(),
+        error,
+    })
+    .collect()
+}
+
 /// What was recognised in a file of an interchange format.
 #[derive(Serialize)]
 struct ImportedReport {
@@ -78,7 +106,9 @@ pub(super) fn run(args: &InfoArgs) -> Result<()> {
     // Not `load_pack`: warnings are part of the report here, and not told twice.
     let pack = files.read_pack()?;
     let textures = files.read_textures(&Texture::ALL);
-    let report = Report { import: files.report().map(import), ..report(&pack, &textures) };
+    let import = files.report().map(import);
+    let levels = if args.levels { levels(&pack) } else { Vec::new() };
+    let report = Report { import, levels, ..report(&pack, &textures) };
     if args.json {
         return standard::print(&format!("{}\n", serde_json::to_string_pretty(&report)?));
     }
@@ -119,6 +149,7 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
         controls: controls.collect(),
         poses: poses.collect(),
         clips: clips.chain(of_controls).collect(),
+        levels: Vec::new(),
         import: None,
         warnings: warnings.map(ToString::to_string).collect(),
     }
@@ -161,6 +192,13 @@ fn text(report: &Report<'_>) -> String {
     }
     for clip in &report.clips {
         let _ = writeln!(out, "{:<wide$} {:.3}", clip.name, clip.seconds);
+    }
+    if !report.levels.is_empty() {
+        let _ = writeln!(out, "\n{:<15} vertices  triangles      error", "level, up to px");
+    }
+    for LevelReport { level, pixels, vertices, triangles, error } in &report.levels {
+        let name = pixels.map_or_else(|| level.to_string(), |pixels| format!("{level}, {pixels}"));
+        let _ = writeln!(out, "{name:<15} {vertices:>8} {triangles:>10} {error:>10.4}");
     }
     if let Some(import) = &report.import {
         out.push('\n');

@@ -33,7 +33,8 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
         )));
     }
 
-    let mut offscreen = Offscreen::of_files(&files, &pack, args.size, args.picture.samples, args.look)?;
+    let level = args.lod.level(&pack, &args.look, &view, args.size.sides(), frames);
+    let mut offscreen = Offscreen::of_files(&files, &level, args.size, args.picture.samples, args.look)?;
     let interrupts = Interrupts::poll()?;
     let mut film = FilmSink::create(target, args.size, args.fps, frames)?;
     let mut motion = script.as_ref().map(|script| script.motion(&pack));

@@ -14,7 +14,8 @@ pub(super) fn run(args: &RenderArgs, matches: &ArgMatches) -> Result<()> {
     let pack = files.load_pack()?;
     let face = args.face.resolve(&pack, matches)?;
     let view = args.picture.view(&pack)?;
-    let mut offscreen = Offscreen::of_files(&files, &pack, args.size, args.picture.samples, args.look)?;
+    let level = args.lod.level(&pack, &args.look, &view, args.size.sides(), 1);
+    let mut offscreen = Offscreen::of_files(&files, &level, args.size, args.picture.samples, args.look)?;
     let picture = offscreen.picture(&pack, &face, view, args.size, args.picture.background.0)?;
     picture_file::still(&out, format, &picture, &face.describe(&pack))
 }

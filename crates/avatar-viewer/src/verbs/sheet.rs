@@ -33,7 +33,9 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
     let (width, height) = (GAP + COLUMNS * (cell_width + GAP), GAP + rows * (cell_height + GAP));
     format.check([width, height], SHEET_COLOR)?;
 
-    let mut offscreen = Offscreen::of_files(&files, &pack, FACE, SAMPLES, args.look)?;
+    let head = View { framing: Framing::Head, ..View::FRONT };
+    let level = args.lod.level(&pack, &args.look, &head, FACE.sides(), 2 * poses.len() as u64);
+    let mut offscreen = Offscreen::of_files(&files, &level, FACE, SAMPLES, args.look)?;
     let mut progress = Progress::new("pose", poses.len() as u64);
     let mut sheet = RgbaImage::from_pixel(width, height, Rgba(SHEET_COLOR));
     for (index, pose) in poses.into_iter().enumerate() {

@@ -16,6 +16,7 @@ mod convert;
 mod expected_data;
 mod hair;
 mod import;
+mod levels;
 mod look;
 mod mirrored;
 mod outputs;
