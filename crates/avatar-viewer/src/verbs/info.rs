@@ -193,7 +193,13 @@ fn text(report: &Report<'_>) -> String {
     for clip in &report.clips {
         let _ = writeln!(out, "{:<wide$} {:.3}", clip.name, clip.seconds);
     }
-    if !report.levels.is_empty() {
+    if report.levels.is_empty() {
+        let heights = Level::HEIGHTS.map(|pixels| pixels.to_string()).join(", ");
+        let _ = writeln!(
+            out,
+            "\nlevels of detail up to {heights} pixels of height (--levels makes and tells them)"
+        );
+    } else {
         let _ = writeln!(out, "\n{:<15} vertices  triangles      error", "level, up to px");
     }
     for LevelReport { level, pixels, vertices, triangles, error } in &report.levels {
