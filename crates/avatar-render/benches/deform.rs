@@ -1,5 +1,6 @@
-//! How close the deform pass comes to a plain kernel that reads and writes as many bytes, in the same run: the
-//! built-in skin without an active shape, with its own shapes, and with twenty that move one vertex in twenty.
+//! How close the deform pass comes to a plain kernel that reads and writes as many bytes, in the same run:
+//! the built-in skin without an active shape, with its own shapes, and with twenty that move one vertex in
+//! twenty.
 //!
 //! `cargo bench -p avatar-render --bench deform [-- ROUNDS]`
 #![allow(clippy::expect_used, reason = "a benchmark stops at the first surprise")]

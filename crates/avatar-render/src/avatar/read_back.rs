@@ -45,9 +45,9 @@ pub enum GrowerError {
 }
 
 impl Deformer {
-    /// Records the deformation of an avatar, whether it moved or not. [`Renderer::draw`](crate::Renderer::draw)
-    /// does this by itself where it moved; this method is for measuring it. Does nothing with the state of
-    /// another model.
+    /// Records the deformation of an avatar, whether it moved or not.
+    /// [`Renderer::draw`](crate::Renderer::draw) does this by itself where it moved; this method is for
+    /// measuring it. Does nothing with the state of another model.
     pub fn deform(&self, encoder: &mut wgpu::CommandEncoder, model: &AvatarModel, state: &AvatarState) {
         if state.fits(model) {
             state.pose.deform_again();
