@@ -1,4 +1,5 @@
 use glam::Vec3;
+use lanes::{Simd, Work};
 use std::fmt;
 
 /// One offset per vertex of a mesh, stored in the smaller of two ways: all of them, or those of the moved
@@ -171,9 +172,8 @@ impl Offsets {
     pub fn add_scaled(&self, weight: f32, sums: &mut [Vec3]) {
         match &self.store {
             Store::Dense(offsets) => {
-                for (sum, offset) in sums.iter_mut().zip(offsets) {
-                    *sum += weight * *offset;
-                }
+                let (offsets, sums) = (bytemuck::cast_slice(offsets), bytemuck::cast_slice_mut(sums));
+                lanes::run(AddScaled { weight, offsets, sums });
             }
             Store::Sparse { vertices, offsets, .. } => {
                 for (&vertex, offset) in vertices.iter().zip(offsets) {
@@ -189,6 +189,24 @@ impl Offsets {
     pub(crate) fn stored(&self) -> &[Vec3] {
         match &self.store {
             Store::Dense(offsets) | Store::Sparse { offsets, .. } => offsets,
+        }
+    }
+}
+
+/// Adds a product of each number to its sum.
+struct AddScaled<'a> {
+    weight: f32,
+    offsets: &'a [f32],
+    sums: &'a mut [f32],
+}
+
+impl Work for AddScaled<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for (sum, offset) in self.sums.iter_mut().zip(self.offsets) {
+            *sum += self.weight * offset;
         }
     }
 }

@@ -64,39 +64,34 @@ fn skin_block<S: Simd>(
     normals: &mut [Vec3; LANES],
 ) -> bool {
     let mut sums = [[Lanes::splat(0.0); 3]; 2];
-    let first = bones[0][0];
-    let mut is_of_one = true;
+    // Bones as floats, which compare beside their weights.
+    let (mut of_slots, mut of_weights) = ([Lanes::splat(0.0); 4], [Lanes::splat(0.0); 4]);
     for lane in 0..LANES {
-        let [a, b, c, d] = weights[lane];
-        is_of_one &= (a == 1.0) & (b == 0.0) & (c == 0.0) & (d == 0.0) & (bones[lane][0] == first);
-    }
-    if is_of_one {
-        let Some(matrix) = matrices.get(usize::from(first)) else { return false };
-        add(simd, matrix, None, from, along, &mut sums);
-    } else {
-        // Bones as floats, which compare beside their weights.
-        let (mut of_slots, mut left) = ([Lanes::splat(0.0); 4], [Lanes::splat(0.0); 4]);
-        for lane in 0..LANES {
-            for slot in 0..4 {
-                of_slots[slot][lane] = f32::from(bones[lane][slot]);
-                left[slot][lane] = weights[lane][slot];
-            }
+        for slot in 0..4 {
+            of_slots[slot][lane] = f32::from(bones[lane][slot]);
+            of_weights[slot][lane] = weights[lane][slot];
         }
-        for (of_slot, left) in of_slots.iter().zip(&mut left) {
-            // One bone after the other, of those that have a weight.
-            while let Some(lane) = first_other_than_zero(left) {
-                let bone = of_slot[lane];
-                let Some(matrix) = matrices.get(bone as usize) else { return false };
-                let mut weights = Lanes::splat(0.0);
-                let (bone, zero) = (Wide::splat(simd, bone), Wide::splat(simd, 0.0));
-                for step in 0..steps::<S>() {
-                    let all = Wide::load(simd, left, step);
-                    let of_slot = Wide::load(simd, of_slot, step);
-                    of_slot.equal(bone, all, zero).store(&mut weights, step);
-                    of_slot.equal(bone, zero, all).store(left, step);
-                }
-                add(simd, matrix, Some(&weights), from, along, &mut sums);
+    }
+    for (slot, (of_slot, all)) in of_slots.iter().zip(&of_weights).enumerate() {
+        // The lanes with a weight whose bones are still to come.
+        let mut left = ALL & !equal_bits(simd, all, 0.0);
+        while left != 0 {
+            let bone = of_slot[left.trailing_zeros() as usize];
+            let Some(matrix) = matrices.get(bone as usize) else { return false };
+            let same = equal_bits(simd, of_slot, bone);
+            // Most blocks follow one bone wholly: no weights are needed.
+            if slot == 0 && same == ALL && equal_bits(simd, all, 1.0) == ALL {
+                add(simd, matrix, None, from, along, &mut sums);
+                break;
             }
+            left &= !same;
+            let mut weights = Lanes::splat(0.0);
+            let (bone, zero) = (Wide::splat(simd, bone), Wide::splat(simd, 0.0));
+            for step in 0..steps::<S>() {
+                let weight = Wide::load(simd, all, step);
+                Wide::load(simd, of_slot, step).equal(bone, weight, zero).store(&mut weights, step);
+            }
+            add(simd, matrix, Some(&weights), from, along, &mut sums);
         }
     }
     let is_long = make_unit(simd, along, &mut sums[1]);
@@ -107,14 +102,18 @@ fn skin_block<S: Simd>(
     is_long
 }
 
-/// The first lane whose number is not 0.
+/// A bit for each lane.
+const ALL: u32 = (1 << LANES) - 1;
+
+/// The lanes that hold a number, a bit each.
 #[inline(always)]
-fn first_other_than_zero(lanes: &Lanes) -> Option<usize> {
-    let mut others = 0u32;
-    for lane in 0..LANES {
-        others |= u32::from(lanes[lane] != 0.0) << lane;
+fn equal_bits<S: Simd>(simd: S, lanes: &Lanes, number: f32) -> u32 {
+    let mut bits = 0;
+    for step in 0..steps::<S>() {
+        let own = Wide::load(simd, lanes, step).equal_bits(Wide::splat(simd, number));
+        bits |= own << (step * S::F32_LANES);
     }
-    (others != 0).then_some(others.trailing_zeros() as usize)
+    bits
 }
 
 /// Adds what a bone makes of positions and normals, times the weights; without weights, all are 1.

@@ -1,5 +1,5 @@
 use crate::{LANES, Lanes};
-use pulp::Simd;
+use pulp::{Simd, bytemuck};
 use std::ops::{Add, Div, Mul, Sub};
 
 /// How many [`Wide`] make a [`Lanes`].
@@ -68,6 +68,21 @@ impl<S: Simd> Wide<S> {
     pub fn equal(self, other: Self, yes: Self, no: Self) -> Self {
         let mask = self.simd.equal_f32s(self.numbers, other.numbers);
         Self { numbers: self.simd.select_f32s(mask, yes.numbers, no.numbers), ..self }
+    }
+
+    /// Where `self == other`: bit k for number k of the vector.
+    #[inline(always)]
+    pub fn equal_bits(self, other: Self) -> u32 {
+        let mask = self.simd.equal_f32s(self.numbers, other.numbers);
+        // A mask is a bit for each number in an integer, or a whole number of bits that are all alike.
+        match const { size_of::<S::m32s>() } {
+            1 => bytemuck::cast::<_, u8>(mask).into(),
+            2 => bytemuck::cast::<_, u16>(mask).into(),
+            _ => {
+                let numbers: &[u32] = bytemuck::cast_slice(std::slice::from_ref(&mask));
+                numbers.iter().enumerate().fold(0, |bits, (lane, number)| bits | (number & 1) << lane)
+            }
+        }
     }
 
     /// The square root, rounded as [`f32::sqrt`].
@@ -144,3 +159,35 @@ operator!(Add, add, add_f32s, add_f64s);
 operator!(Sub, sub, sub_f32s, sub_f64s);
 operator!(Mul, mul, mul_f32s, mul_f64s);
 operator!(Div, div, div_f32s, div_f64s);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Work;
+
+    struct Bits<'a>(&'a Lanes, &'a Lanes);
+
+    impl Work for Bits<'_> {
+        type Output = u32;
+
+        #[inline(always)]
+        fn with_simd<S: Simd>(self, simd: S) -> u32 {
+            (0..steps::<S>()).fold(0, |bits, step| {
+                let own = Wide::load(simd, self.0, step).equal_bits(Wide::load(simd, self.1, step));
+                bits | own << (step * S::F32_LANES)
+            })
+        }
+    }
+
+    #[test]
+    fn equal_lanes_are_told_by_a_bit_each() {
+        let numbers =
+            Lanes([0.0, -0.0, 1.0, f32::NAN, 2.0, 0.0, 7.0, -7.0, 8.0, 9.0, 0.0, 3.0, 3.0, 3.0, 4.0, 0.0]);
+        for other in [0.0, 3.0, 8.0, f32::NAN, 5.0] {
+            let expected = (0..LANES).fold(0, |bits, k| bits | u32::from(numbers[k] == other) << k);
+            let others = Lanes::splat(other);
+            assert_eq!(crate::run(Bits(&numbers, &others)), expected, "{other}");
+            assert_eq!(Bits(&numbers, &others).with_simd(pulp::Scalar), expected, "{other}, one by one");
+        }
+    }
+}
