@@ -28,7 +28,7 @@ fn strand_highlight(tangent: vec3f, normal: vec3f, half_way: vec3f, shift: f32, 
 fn toon_strand_light(point: StrandPoint, normal: vec3f, color: vec3f) -> vec3f {
     let key = frame.lamps[KEY_LAMP];
     let lifted = point.position + normal * hair.margin * 3.0;
-    let seen = smoothstep(0.4, 0.6, cast_visibility(KEY_LAMP, lifted, normal));
+    let seen = smoothstep(0.4, 0.6, strand_visibility(KEY_LAMP, lifted, normal));
     let open = smoothstep(0.35, 0.5, hair_visibility(point.position, frame.hair_shadow * STRAND_BLOCKS, 0));
     let light = seen * open * smoothstep(0.08, 0.16, dot(normal, key.direction_world));
     let half_way = normalize(key.direction_world + normalize(frame.eye_world - point.position));
@@ -53,7 +53,7 @@ fn strand_light(point: StrandPoint, color: vec3f, open: f32) -> vec3f {
         let n_dot_l = dot(normal, lamp.direction_world);
         let along = dot(tangent, lamp.direction_world);
         let lifted = position + normal * hair.margin * 3.0;
-        var seen = cast_visibility(i, lifted, normal);
+        var seen = strand_visibility(i, lifted, normal);
         if i == KEY_LAMP && frame.hair_shadow > 0.0 {
             seen *= hair_visibility(position, STRAND_BLOCKS, 0);
         } else {

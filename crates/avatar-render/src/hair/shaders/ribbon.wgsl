@@ -65,6 +65,13 @@ fn strand_point(strand: u32, corner: u32, region: u32) -> StrandPoint {
     return point;
 }
 
+// The share of a lamp's light that nothing but hair blocks at a point of a strand. One sample is enough: the
+// light of a strand changes evenly between its points, and their places differ from strand to strand, which
+// makes edges of shadows on a lock soft. Toon style draws hard edges of two tones, where steps would be seen.
+fn strand_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
+    return sampled_visibility(lamp, position, normal, select(0, SHADOW_REACH, TOON));
+}
+
 // From the middle of a strand to the side, across the direction of view.
 fn strand_side(tangent: vec3f, to_eye: vec3f) -> vec3f {
     let across = cross(tangent, to_eye);

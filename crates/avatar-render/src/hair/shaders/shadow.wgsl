@@ -21,7 +21,7 @@ fn hair_shadow_main(
     let lifted = point.position + point.normal * hair.margin * 3.0;
     var out: ShadowStrandOut;
     out.position_clip = vec4f(hair_map_place(position), 1.0);
-    out.cover = texels / drawn * cast_visibility(KEY_LAMP, lifted, point.normal);
+    out.cover = texels / drawn * strand_visibility(KEY_LAMP, lifted, point.normal);
     return out;
 }
 

@@ -52,6 +52,11 @@ fn lamp_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
 // The share of a lamp's light that nothing but hair blocks, over a square of samples with Gaussian weights.
 // The pattern is its own mirror image, so that a mirrored face under mirrored light is a mirrored picture.
 fn cast_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
+    return sampled_visibility(lamp, position, normal, SHADOW_REACH);
+}
+
+// The same over the same square, with `samples` on each side of the middle one.
+fn sampled_visibility(lamp: u32, position: vec3f, normal: vec3f, samples: i32) -> f32 {
     let layer = shadow_of(lamp);
     if SHADOW_REACH < 0 || layer == NO_SHADOW {
         return 1.0;
@@ -68,9 +73,9 @@ fn cast_visibility(lamp: u32, position: vec3f, normal: vec3f) -> f32 {
     let bias = 0.5 * frame.shadow_texel[layer] / frame.shadow_depth[layer];
     var seen = 0.0;
     var total = 0.0;
-    for (var y = -SHADOW_REACH; y <= SHADOW_REACH; y++) {
-        for (var x = -SHADOW_REACH; x <= SHADOW_REACH; x++) {
-            let offset = vec2f(f32(x), f32(y)) / reach;
+    for (var y = -samples; y <= samples; y++) {
+        for (var x = -samples; x <= samples; x++) {
+            let offset = vec2f(f32(x), f32(y)) / f32(max(samples, 1));
             let weight = exp(-1.5 * dot(offset, offset));
             let at = place.xy + offset * spread;
             // Surfaces curve as well as tilt: more bias further out.
