@@ -45,7 +45,8 @@
 //!  keys of a Sequence ──────────┘
 //! ```
 //!
-//! - A [`Shape`] stores moved vertices only, where that is smaller ([`Offsets`]). Shapes without offsets for
+//! - A [`Shape`] stores moved vertices only, where that is smaller ([`Offsets`]); [`raw_shapes`] reads and
+//!   writes these as bytes. Shapes without offsets for
 //!   normals leave them alone; [`ShapeNormals`] is the choice, [`SmoothNormals`] recomputes them.
 //! - [`weights`]: relative and absolute forms, normalised weights. All functions on weights work with any
 //!   renderer.
@@ -83,6 +84,7 @@ mod mesh;
 mod parts;
 mod validate;
 pub mod raw;
+pub mod raw_shapes;
 mod weld;
 mod winding;
 mod simplify;

@@ -13,6 +13,7 @@ mod golden_makehuman;
 mod influences;
 mod offsets;
 mod raw;
+mod raw_shapes;
 mod sequence;
 mod shape;
 mod simplify;
