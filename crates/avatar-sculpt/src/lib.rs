@@ -25,6 +25,7 @@ pub mod shapes;
 pub mod weights;
 pub mod skin;
 pub mod sculpture;
+pub mod arkit;
 pub mod raw;
 pub mod bake;
 pub mod paint;

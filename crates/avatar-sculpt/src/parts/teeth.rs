@@ -131,6 +131,12 @@ fn gum(part: &mut Part, arch: &Arch, end: f64, gum_y: f64, grow: f64) {
     });
 }
 
+/// Whether a vertex of the lower part, known by its place in the picture, belongs to the tongue.
+#[must_use]
+pub fn is_tongue(uv: DVec2) -> bool {
+    uv.y > 0.75
+}
+
 /// The tongue: a flat drop with a furrow along its middle.
 fn tongue(part: &mut Part) {
     const ROWS: usize = 17;

@@ -3,10 +3,12 @@
 mod eyes;
 mod files;
 mod load;
+mod mixtures;
 mod pictures;
 mod rig;
 mod shapes;
 mod surface;
+mod witness;
 
 use std::sync::OnceLock;
 

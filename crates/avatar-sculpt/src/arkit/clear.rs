@@ -1,0 +1,20 @@
+//! What keeps skin off the eye and the teeth, whatever a field says.
+
+use glam::DVec3;
+
+use super::spot::Spot;
+use crate::{anatomy::EYE, math::smooth, surface::half::Patch};
+
+/// Takes the part of a displacement toward the eye away where the lids lie on it.
+///
+/// What is left slides or leads away, so that sums of such displacements keep clear, too.
+pub(super) fn of_eye(spot: &Spot, d: DVec3) -> DVec3 {
+    if spot.in_mouth() || spot.node.patch == Patch::Ear {
+        return d;
+    }
+    let rel = spot.p() - EYE;
+    let r = rel.length();
+    let near = smooth(2.9, 2.2, r);
+    let outward = rel / r.max(1e-9);
+    d - outward * (d.dot(outward).min(0.0) * near)
+}

@@ -1,0 +1,156 @@
+//! From fields to offsets of vertices.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::{FIELDS, Field, Kind, Spot, clear, jaw};
+use crate::{
+    math::smooth,
+    mesh::{self, Part},
+    parts::teeth,
+    sculpture::Sculpture,
+    skin::{Skin, Vertex},
+};
+
+/// Offsets below this length (1e-5 of the head's size) are none.
+const LEAST: f64 = 2.8e-4;
+/// Changes of normals below this length (a twentieth of a degree) are none.
+const LEAST_TURN: f64 = 1e-3;
+
+/// What one shape does to one part: offsets of its vertices, and changes of their normals.
+#[derive(Clone, Debug)]
+pub struct Moved {
+    /// Name of the shape.
+    pub name: String,
+    /// Stem of the part's files.
+    pub stem: &'static str,
+    /// Offset of every vertex.
+    pub offsets: Vec<DVec3>,
+    /// Change of every normal.
+    pub normals: Vec<DVec3>,
+}
+
+/// All shapes, in the order of their names; a shape that moves several parts has an entry for each.
+#[must_use]
+pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
+    let skin = &sculpture.skin;
+    let whole = Whole::new(skin);
+    let mut all = Vec::new();
+    for (name, kind) in FIELDS {
+        let sides: &[(&str, f64)] = match kind {
+            Kind::Both(_) | Kind::OpenJaw(_) => &[("", 1.0)],
+            Kind::Sided(..) | Kind::Across(_) => &[("Left", 1.0), ("Right", -1.0)],
+        };
+        for (suffix, own) in sides {
+            let offsets = offsets(skin, kind, *own);
+            let normals = whole.changes(skin, &offsets, matches!(kind, Kind::OpenJaw(_)));
+            all.push(Moved { name: format!("{name}{suffix}"), stem: "MarsienneSkin", offsets, normals });
+        }
+    }
+    for (stem, part) in sculpture.parts.iter().filter(|(stem, _)| *stem == "LowerJaw") {
+        let tongue = |(p, uv): (&DVec3, &DVec2)| {
+            if teeth::is_tongue(*uv) { jaw::tongue_out(*p) } else { DVec3::ZERO }
+        };
+        let out = part.positions.iter().zip(&part.uvs).map(tongue).collect();
+        let forward = vec![jaw::FORWARD; part.positions.len()];
+        for (name, offsets) in [("jawForward", forward), ("tongueOut", out)] {
+            let normals = part_changes(part, &offsets);
+            all.push(Moved { name: name.to_owned(), stem, offsets, normals });
+        }
+    }
+    all.sort_by(|a, b| a.name.cmp(&b.name));
+    all
+}
+
+/// Offsets of all vertices of the skin; `own` is 1 where the shape's own side is the left one, −1 for right.
+fn offsets(skin: &Skin, kind: Kind, own: f64) -> Vec<DVec3> {
+    let on = |field: Field, i: usize, half: f64| {
+        let spot = Spot { node: &skin.half.nodes[i], side: own * half };
+        clear::of_eye(&spot, field(&spot))
+    };
+    skin.vertices
+        .iter()
+        .map(|v| {
+            let half = if v.p.x < 0.0 { -1.0 } else { 1.0 };
+            // On the midline both halves must agree: a mirrored field has no way across it.
+            let on_midline = |d: DVec3| if v.p.x == 0.0 { DVec3::new(0.0, d.y, d.z) } else { d };
+            let d = match kind {
+                Kind::Both(field) | Kind::OpenJaw(field) => on_midline(on(field, v.source, half)),
+                Kind::Sided(field, width) => {
+                    // A pull sideways is one direction on both sides, as far as it reaches across.
+                    let d = on(field, v.source, half);
+                    DVec3::new(d.x * own * half, d.y, d.z) * smooth(-width, width, own * v.p.x)
+                }
+                Kind::Across(field) => on(field, v.source, half),
+            };
+            let d = DVec3::new(d.x * half, d.y, d.z);
+            if d.length_squared() < LEAST * LEAST { DVec3::ZERO } else { d }
+        })
+        .collect()
+}
+
+/// The skin with its vertices joined across the seams of the picture, but not across sharp folds.
+struct Whole {
+    places: Vec<DVec3>,
+    triangles: Vec<[usize; 3]>,
+    number: Vec<usize>,
+    rest: Vec<DVec3>,
+}
+
+impl Whole {
+    fn new(skin: &Skin) -> Self {
+        let count = skin.half.nodes.len();
+        let number: Vec<usize> =
+            skin.vertices.iter().map(|v| if v.p.x < 0.0 { count + v.source } else { v.source }).collect();
+        let mut places = vec![DVec3::ZERO; 2 * count];
+        for (v, n) in skin.vertices.iter().zip(&number) {
+            places[*n] = v.p;
+        }
+        let triangles: Vec<[usize; 3]> =
+            skin.triangles.iter().map(|t| t.map(|i| number[i as usize])).collect();
+        let rest = mesh::normals(&places, &triangles);
+        Self { places, triangles, number, rest }
+    }
+
+    /// How normals at rest change under offsets of the vertices, seen at rest or with the jaw open.
+    fn changes(&self, skin: &Skin, offsets: &[DVec3], open: bool) -> Vec<DVec3> {
+        let bones: Vec<(DMat3, DVec3)> = (skin.vertices.iter())
+            .map(|v| jaw::opened(if open { jaw::share(&skin.half.nodes[v.source]) } else { 0.0 }))
+            .collect();
+        let mut moved = self.places.clone();
+        for (k, n) in self.number.iter().enumerate() {
+            moved[*n] = bones[k].0 * (self.places[*n] + offsets[k]) + bones[k].1;
+        }
+        let turned = mesh::normals(&moved, &self.triangles);
+        // Elsewhere bones alone decide.
+        let mut touched = vec![false; self.places.len()];
+        let mut still = vec![true; self.places.len()];
+        self.number.iter().zip(offsets).for_each(|(n, d)| still[*n] = *d == DVec3::ZERO);
+        for t in self.triangles.iter().filter(|t| t.iter().any(|n| !still[*n])) {
+            t.iter().for_each(|n| touched[*n] = true);
+        }
+        let change = |(k, v): (usize, &Vertex)| {
+            let n = self.number[k];
+            if !touched[n] {
+                return DVec3::ZERO;
+            }
+            // The bones will turn what is added here.
+            let wanted = bones[k].0.inverse() * turned[n];
+            let d = (v.normal + wanted - self.rest[n]).normalize_or_zero() - v.normal;
+            if d.length_squared() < LEAST_TURN * LEAST_TURN { DVec3::ZERO } else { d }
+        };
+        skin.vertices.iter().enumerate().map(change).collect()
+    }
+}
+
+/// The same for a rigid part, whose vertices share normals where they share a place.
+fn part_changes(part: &Part, offsets: &[DVec3]) -> Vec<DVec3> {
+    let welded = mesh::weld(&part.positions);
+    let triangles: Vec<[usize; 3]> = part.triangles.iter().map(|t| t.map(|i| welded[i as usize])).collect();
+    let moved: Vec<DVec3> = part.positions.iter().zip(offsets).map(|(p, d)| *p + *d).collect();
+    let turned = mesh::normals(&moved, &triangles);
+    let change = |(i, n): (usize, &DVec3)| {
+        let d = turned[welded[i]] - *n;
+        if d.length_squared() < LEAST_TURN * LEAST_TURN { DVec3::ZERO } else { d }
+    };
+    part.normals.iter().enumerate().map(change).collect()
+}
