@@ -38,6 +38,7 @@ pub(super) struct Costs<'a> {
 
 /// A collapse, taken apart.
 struct Collapse {
+    target: u32,
     /// Triangles that vanish.
     gone: Vec<Around>,
     kept: Vec<Kept>,
@@ -47,8 +48,6 @@ struct Collapse {
 struct Kept {
     old: Around,
     to: u32,
-    /// Whether its edges are cuts afterwards: from `to` to the next corner, between the others, and back.
-    cuts: [bool; 3],
 }
 
 impl<'a> Costs<'a> {
@@ -81,6 +80,12 @@ impl<'a> Costs<'a> {
         }
     }
 
+    /// The points around a point. One that was on no cut never comes onto one, since cuts keep their course.
+    pub(super) fn ring(&self, surface: &Surface, point: u32) -> Ring {
+        let is_on_cut = surface.vertices_of(point).iter().any(|vertex| self.on_cut[*vertex as usize]);
+        Ring::of(surface, point, is_on_cut)
+    }
+
     /// The vertices that went, with their places.
     pub(super) fn places(&self) -> impl Iterator<Item = (u32, Place)> + '_ {
         (0..).zip(&self.places).filter_map(|(vertex, place)| Some((vertex, (*place)?)))
@@ -99,19 +104,21 @@ impl<'a> Costs<'a> {
     ) -> Option<f32> {
         let collapse = taken_apart(surface, ring, target)?;
         let step = if is_whole { 1 } else { POSE_STEP };
-        if collapse.kept.iter().any(|kept| folds(surface, kept, step)) {
+        let is_folded = || collapse.kept.iter().any(|kept| folds(surface, kept, step));
+        // What is more likely to say no, or takes less time, comes first.
+        if is_whole && is_folded() {
             return None;
         }
         let mut worst = 0.0f32;
         for vertex in self.moved(surface, ring.point, &collapse, is_whole) {
-            let (corners, place) = self.placed(surface, &collapse, vertex)?;
+            let (corners, place) = self.placed(surface, ring, &collapse, vertex)?;
             worst = worst.max(self.error(surface, vertex, corners, place.shares, step));
             // Neither of what costs more nor of what is no number.
             if worst.partial_cmp(&most).is_none_or(Ordering::is_ge) {
                 return None;
             }
         }
-        Some(worst)
+        (is_whole || !is_folded()).then_some(worst)
     }
 
     /// Carries a collapse out; `false` where it is not allowed.
@@ -120,7 +127,7 @@ impl<'a> Costs<'a> {
         let Some(collapse) = taken_apart(surface, ring, target) else { return false };
         let moved = self.moved(surface, point, &collapse, true);
         let places: Option<Vec<Place>> =
-            moved.iter().map(|vertex| Some(self.placed(surface, &collapse, *vertex)?.1)).collect();
+            moved.iter().map(|vertex| Some(self.placed(surface, ring, &collapse, *vertex)?.1)).collect();
         let Some(places) = places else { return false };
         for around in collapse.gone.iter().chain(collapse.kept.iter().map(|kept| &kept.old)) {
             self.lying[around.triangle as usize].clear();
@@ -152,7 +159,13 @@ impl<'a> Costs<'a> {
     }
 
     /// The best new place of a vertex after a collapse, and the vertices of its triangle.
-    fn placed(&self, surface: &Surface, collapse: &Collapse, vertex: u32) -> Option<([u32; 3], Place)> {
+    fn placed(
+        &self,
+        surface: &Surface,
+        ring: &Ring,
+        collapse: &Collapse,
+        vertex: u32,
+    ) -> Option<([u32; 3], Place)> {
         let place = surface.place_of(vertex);
         let own = uv(&self.mesh.uvs, vertex);
         let mut best: Option<(f32, [u32; 3], Place)> = None;
@@ -171,7 +184,8 @@ impl<'a> Costs<'a> {
                 offer(nearest_on_triangle(place, at));
                 continue;
             }
-            for edge in (0..3).filter(|edge| kept.cuts[*edge]) {
+            let cuts = cuts(surface, ring, collapse.target, kept);
+            for edge in (0..3).filter(|edge| cuts[*edge]) {
                 let (a, b) = (edge, (edge + 1) % 3);
                 let share = nearest_on_edge(place, at[a], at[b]);
                 let mut shares = [0.0; 3];
@@ -245,14 +259,19 @@ fn taken_apart(surface: &Surface, ring: &Ring, target: u32) -> Option<Collapse> 
             return None;
         }
     }
-    let near_target = |other: u32| of_target.binary_search(&other).is_ok() && surface.is_cut(target, other);
     let kept = kept.into_iter().map(|old| {
         let to = becomes.iter().find(|(from, _)| *from == old.vertex)?.1;
-        let [next, last] = old.others.map(|vertex| surface.point_of(vertex));
-        let from_target = |other: u32| is_cut(other) || near_target(other);
-        Some(Kept { old, to, cuts: [from_target(next), surface.is_cut(next, last), from_target(last)] })
+        Some(Kept { old, to })
     });
-    Some(Collapse { gone, kept: kept.collect::<Option<_>>()? })
+    Some(Collapse { target, gone, kept: kept.collect::<Option<_>>()? })
+}
+
+/// Whether the edges of a triangle that stays are cuts afterwards: from its new corner to the next one,
+/// between the others, and back. Looked up for vertices on cuts alone: it takes long.
+fn cuts(surface: &Surface, ring: &Ring, target: u32, kept: &Kept) -> [bool; 3] {
+    let [next, last] = kept.old.others.map(|vertex| surface.point_of(vertex));
+    let from_target = |other: u32| ring.is_cut(other) || surface.is_cut(target, other);
+    [from_target(next), surface.is_cut(next, last), from_target(last)]
 }
 
 fn uv(uvs: &[Vec2], vertex: u32) -> Vec2 {

@@ -144,7 +144,7 @@ impl<'a> Simplifier<'a> {
                 self.consider_whole(first.point);
                 continue;
             }
-            let ring = Ring::of(&self.surface, first.point);
+            let ring = self.costs.ring(&self.surface, first.point);
             if self.costs.collapse(&mut self.surface, &ring, next.target) {
                 self.next[first.point as usize].turn += 1;
                 ring.neighbours.into_iter().for_each(|point| self.consider(point));
@@ -155,14 +155,14 @@ impl<'a> Simplifier<'a> {
     /// Finds the cheapest collapse of a point onto a neighbour, not counting the vertices that went before:
     /// its cost is at least that.
     fn consider(&mut self, point: u32) {
-        let ring = Ring::of(&self.surface, point);
+        let ring = self.costs.ring(&self.surface, point);
         let best = self.cheapest(&ring, false);
         self.wait(point, best, false);
     }
 
     /// What the collapse that a point waits for costs in whole; if it is not allowed, another one.
     fn consider_whole(&mut self, point: u32) {
-        let ring = Ring::of(&self.surface, point);
+        let ring = self.costs.ring(&self.surface, point);
         let target = self.next[point as usize].target;
         let error = self.costs.of(&self.surface, &ring, target, true, f32::INFINITY);
         let length = self.surface.distance(point, target) * LENGTH_SHARE;

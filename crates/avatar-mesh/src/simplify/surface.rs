@@ -36,9 +36,10 @@ pub(super) struct Ring {
 }
 
 impl Ring {
-    pub(super) fn of(surface: &Surface, point: u32) -> Self {
+    /// Cuts are looked for where there may be some.
+    pub(super) fn of(surface: &Surface, point: u32, may_have_cuts: bool) -> Self {
         let neighbours = surface.neighbours(point);
-        let cuts = neighbours.iter().map(|other| surface.is_cut(point, *other)).collect();
+        let cuts = neighbours.iter().map(|other| may_have_cuts && surface.is_cut(point, *other)).collect();
         Self { point, neighbours, cuts }
     }
 
