@@ -1,6 +1,6 @@
 use avatar_look::Alpha;
 use avatar_pack::{Pack, PartImages, Textures};
-use avatar_render::avatar_groom::Hair;
+use avatar_render::avatar_groom::{Groom, Hair};
 use avatar_render::avatar_mesh::PartKind;
 use avatar_render::{
     AvatarModel, HairError, Image, ModelError, NoSuchPart, PartBones, PartDesc, PartTextures, wgpu,
@@ -144,11 +144,27 @@ pub fn set_hair(
     hair: Option<&Hair>,
 ) -> Result<(), UploadError> {
     let groom = hair.and_then(|hair| pack.groom(textures, hair));
+    set_groom(device, queue, pack, model, hair, groom.as_ref().map(|(_, groom)| groom))
+}
+
+/// As [`set_hair`], with what [`Pack::groom`] has planted of this hair: on another thread, for example, while
+/// the model is uploaded.
+///
+/// # Errors
+/// As [`set_hair`].
+pub fn set_groom(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pack: &Pack,
+    model: &mut AvatarModel,
+    hair: Option<&Hair>,
+    groom: Option<&Groom>,
+) -> Result<(), UploadError> {
     let Some(skin) = pack.parts().iter().position(|part| part.kind == PartKind::Skin) else {
         return Ok(());
     };
     let density = hair.map_or(0.0, |hair| hair.density);
-    model.set_hair(device, queue, skin, groom.as_ref().map(|(_, groom)| groom)).map_err(|error| match error {
+    model.set_hair(device, queue, skin, groom).map_err(|error| match error {
         HairError::TooMany { found, limit } => UploadError::HairDensity {
             most: density * limit as f32 / found.max(1) as f32,
             found: density,

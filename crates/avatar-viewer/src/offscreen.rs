@@ -4,14 +4,15 @@ use crate::face_args::FaceChoice;
 use crate::files::Files;
 use crate::look_args::LookArgs;
 use anyhow::{Context, Result, bail};
-use avatar_groom::SEGMENTS;
+use avatar_groom::{Groom, SEGMENTS};
 use avatar_mesh::Deformed;
 use avatar_pack::{FaceState, Pack, Texture, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, RenderImageError, open_blocking};
 use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
-use avatar_stage::{View, upload_with_hair};
+use avatar_stage::{View, set_groom, upload_with_hair};
 use glam::Vec3;
 use image::RgbaImage;
+use std::sync::OnceLock;
 use std::thread;
 
 /// What the device complained about outside of any call, such as running out of memory.
@@ -37,11 +38,14 @@ impl Offscreen {
     /// Opens the best adapter and uploads the avatar.
     pub(crate) fn open(pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
         let gpu = open_blocking(GpuOptions::default()).map_err(adapter::explained)?;
-        Self::upload(gpu, pack, textures, samples, look)
+        let hair = look.hair.choose(pack.hair());
+        let planted = || hair.as_ref().and_then(|hair| pack.groom(textures, hair));
+        Self::upload(gpu, pack, textures, samples, look, planted)
     }
 
     /// The same with room for pictures of this size, and with those textures of the avatar that will be seen:
-    /// they are read while the adapter is opened and what draws is compiled.
+    /// they are read while the adapter is opened and what draws is compiled, and hair is planted while they
+    /// are uploaded.
     pub(crate) fn of_files(
         files: &Files,
         pack: &Pack,
@@ -49,10 +53,16 @@ impl Offscreen {
         samples: u32,
         look: LookArgs,
     ) -> Result<Self> {
-        let is_bald = look.hair.choose(pack.hair()).is_none();
+        let hair = look.hair.choose(pack.hair());
         let wanted: Vec<_> = (Texture::DRAWN.into_iter())
-            .filter(|texture| !(is_bald && *texture == Texture::HairDensity))
+            .filter(|texture| !(hair.is_none() && *texture == Texture::HairDensity))
             .collect();
+        let read = OnceLock::new();
+        let textures = || read.get_or_init(|| files.load_textures(&wanted));
+        let plant = || {
+            let textures = textures();
+            hair.as_ref().and_then(|hair| pack.groom(textures, hair))
+        };
         let open = || {
             let gpu = open_blocking(GpuOptions::default()).map_err(adapter::explained)?;
             let canvas = Canvas::new(&gpu, size.width, size.height, samples, look.shading(&gpu.info))?;
@@ -61,21 +71,33 @@ impl Offscreen {
                 Some(reason) => Err(RenderImageError::Device { reason }.into()),
             }
         };
-        let (textures, opened) = thread::scope(|scope| {
-            let reading = thread::Builder::new().spawn_scoped(scope, || files.load_textures(&wanted));
-            let opened = open();
-            let read = reading.ok().and_then(|reading| reading.join().ok());
-            // A system that gives no more threads has this one.
-            (read.unwrap_or_else(|| files.load_textures(&wanted)), opened)
-        });
-        let (gpu, canvas) = opened?;
-        Ok(Self { canvas: Some((size, canvas)), ..Self::upload(gpu, pack, &textures, samples, look)? })
+        thread::scope(|scope| {
+            let planting = thread::Builder::new().spawn_scoped(scope, plant);
+            let (gpu, canvas) = open()?;
+            let planted = || {
+                // A system that gives no more threads has this one.
+                planting.ok().and_then(|planting| planting.join().ok()).unwrap_or_else(plant)
+            };
+            let uploaded = Self::upload(gpu, pack, textures(), samples, look, planted)?;
+            Ok(Self { canvas: Some((size, canvas)), ..uploaded })
+        })
     }
 
-    fn upload(gpu: Gpu, pack: &Pack, textures: &Textures, samples: u32, look: LookArgs) -> Result<Self> {
+    /// `planted` has the hair, and is asked for it when all else is uploaded.
+    fn upload(
+        gpu: Gpu,
+        pack: &Pack,
+        textures: &Textures,
+        samples: u32,
+        look: LookArgs,
+        planted: impl FnOnce() -> Option<(usize, Groom)>,
+    ) -> Result<Self> {
         let hair = look.hair.choose(pack.hair());
-        let model = upload_with_hair(&gpu.device, &gpu.queue, pack, textures, hair.as_ref())?;
-        let mut avatar = AvatarState::new(&gpu.device, &model);
+        let (device, queue) = (&gpu.device, &gpu.queue);
+        let mut model = upload_with_hair(device, queue, pack, textures, None)?;
+        let groom = planted();
+        set_groom(device, queue, pack, &mut model, hair.as_ref(), groom.as_ref().map(|(_, groom)| groom))?;
+        let mut avatar = AvatarState::new(device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         check(&gpu)?;
         Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, look, canvas: None })
