@@ -105,6 +105,11 @@ impl<'a> Reader<'a> {
         Self { left: bytes, offset: 0 }
     }
 
+    /// Bytes that have not been read.
+    pub fn left(&self) -> usize {
+        self.left.len()
+    }
+
     /// Reads the next shape, for a mesh of `vertices` vertices. The shape has offsets of normals, if only
     /// zeros, and takes no more memory than a small multiple of its bytes.
     ///

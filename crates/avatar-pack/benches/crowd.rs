@@ -67,6 +67,7 @@ fn behind_sliders() -> Pack {
         of_shapes: vec![vec![0], vec![0, 1]],
         drivers,
         expressions: Expressions::default(),
+        of_controls: Vec::new(),
     });
     Pack::new(contents).expect("a pack")
 }

@@ -79,6 +79,8 @@ impl FaceCrowd {
             None => pack.binding().apply_crowd(&self.effective, &mut self.rigs, &mut self.weights)?,
             Some(sliders) => {
                 pack.binding().apply_crowd(&self.effective, &mut self.rigs, &mut self.sliders)?;
+                let count = pack.controls().len();
+                sliders.follow_controls_crowd(count, &self.effective, &mut self.sliders);
                 sliders.run_crowd(self.rigs.blocks(), &self.sliders, &mut self.weights)?;
             }
         }

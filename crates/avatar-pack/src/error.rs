@@ -1,7 +1,9 @@
 use crate::SourceError;
 use avatar_look::LookError;
+use avatar_mesh::drivers::DriversError;
+use avatar_mesh::raw_shapes::RawShapesError;
 use avatar_mesh::{MeshError, MeshWarning};
-use pose_anim::{BindError, TomlError};
+use pose_anim::{BindError, ControlError, TomlError};
 use rig_core::XmlError;
 use std::fmt;
 
@@ -39,13 +41,22 @@ pub enum PackProblem {
     /// A vertex or index buffer is not as the format demands.
     #[error("{0}")]
     Mesh(MeshError),
+    /// `shapes.raw` is not as the format and `shapes.toml` demand.
+    #[error("{0}")]
+    RawShapes(RawShapesError),
+    /// The controls of shapes and mixtures do not fit those of `controls.toml`.
+    #[error("{0}")]
+    Controls(ControlError),
+    /// Rules of shapes that cannot be followed.
+    #[error("{0}")]
+    Drivers(DriversError),
     /// A text file that is not UTF-8.
     #[error("expected UTF-8 text, found a bad byte at offset {offset}")]
     NotText {
         /// Offset of the first bad byte.
         offset: usize,
     },
-    /// `controls.toml`, `poses.toml` or `clips.toml` is not as its format demands.
+    /// `controls.toml`, `shapes.toml`, `poses.toml` or `clips.toml` is not as its format demands.
     #[error("{0}")]
     Toml(TomlError),
     /// `materials.toml` is not as its format demands.

@@ -43,7 +43,7 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
         scene.skins.push(Skin { name: "palette".to_owned(), joints, inverse_binds });
     }
     let mut images = Images::default();
-    let rest = weights_of_defaults(pack);
+    let rest = posed(pack, &pack.controls().defaults()).map_or_else(Vec::new, |(_, weights)| weights);
     let mut shapes_of_nodes = Vec::new();
     for (number, part) in pack.parts().iter().enumerate() {
         let node = scene.nodes.len();
@@ -159,14 +159,11 @@ fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
         Some(sliders) => {
             let mut values = vec![0.0; sliders.names.len()];
             pack.binding().apply(&effective, &mut locals, &mut values).ok()?;
+            sliders.follow_controls(&effective, &mut values);
             sliders.run(&values, &mut weights).ok()?;
         }
     }
     Some((locals.as_slice().to_vec(), weights))
-}
-
-fn weights_of_defaults(pack: &Pack) -> Vec<f32> {
-    posed(pack, &pack.controls().defaults()).map(|(_, weights)| weights).unwrap_or_default()
 }
 
 fn clips(pack: &Pack, nodes: &[Node], shapes: &[(usize, Range<usize>)], notes: &mut Vec<Note>) -> Vec<Clip> {

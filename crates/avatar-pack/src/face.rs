@@ -144,6 +144,7 @@ impl FaceState {
             None => pack.binding().apply(&self.effective, &mut self.locals, &mut self.weights)?,
             Some(sliders) => {
                 pack.binding().apply(&self.effective, &mut self.locals, &mut self.sliders)?;
+                sliders.follow_controls(&self.effective, &mut self.sliders);
                 sliders.run(&self.sliders, &mut self.weights)?;
             }
         }

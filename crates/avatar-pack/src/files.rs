@@ -17,6 +17,10 @@ pub const CLIPS: &str = "clips.toml";
 pub const MATERIALS: &str = "materials.toml";
 /// The hair; may be missing.
 pub const HAIR: &str = "hair.toml";
+/// Names of shapes beside the two of the raw format, and mixtures of controls; may be missing.
+pub const SHAPES: &str = "shapes.toml";
+/// What these shapes move, where `shapes.toml` has any.
+pub const SHAPES_RAW: &str = "shapes.raw";
 
 /// The vertices of a part.
 pub fn vertices(part: &PartSpec) -> String {

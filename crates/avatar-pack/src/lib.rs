@@ -35,14 +35,15 @@
 //!
 //! - Values of **controls** have ranges and defaults; several controls may drive one joint.
 //! - **Sliders** and shapes may share names: a control drives all of its name at once.
-//! - In a pack in the raw format a control drives shapes directly, and all parts share two of them.
+//! - In a pack in the raw format without further shapes a control drives shapes directly.
 //!
 //! # Files
 //!
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and
 //! an index buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally
-//! `controls.toml`, `poses.toml`, `clips.toml`, `materials.toml` and `hair.toml`. This crate opens no files
-//! itself: a [`Source`] does, be it a folder, an archive, a web server or bytes in the program.
+//! `controls.toml`, `shapes.toml` with `shapes.raw` ([`FurtherShapes`]), `poses.toml`, `clips.toml`,
+//! `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an
+//! archive, a web server or bytes in the program.
 //!
 //! ```
 //! use avatar_pack::{Pack, Source, SourceError};
@@ -60,6 +61,7 @@
 mod source;
 pub mod files;
 mod sliders;
+mod shapes;
 mod look_rule;
 mod unique;
 mod motion;
@@ -93,6 +95,7 @@ pub use pack::{Pack, PackContents, PaletteBone, Part};
 pub use pick::Hit;
 pub use raw::{RawError, RawFiles, raw_files};
 pub use reach::Reach;
-pub use sliders::{Expressions, Sliders};
+pub use shapes::{FurtherShape, FurtherShapes, Mixture, ShapeWeight, Side};
+pub use sliders::{ControlSlider, Expressions, Sliders};
 pub use source::{MemorySource, Source, SourceError};
 pub use textures::{PartImages, Texture, Textures};

@@ -1,5 +1,5 @@
 use crate::look_rule::LookRule;
-use crate::{ContentsError, SceneMotion, Sliders, Warning};
+use crate::{ContentsError, ControlSlider, FurtherShapes, SceneMotion, Sliders, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
 use avatar_mesh::{Bounds, Mesh, PartKind};
@@ -34,8 +34,11 @@ pub struct PackContents {
     /// Names of the blend shapes, in the order of the blend weights.
     pub shapes: Vec<String>,
     /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have
-    /// none.
+    /// none without `shapes.toml`.
     pub sliders: Option<Sliders>,
+    /// What `shapes.toml` says; `None` without that file. [`Pack::load`] makes shapes, sliders and controls
+    /// of it.
+    pub further_shapes: Option<FurtherShapes>,
     /// The controls: of joints, and of sliders, or shapes where there are no sliders.
     pub controls: ControlTable,
     /// The poses, as values of the controls.
@@ -149,9 +152,14 @@ impl Pack {
     }
 
     /// What moves the shapes where they do not have a weight each of their own; packs in the raw format have
-    /// none.
+    /// none without `shapes.toml`.
     pub fn sliders(&self) -> Option<&Sliders> {
         self.contents.sliders.as_ref()
+    }
+
+    /// What `shapes.toml` says about shapes and mixtures; `None` without that file.
+    pub fn further_shapes(&self) -> Option<&FurtherShapes> {
+        self.contents.further_shapes.as_ref()
     }
 
     /// The controls, from `controls.toml` or the default table.
@@ -287,7 +295,7 @@ impl Pack {
 }
 
 fn check(contents: &PackContents) -> Result<(), ContentsError> {
-    let PackContents { rig, parts, palette, shapes, sliders, look_rule, .. } = contents;
+    let PackContents { rig, parts, palette, shapes, sliders, controls, look_rule, .. } = contents;
     if let Some(rule) = look_rule {
         in_range(rule.head.index(), rig.len(), "joints", || "the rule of looking".to_owned())?;
     }
@@ -317,6 +325,11 @@ fn check(contents: &PackContents) -> Result<(), ContentsError> {
         if expected != found {
             return Err(ContentsError::Count { place: "the sliders".to_owned(), what, expected, found });
         }
+    }
+    for ControlSlider { slider, control, .. } in &sliders.of_controls {
+        let place = || "the sliders of controls".to_owned();
+        in_range(*slider, sliders.names.len(), "sliders", place)?;
+        in_range(*control, controls.len(), "controls", place)?;
     }
     let expressions = &sliders.expressions;
     let end = expressions.first_slider.saturating_add(expressions.list.len());

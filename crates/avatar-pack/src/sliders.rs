@@ -15,6 +15,27 @@ pub struct Sliders {
     pub drivers: ShapeDrivers,
     /// Expressions, which add to the weights that the drivers make.
     pub expressions: Expressions,
+    /// Sliders that show where a control of a joint is: shapes may correct what joints do.
+    pub of_controls: Vec<ControlSlider>,
+}
+
+/// A slider that shows where a control is: 0 at rest, 1 when it has gone its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlSlider {
+    /// Its position in [`Sliders::names`].
+    pub slider: usize,
+    /// The control's position in [`crate::Pack::controls`].
+    pub control: usize,
+    /// The control's value where the slider is 0.
+    pub rest: f32,
+    /// How far from there the slider is 1; not 0.
+    pub way: f32,
+}
+
+impl ControlSlider {
+    fn value(&self, control: f32) -> f32 {
+        (control - self.rest) / self.way
+    }
 }
 
 /// Expressions of the face that hold each other back, as those of VRM.
@@ -30,6 +51,31 @@ pub struct Expressions {
 }
 
 impl Sliders {
+    /// Sets the values of those sliders that show where controls are, from the controls' values after the
+    /// couplings. Allocates nothing.
+    pub fn follow_controls(&self, controls: &[f32], values: &mut [f32]) {
+        for one in &self.of_controls {
+            if let (Some(slot), Some(control)) = (values.get_mut(one.slider), controls.get(one.control)) {
+                *slot = one.value(*control);
+            }
+        }
+    }
+
+    /// [`Self::follow_controls`] for many faces, with the same bits: by block of [`lanes::LANES`] faces,
+    /// `controls` have `count` numbers and `values` one per slider. Allocates nothing.
+    pub fn follow_controls_crowd(&self, count: usize, controls: &[Lanes], values: &mut [Lanes]) {
+        let blocks = values.chunks_exact_mut(self.names.len().max(1));
+        for (values, controls) in blocks.zip(controls.chunks_exact(count.max(1))) {
+            for one in &self.of_controls {
+                if let (Some(slots), Some(lanes)) = (values.get_mut(one.slider), controls.get(one.control)) {
+                    for (slot, control) in slots.iter_mut().zip(lanes.iter()) {
+                        *slot = one.value(*control);
+                    }
+                }
+            }
+        }
+    }
+
     /// Weights of all shapes from the values of the sliders. Allocates nothing.
     ///
     /// # Errors

@@ -141,6 +141,7 @@ impl Import {
             parts,
             shapes: shapes.names,
             sliders: sliders.sliders,
+            further_shapes: None,
             controls,
             poses,
             clips: pose_anim::ClipSet::default(),

@@ -77,7 +77,8 @@ impl Wanted {
                 }
             }
             let names = wanted.driven.names.clone();
-            wanted.sliders = Some(Sliders { names, of_shapes, drivers, expressions });
+            wanted.sliders =
+                Some(Sliders { names, of_shapes, drivers, expressions, of_controls: Vec::new() });
         }
         Ok(wanted)
     }

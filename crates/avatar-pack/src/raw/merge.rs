@@ -1,7 +1,7 @@
 use super::joints::Bones;
-use super::shapes::Places;
-use crate::{Pack, Part};
-use avatar_mesh::{FACE_SHAPES, Follows, Mesh, Shape, Skinning, normal_matrix, turns_evenly};
+use super::shapes::{Place, Places};
+use crate::{FurtherShape, Pack, Part};
+use avatar_mesh::{FACE_SHAPES, Follows, Mesh, Offsets, Shape, Skinning, normal_matrix, turns_evenly};
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec2, Vec3};
 
 /// How far the bones of a vertex may disagree about where it rests, as a share of its distance from their
@@ -14,7 +14,12 @@ pub(super) struct Merged {
     mesh: Mesh,
     skinning: Skinning,
     offsets: [(Vec<Vec3>, Vec<Vec3>); FACE_SHAPES.len()],
+    /// Of each further shape the vertices that it moves, ascending.
+    further: Vec<(Pairs, Pairs)>,
 }
+
+/// Vertices with their offsets.
+type Pairs = Vec<(u32, Vec3)>;
 
 impl Merged {
     /// Number of vertices.
@@ -47,8 +52,9 @@ impl Merged {
         let first = self.len() as u32;
         let from = &part.mesh;
         let names = pack.shapes().iter().skip(part.first_shape).zip(&from.shapes);
-        let placed: Vec<(usize, &Shape)> =
+        let placed: Vec<(Place, &Shape)> =
             names.filter_map(|(name, shape)| Some((shapes.place(name)?, shape))).collect();
+        self.further.resize_with(shapes.list.shapes.len(), Default::default);
         let mut appended = Appended::default();
         let mut is_mirrored = vec![false; from.positions.len()];
         for (vertex, position) in from.positions.iter().enumerate() {
@@ -60,10 +66,21 @@ impl Merged {
             let (normal, shorter) = at_rest.normal(normal);
             self.point(at_rest.point(*position), normal, uv);
             for (place, shape) in &placed {
-                let Some((positions, normals)) = self.offsets.get_mut(*place) else { continue };
                 let of_normal = shape.normals.as_ref().and_then(|normals| normals.get(vertex));
-                add(positions, at_rest.offset(shape.positions.get(vertex)));
-                add(normals, at_rest.offset_of_normal(of_normal, shorter));
+                let offset = at_rest.offset(shape.positions.get(vertex));
+                let of_normal = at_rest.offset_of_normal(of_normal, shorter);
+                match *place {
+                    Place::Skin(place) => {
+                        let Some((positions, normals)) = self.offsets.get_mut(place) else { continue };
+                        add(positions, offset);
+                        add(normals, of_normal);
+                    }
+                    Place::Further(place) => {
+                        let Some((positions, normals)) = self.further.get_mut(place) else { continue };
+                        add_pair(positions, first + vertex as u32, offset);
+                        add_pair(normals, first + vertex as u32, of_normal);
+                    }
+                }
             }
             let place =
                 |bone: u16| bones.places.get(usize::from(bone)).copied().flatten().unwrap_or(0) as u16;
@@ -83,9 +100,20 @@ impl Merged {
         appended
     }
 
-    /// The mesh; of a rigid part without bones and shapes.
+    /// Takes the further shapes out of it, in the order of these.
+    pub(super) fn take_further(&mut self, shapes: &Places<'_>) -> Vec<Shape> {
+        let vertices = self.len();
+        let shape = |((positions, normals), listed): ((Pairs, Pairs), &FurtherShape)| {
+            // Pairs ascend and are of vertices that there are.
+            let offsets = |pairs: Pairs| Offsets::from_pairs(vertices, pairs).unwrap_or_default();
+            Shape::new(listed.name.clone(), offsets(positions)).with_normals(offsets(normals))
+        };
+        std::mem::take(&mut self.further).into_iter().zip(&shapes.list.shapes).map(shape).collect()
+    }
+
+    /// The mesh; of a rigid part without bones and shapes, else with the two shapes of the format.
     pub(super) fn into_mesh(self, follows: Follows) -> Mesh {
-        let Self { mesh, skinning, offsets } = self;
+        let Self { mesh, skinning, offsets, .. } = self;
         match follows {
             Follows::Joint(_) => mesh,
             Follows::Bones => {
@@ -109,6 +137,17 @@ fn set_last<T>(list: &mut [T], value: T) {
 fn add(offsets: &mut [Vec3], offset: Option<Vec3>) {
     if let (Some(last), Some(offset)) = (offsets.last_mut(), offset) {
         *last = if *last == Vec3::ZERO { offset } else { *last + offset };
+    }
+}
+
+/// Adds to the offset of the last vertex, or one more vertex where it moves.
+fn add_pair(pairs: &mut Pairs, vertex: u32, offset: Option<Vec3>) {
+    let Some(offset) = offset.filter(|offset| offset.to_array().iter().any(|x| x.to_bits() != 0)) else {
+        return;
+    };
+    match pairs.last_mut() {
+        Some((last, sum)) if *last == vertex => *sum += offset,
+        _ => pairs.push((vertex, offset)),
     }
 }
 

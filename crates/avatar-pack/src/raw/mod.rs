@@ -7,9 +7,9 @@ mod parts;
 mod shapes;
 
 use crate::files;
-use crate::{Pack, PackError, Source, SourceError, Textures};
+use crate::{FurtherShapes, Pack, PackError, Source, SourceError, Textures};
 use avatar_mesh::raw::{write_triangles, write_vertices};
-use avatar_mesh::{FACE_BONES, FACE_PARTS, FACE_SHAPES};
+use avatar_mesh::{FACE_BONES, FACE_PARTS, Shape, raw_shapes};
 use pose_anim::{Clip, ClipSet, ControlError, ControlTable, Coupling, Drive, Pose, PoseSet, Track};
 use rig_core::RigError;
 use std::borrow::Cow;
@@ -33,12 +33,6 @@ pub enum RawError {
     /// More joints that move vertices than there are bones.
     #[error("expected at most {} joints that move vertices (the raw format has no more), found {}: {}", FACE_BONES.len(), found.len(), found.join(", "))]
     TooManyJoints {
-        /// All of them.
-        found: Vec<String>,
-    },
-    /// More shapes that can move than there are places.
-    #[error("expected at most {} shapes (the raw format has no more), found {}: {}", FACE_SHAPES.len(), found.len(), found.join(", "))]
-    TooManyShapes {
         /// All of them.
         found: Vec<String>,
     },
@@ -84,7 +78,8 @@ pub enum RawError {
 ///   pose.
 /// * Parts of the format's own names, and parts that wholly follow jaw, head or eye, become the rigid parts;
 ///   everything else becomes the skin. Parts that are missing have one vertex and no triangle.
-/// * Two shapes that are not the face's own take its free places; their controls keep their names.
+/// * Up to two shapes that are not the face's own take its free places; if there are more, all but the face's
+///   own are further shapes, in `shapes.toml` and `shapes.raw`. Their controls keep their names.
 /// * Pictures are PNG, looks `materials.toml`, poses `poses.toml`, clips of controls `clips.toml`.
 ///
 /// A pack that was loaded in the raw format comes back bit for bit: joints, vertices, triangles, pixels,
@@ -98,10 +93,10 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
         return Err(RawError::NoMesh);
     }
     let mut notes = Vec::new();
-    if let Some(sliders) = pack.sliders() {
+    if let (Some(sliders), None) = (pack.sliders(), pack.further_shapes()) {
         return Err(RawError::InBetween { sliders: sliders.names.clone() });
     }
-    let shapes = shapes::Places::of(pack)?;
+    let shapes = shapes::Places::of(pack);
     let bones = joints::Bones::of(pack, &mut notes)?;
     let meshes = parts::Parts::of(pack, &bones, &shapes, &mut notes);
     let (controls, kept) = controls(pack, &bones, &shapes, &mut notes)?;
@@ -120,6 +115,7 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     if let Some(hair) = pack.hair() {
         files.push((files::HAIR.to_owned(), hair.to_toml().into_bytes()));
     }
+    further(shapes.list, &meshes.further, &mut files);
     for (spec, mesh) in FACE_PARTS.iter().zip(&meshes.meshes) {
         files.push((files::vertices(spec), write_vertices(mesh)));
         files.push((files::triangles(spec), write_triangles(mesh)));
@@ -131,6 +127,34 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     // Only the reader can tell whether all names, whatever their characters, can be read again.
     Pack::load(&Written(&files))?;
     Ok(RawFiles { files, notes })
+}
+
+/// The further shapes, of each part those that move something of it and those that were listed for it.
+fn further(mut list: FurtherShapes, of_parts: &[Vec<Shape>], files: &mut Vec<(String, Vec<u8>)>) {
+    if list == FurtherShapes::default() {
+        return;
+    }
+    let mut bytes = Vec::new();
+    for (place, listed) in list.shapes.iter_mut().enumerate() {
+        let of_parts = || {
+            let named = FACE_PARTS.iter().zip(of_parts);
+            named.filter_map(|(spec, shapes)| Some((spec.name, shapes.get(place)?)))
+        };
+        let moves = |shape: &Shape| {
+            shape.moved_vertices() > 0 || shape.normals.as_ref().is_some_and(|n| n.moved_vertices() > 0)
+        };
+        for (name, _) in of_parts().filter(|(_, shape)| moves(shape)) {
+            if !listed.parts.iter().any(|other| other == name) {
+                listed.parts.push(name.to_owned());
+            }
+        }
+        let written = listed.parts.iter().filter_map(|part| of_parts().find(|(name, _)| name == part));
+        written.for_each(|(_, shape)| raw_shapes::write(shape, &mut bytes));
+    }
+    files.push((files::SHAPES.to_owned(), list.to_toml().into_bytes()));
+    if !list.shapes.is_empty() {
+        files.push((files::SHAPES_RAW.to_owned(), bytes));
+    }
 }
 
 /// The files as they will be read, without a copy of them.
@@ -161,7 +185,7 @@ fn controls(
                 name.map(|name| Drive::Joint { joint: name.clone(), axis: *axis, kind: *kind })
             }
             Drive::Shape { shape } => {
-                shapes.place(shape).map(|place| Drive::Shape { shape: FACE_SHAPES[place].to_owned() })
+                shapes.driven(shape).map(|name| Drive::Shape { shape: name.to_owned() })
             }
         };
         kept.push(drives.as_ref().map(|_| controls.len()));

@@ -1,8 +1,8 @@
 use super::joints::Bones;
 use super::merge::Merged;
-use super::shapes::Places;
+use super::shapes::{Place, Places};
 use crate::{Pack, Part};
-use avatar_mesh::{FACE_BONES, FACE_PARTS, Follows, Mesh, PartKind};
+use avatar_mesh::{FACE_BONES, FACE_PARTS, Follows, Mesh, PartKind, Shape};
 use glam::{Vec2, Vec3};
 
 /// An avatar's parts as those of the format, in the order of [`FACE_PARTS`].
@@ -10,14 +10,16 @@ pub(super) struct Parts {
     pub(super) meshes: Vec<Mesh>,
     /// The part of the pack whose looks each has.
     pub(super) looks: Vec<Option<usize>>,
+    /// Of each part the further shapes, all in their order; those that move nothing of it, too.
+    pub(super) further: Vec<Vec<Shape>>,
 }
 
 impl Parts {
     pub(super) fn of(pack: &Pack, bones: &Bones, shapes: &Places<'_>, notes: &mut Vec<String>) -> Self {
         let filled = || pack.parts().iter().enumerate().filter(|(_, part)| !part.mesh.positions.is_empty());
         let places: Vec<(usize, usize)> =
-            filled().map(|(index, part)| (index, place_of(part, bones))).collect();
-        let (mut meshes, mut looks) = (Vec::new(), Vec::new());
+            filled().map(|(index, part)| (index, place_of(pack, part, bones, shapes))).collect();
+        let (mut meshes, mut looks, mut further) = (Vec::new(), Vec::new(), Vec::new());
         for (place, spec) in FACE_PARTS.iter().enumerate() {
             let members: Vec<usize> =
                 places.iter().filter(|(_, other)| *other == place).map(|(index, _)| *index).collect();
@@ -52,11 +54,12 @@ impl Parts {
                     notes.push(format!("part {:?}: its tangents are left out", part.name));
                 }
             }
+            further.push(merged.take_further(shapes));
             meshes.push(merged.into_mesh(spec.follows));
             looks.push(look);
         }
         fill(&mut meshes, notes);
-        Self { meshes, looks }
+        Self { meshes, looks, further }
     }
 }
 
@@ -75,9 +78,13 @@ fn only_bone(part: &Part, bones: &Bones) -> Option<&'static str> {
 }
 
 /// Which of [`FACE_PARTS`] a part becomes.
-fn place_of(part: &Part, bones: &Bones) -> usize {
+fn place_of(pack: &Pack, part: &Part, bones: &Bones, shapes: &Places<'_>) -> usize {
     const SKIN: usize = 0;
-    if part.mesh.shapes.iter().any(|shape| shape.moved_vertices() > 0) {
+    // Only the skin's vertices have places for shapes; further ones are of any part.
+    let is_of_skin = |(name, shape): (&String, &Shape)| {
+        shape.moved_vertices() > 0 && !matches!(shapes.place(name), Some(Place::Further(_)))
+    };
+    if pack.shapes().iter().skip(part.first_shape).zip(&part.mesh.shapes).any(is_of_skin) {
         return SKIN;
     }
     let Some(joint) = only_bone(part, bones) else { return SKIN };

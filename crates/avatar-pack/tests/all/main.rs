@@ -5,6 +5,7 @@ mod common;
 mod contents;
 mod export;
 mod faces;
+mod further;
 mod gaze;
 mod growth;
 mod hair;

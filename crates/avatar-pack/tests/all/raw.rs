@@ -271,20 +271,44 @@ fn parts_that_follow_known_joints_become_the_rigid_ones() {
     }
 }
 
+/// Two have places in the vertices of the skin, more do not.
+#[test]
+fn any_number_of_shapes_is_written_beside_the_vertices() {
+    let mut raw = head();
+    raw.parts[0].mesh.shapes.push(Shape::new("jawOpen", vec![Vec3::Y; 4]));
+    raw.nodes[5].weights.push(0.0);
+    let import = imported(raw);
+    let files = raw_files(&import.pack, &import.textures).expect("files");
+    let (source, again) = loaded(&files);
+    let list = again.further_shapes().expect("further shapes");
+    let names: Vec<_> =
+        list.shapes.iter().map(|shape| (shape.name.as_str(), shape.parts.join(", "))).collect();
+    assert_eq!(names, [("Key 1", "skin".to_owned()), ("jawOpen", "skin".to_owned())]);
+    assert_eq!(again.shapes(), ["SSmile", "Frown", "Key 1", "jawOpen"]);
+    for name in ["Key 1", "smile", "jawOpen"] {
+        let control = |pack: &Pack| {
+            let controls = pack.controls();
+            controls.controls()[controls.index(name).expect("a control")].clone()
+        };
+        let (a, b) = (control(&import.pack), control(&again));
+        assert_eq!((a.min, a.max, a.default, a.pace), (b.min, b.max, b.default, b.pace), "{name}");
+    }
+    for pose in poses(&again) {
+        let (a, b) = (posed(&import.pack, &pose, &[0]), posed(&again, &pose, &[0]));
+        agree(&a, &b, 2.0, &format!("{pose:?}"));
+    }
+    let written = raw_files(&again, &Textures::default()).expect("files");
+    for file in ["shapes.toml", "shapes.raw"] {
+        assert!(written.files.contains(&(file.to_owned(), source.files[file].clone())), "{file}");
+    }
+}
+
 #[test]
 fn what_does_not_fit_is_named() {
     let refused = |raw: RawScene| {
         let import = imported(raw);
         raw_files(&import.pack, &import.textures).expect_err("too much")
     };
-    let mut raw = head();
-    raw.parts[0].mesh.shapes.push(Shape::new("jawOpen", vec![Vec3::Y; 4]));
-    raw.nodes[5].weights.push(0.0);
-    let error = refused(raw);
-    let named = ["Key 1", "mouthSmile", "jawOpen"].map(str::to_owned).into();
-    assert_eq!(error, RawError::TooManyShapes { found: named });
-    assert!(error.to_string().contains("found 3: Key 1, mouthSmile, jawOpen"), "{error}");
-
     let mut raw = RawScene::default();
     for number in 0..10 {
         raw.nodes.push(node(&format!("n{number}"), None, Trs::default()));

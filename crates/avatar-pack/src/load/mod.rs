@@ -1,10 +1,12 @@
 //! Loads packs in the raw format, and single files of them.
 
+mod further;
+
 use crate::files;
 use crate::{ContentsError, Pack, PackContents, PackError, PackProblem, PaletteBone, Part, Source, Warning};
 use avatar_groom::Hair;
 use avatar_look::Materials;
-use avatar_mesh::{FACE_BONES, FACE_PARTS, FACE_SHAPES, Follows, MeshError, PartSpec, Winding, raw};
+use avatar_mesh::{FACE_BONES, FACE_PARTS, Follows, MeshError, PartSpec, Winding, raw};
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use rig_core::Rig;
 use std::borrow::Cow;
@@ -18,20 +20,22 @@ impl Pack {
         let (rig_file, rig) = load_rig(source)?;
         let palette = load_palette(source, rig_file, &rig)?;
         let mut warnings = Vec::new();
-        let parts = FACE_PARTS
+        let mut parts = FACE_PARTS
             .iter()
             .map(|spec| load_part(source, *spec, &mut warnings))
             .collect::<Result<Vec<_>, _>>()?;
 
-        let controls = load_controls(source)?;
+        let mut controls = load_controls(source)?;
+        let further = further::load(source, &mut controls, &mut parts)?;
         let poses = load_poses(source, &controls)?;
         let clips = load_clips(source, &controls)?;
         let contents = PackContents {
             rig,
             parts,
             palette,
-            shapes: FACE_SHAPES.map(str::to_owned).into(),
-            sliders: None,
+            shapes: further.names,
+            sliders: further.sliders,
+            further_shapes: further.list,
             controls,
             poses,
             clips,
