@@ -35,7 +35,7 @@ pub enum Kind {
     Sided(Field, f64),
     /// Two shapes, `…Left` and `…Right`, of which each moves both sides in different ways.
     Across(Field),
-    /// One shape, the same on both sides, that is meant for the fully opened jaw ([`jaw::opened`]).
+    /// One shape, the same on both sides, that is meant for the fully opened jaw.
     OpenJaw(Field),
 }
 
