@@ -156,7 +156,8 @@ impl Screen {
         self.renderer.draw(&mut encoder, &view, targets, &self.gpu.queue, scene, avatars)?;
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(frame);
-        self.check()
+        // Whether a frame that failed deformed them is not known.
+        self.check().inspect_err(|_| avatars.iter().for_each(|(_, avatar)| avatar.redo()))
     }
 
     fn check(&self) -> Result<(), ScreenError> {

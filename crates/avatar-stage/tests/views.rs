@@ -68,3 +68,23 @@ fn nearer_framings_show_more_of_less() {
     let center = moved.clip_from_world().project_point3(pack().bounds().unwrap().center());
     assert!((center.x - 0.5).abs() < 1e-3, "a quarter of the height is half of what is from the middle up");
 }
+
+/// How far apart two points are in the picture that lie one unit apart, one above the other, where the box is
+/// nearest to the eye: by the camera's own matrix.
+#[test]
+fn a_unit_has_as_many_pixels_as_the_camera_gives_it() {
+    let bounds = pack().bounds().unwrap();
+    for [width, height] in [[640, 360], [300, 300], [90, 160]] {
+        let view = View::FRONT;
+        let camera = view.camera(pack(), width as f32 / height as f32);
+        let eye = camera.eye();
+        let near = eye.max(bounds.min).min(bounds.max);
+        let row = |point: Vec3| {
+            let clip = camera.clip_from_world() * point.extend(1.0);
+            (0.5 - 0.5 * clip.y / clip.w) * height as f32
+        };
+        let expected = row(near - 0.5 * Vec3::Y) - row(near + 0.5 * Vec3::Y);
+        let found = view.pixels_per_unit(pack(), [width, height]);
+        assert!((found / expected - 1.0).abs() < 1e-3, "{width} × {height}: {found} of {expected}");
+    }
+}

@@ -73,11 +73,18 @@ impl Offscreen {
         };
         thread::scope(|scope| {
             let planting = thread::Builder::new().spawn_scoped(scope, plant);
-            let (gpu, canvas) = open()?;
-            let planted = || {
-                // A system that gives no more threads has this one.
-                planting.ok().and_then(|planting| planting.join().ok()).unwrap_or_else(plant)
+            let opened = open();
+            // A system that gives no more threads has this one.
+            let planted = || planting.ok().and_then(|planting| planting.join().ok());
+            let (gpu, canvas) = match opened {
+                Ok(opened) => opened,
+                Err(reason) => {
+                    // The reason counts, whatever became of the thread.
+                    planted();
+                    return Err(reason);
+                }
             };
+            let planted = || planted().unwrap_or_else(plant);
             let uploaded = Self::upload(gpu, pack, textures(), samples, look, planted)?;
             Ok(Self { canvas: Some((size, canvas)), ..uploaded })
         })

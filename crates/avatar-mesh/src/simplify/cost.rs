@@ -1,5 +1,5 @@
-use super::CARE;
 use super::surface::{Around, Ring, Surface};
+use super::{CARE, MOST_TRIANGLES};
 use crate::{Bounds, Mesh};
 use glam::{Vec2, Vec3};
 use std::cmp::Ordering;
@@ -24,8 +24,8 @@ pub(super) struct Place {
 pub(super) struct Costs<'a> {
     mesh: &'a Mesh,
     careful: Vec<bool>,
-    /// Length on the surface for one unit of texture coordinates, about.
-    length_per_uv: f32,
+    /// Length on the surface for one unit of each set of texture coordinates, about.
+    length_per_uv: [f32; 2],
     /// Length that a normal's deviation counts for.
     length_per_normal: f32,
     /// Of each vertex that went its place.
@@ -52,27 +52,36 @@ struct Kept {
 
 impl<'a> Costs<'a> {
     pub(super) fn new(mesh: &'a Mesh, surface: &Surface, careful: &[bool]) -> Self {
-        let (mut area, mut uv_area) = (0.0f64, 0.0f64);
-        for triangle in surface.triangles() {
-            let [a, b, c] = triangle.map(|vertex| surface.place_of(vertex));
-            area += f64::from((b - a).cross(c - a).length());
-            let [a, b, c] = triangle.map(|vertex| uv(&mesh.uvs, vertex));
-            uv_area += f64::from((b - a).perp_dot(c - a).abs());
-        }
-        let ratio = (area / uv_area).sqrt() as f32;
+        let length_per_uv = |uvs: &[Vec2]| {
+            let (mut area, mut uv_area) = (0.0f64, 0.0f64);
+            for triangle in surface.triangles() {
+                let [a, b, c] = triangle.map(|vertex| surface.place_of(vertex));
+                let on_surface = f64::from((b - a).cross(c - a).length());
+                let [a, b, c] = triangle.map(|vertex| uv(uvs, vertex));
+                let on_texture = f64::from((b - a).perp_dot(c - a).abs());
+                if on_surface.is_finite() && on_texture.is_finite() {
+                    (area, uv_area) = (area + on_surface, uv_area + on_texture);
+                }
+            }
+            let ratio = (area / uv_area).sqrt() as f32;
+            if ratio.is_finite() { ratio } else { 0.0 }
+        };
         let count = mesh.positions.len();
         let mut on_cut = vec![false; count];
         for point in 0..surface.point_count() as u32 {
-            if surface.neighbours(point).into_iter().any(|other| surface.is_cut(point, other)) {
+            let is_cut = |other| surface.is_cut(point, other);
+            let stays = surface.degree(point) > MOST_TRIANGLES;
+            if stays || surface.neighbours(point).into_iter().any(is_cut) {
                 surface.vertices_of(point).iter().for_each(|vertex| on_cut[*vertex as usize] = true);
             }
         }
-        let places: Vec<Vec3> = (0..count as u32).map(|vertex| surface.place_of(vertex)).collect();
+        let places = (0..count as u32).map(|vertex| surface.place_of(vertex));
+        let places: Vec<Vec3> = places.filter(|place| place.is_finite()).collect();
         let diagonal = Bounds::of(&places).map_or(0.0, |bounds| bounds.size().length());
         Self {
             mesh,
             careful: (0..count).map(|vertex| careful.get(vertex).copied().unwrap_or(false)).collect(),
-            length_per_uv: if ratio.is_finite() { ratio } else { 0.0 },
+            length_per_uv: [&mesh.uvs, &mesh.uvs_1].map(|uvs| length_per_uv(uvs)),
             length_per_normal: diagonal * NORMAL_SHARE,
             places: vec![None; count],
             lying: vec![Vec::new(); surface.triangle_count()],
@@ -112,8 +121,8 @@ impl<'a> Costs<'a> {
         let mut worst = 0.0f32;
         for vertex in self.moved(surface, ring.point, &collapse, is_whole) {
             let (corners, place) = self.placed(surface, ring, &collapse, vertex)?;
-            worst = worst.max(self.error(surface, vertex, corners, place.shares, step));
-            // Neither of what costs more nor of what is no number.
+            worst = larger(worst, self.error(surface, vertex, corners, place.shares, step));
+            // Neither what costs more nor what costs no number.
             if worst.partial_cmp(&most).is_none_or(Ordering::is_ge) {
                 return None;
             }
@@ -175,7 +184,7 @@ impl<'a> Costs<'a> {
             let mut offer = |shares: [f32; 3]| {
                 let off = place.distance_squared(mixed(at, shares));
                 let uv_off = own.distance_squared(mixed(corners.map(|v| uv(&self.mesh.uvs, v)), shares));
-                let off = off + uv_off * self.length_per_uv * self.length_per_uv;
+                let off = off + uv_off * self.length_per_uv[0] * self.length_per_uv[0];
                 if best.is_none_or(|(least, ..)| off < least) {
                     best = Some((off, corners, Place { triangle: kept.old.triangle, shares }));
                 }
@@ -202,19 +211,20 @@ impl<'a> Costs<'a> {
         let of_corners = corners.map(|corner| surface.places_of(corner));
         let mut worst = 0.0f32;
         for (pose, place) in surface.places_of(vertex).iter().enumerate().step_by(step) {
-            worst = worst.max(place.distance_squared(mixed(of_corners.map(|places| places[pose]), shares)));
+            let off = place.distance_squared(mixed(of_corners.map(|places| places[pose]), shares));
+            worst = larger(worst, off);
         }
         let mut error = worst.sqrt();
-        for uvs in [&self.mesh.uvs, &self.mesh.uvs_1] {
+        for (uvs, length) in [&self.mesh.uvs, &self.mesh.uvs_1].into_iter().zip(self.length_per_uv) {
             let off = uv(uvs, vertex).distance(mixed(corners.map(|corner| uv(uvs, corner)), shares));
-            error = error.max(off * self.length_per_uv);
+            error = larger(error, off * length);
         }
         let normal = |vertex: u32| self.mesh.normals.get(vertex as usize).copied().unwrap_or_default();
         let tilt = normal(vertex).distance(mixed(corners.map(normal), shares));
-        error = error.max(tilt * self.length_per_normal);
+        error = larger(error, tilt * self.length_per_normal);
         let color = |vertex: u32| self.mesh.colors.get(vertex as usize).copied().unwrap_or_default();
         let off = color(vertex).distance(mixed(corners.map(color), shares));
-        error = error.max(off * self.length_per_normal);
+        error = larger(error, off * self.length_per_normal);
         if self.careful[vertex as usize] { error * CARE } else { error }
     }
 }
@@ -254,8 +264,8 @@ fn taken_apart(surface: &Surface, ring: &Ring, target: u32) -> Option<Collapse> 
     for around in &gone {
         let third = around.others.into_iter().find(|vertex| !at_target(vertex))?;
         let third = surface.point_of(third);
-        // Two cuts would become one.
-        if is_cut(third) && surface.is_cut(target, third) {
+        // Two cuts would become one, or a point with very many triangles lose one.
+        if surface.degree(third) > MOST_TRIANGLES || (is_cut(third) && surface.is_cut(target, third)) {
             return None;
         }
     }
@@ -272,6 +282,11 @@ fn cuts(surface: &Surface, ring: &Ring, target: u32, kept: &Kept) -> [bool; 3] {
     let [next, last] = kept.old.others.map(|vertex| surface.point_of(vertex));
     let from_target = |other: u32| ring.is_cut(other) || surface.is_cut(target, other);
     [from_target(next), surface.is_cut(next, last), from_target(last)]
+}
+
+/// The larger of two errors; infinity where the second is no number.
+fn larger(known: f32, found: f32) -> f32 {
+    if found.is_finite() { known.max(found) } else { f32::INFINITY }
 }
 
 fn uv(uvs: &[Vec2], vertex: u32) -> Vec2 {

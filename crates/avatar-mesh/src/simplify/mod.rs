@@ -4,16 +4,16 @@
 //!
 //! Of each vertex that went the place on the simplified surface is known, the nearest one in the first of
 //! the given poses. What a collapse costs is the largest distance, in any of them, between such a vertex and
-//! its place; tilted normals and shifted coordinates of textures count as distances, too. The cheapest
-//! collapse goes first, and none goes that costs more than is asked for. So the error of a level is a bound
-//! that was measured, not an estimate as by quadrics of planes (Garland and Heckbert, 1997), from whose
+//! its place; tilted normals and shifted coordinates of textures count as distances, too. Cheap collapses go
+//! first, and none goes that costs more than is asked for. So the error of a level, at the vertices of the
+//! original, is measured, not an estimate as by quadrics of planes (Garland and Heckbert, 1997), from whose
 //! method the greedy order is taken.
 
 mod cost;
 mod surface;
 
+use crate::Mesh;
 use crate::weld::picked;
-use crate::{Mesh, Shape};
 use cost::{Costs, Place};
 use glam::Vec3;
 use std::cmp::Ordering;
@@ -26,6 +26,10 @@ const CARE: f32 = 4.0;
 /// Among collapses that cost the same, as all do on a plane, short edges go first: this share of their length
 /// is added.
 const LENGTH_SHARE: f32 = 1e-4;
+
+/// Points with more triangles than this stay, and nothing collapses onto them: the time that a collapse takes
+/// grows faster than their number.
+const MOST_TRIANGLES: usize = 128;
 
 /// A mesh on the way to fewer triangles.
 ///
@@ -155,6 +159,9 @@ impl<'a> Simplifier<'a> {
     /// Finds the cheapest collapse of a point onto a neighbour, not counting the vertices that went before:
     /// its cost is at least that.
     fn consider(&mut self, point: u32) {
+        if self.surface.degree(point) > MOST_TRIANGLES {
+            return self.wait(point, None, false);
+        }
         let ring = self.costs.ring(&self.surface, point);
         let best = self.cheapest(&ring, false);
         self.wait(point, best, false);
@@ -173,6 +180,9 @@ impl<'a> Simplifier<'a> {
     fn cheapest(&self, ring: &Ring, is_whole: bool) -> Option<(f32, u32)> {
         let mut best: Option<(f32, u32)> = None;
         for &target in &ring.neighbours {
+            if self.surface.degree(target) > MOST_TRIANGLES {
+                continue;
+            }
             let length = self.surface.distance(ring.point, target) * LENGTH_SHARE;
             let most = best.map_or(f32::INFINITY, |(least, _)| least - length);
             if let Some(error) = self.costs.of(&self.surface, ring, target, is_whole, most) {
@@ -185,7 +195,7 @@ impl<'a> Simplifier<'a> {
     fn wait(&mut self, point: u32, best: Option<(f32, u32)>, is_whole: bool) {
         let next = &mut self.next[point as usize];
         next.turn += 1;
-        if let Some((cost, target)) = best {
+        if let Some((cost, target)) = best.filter(|(cost, _)| cost.is_finite()) {
             *next = Next { turn: next.turn, target, is_whole };
             self.queue.push(Waiting { cost, point, turn: next.turn });
         }
@@ -216,7 +226,7 @@ impl<'a> Simplifier<'a> {
 impl Simplified {
     /// The largest distance between a vertex of the original that went and its place on the simplified
     /// surface, where the original's vertices are at `posed`; vertices that it lacks are left out. Both
-    /// meshes deform alike, so this bounds how far the original lies from the simplified mesh in that pose.
+    /// meshes deform alike, so no vertex of the original lies further from the simplified mesh in that pose.
     pub fn error(&self, posed: &[Vec3]) -> f32 {
         let place = |vertex: u32| posed.get(vertex as usize).copied();
         let distance = |gone: &Gone| {
@@ -225,17 +235,5 @@ impl Simplified {
             Some(place(gone.vertex)?.distance(a? * wa + b? * wb + c? * wc))
         };
         self.gone.iter().filter_map(distance).fold(0.0, f32::max)
-    }
-
-    /// Bytes of the mesh's arrays, shapes included.
-    pub fn memory_bytes(&self) -> usize {
-        let mesh = &self.mesh;
-        let each = 32
-            + 8 * usize::from(!mesh.uvs_1.is_empty())
-            + 16 * (usize::from(!mesh.colors.is_empty()) + usize::from(!mesh.tangents.is_empty()))
-            + 24 * mesh.skinning.as_ref().map_or(0, |s| 1 + usize::from(!s.more_bones.is_empty()));
-        each * mesh.positions.len()
-            + 12 * mesh.triangles.len()
-            + mesh.shapes.iter().map(Shape::memory_bytes).sum::<usize>()
     }
 }

@@ -63,7 +63,7 @@ impl Surface {
                 row.push(rest);
             }
             let next = points.len() as u32;
-            let bits = row.iter().map(|place| place.to_array().map(f32::to_bits)).collect();
+            let bits = row.iter().map(|place| place.to_array().map(|x| (x + 0.0).to_bits())).collect();
             let point = *points.entry(bits).or_insert(next);
             if point == next {
                 places.extend_from_slice(&row);
@@ -97,6 +97,11 @@ impl Surface {
         }
         let is_left = vec![true; triangles.len()];
         Self { triangles, is_left, point_of, stars, places, poses, starts, vertices }
+    }
+
+    /// Number of triangles around a point.
+    pub(super) fn degree(&self, point: u32) -> usize {
+        self.stars[point as usize].len()
     }
 
     pub(super) fn point_count(&self) -> usize {

@@ -211,6 +211,91 @@ fn careful_vertices_have_a_quarter_of_the_error() {
     assert!(careful.simplified().error(&mesh.positions) <= 0.01);
 }
 
+/// One place that is no number stays with what is around it, and the rest collapses all the same.
+#[test]
+fn a_place_that_is_no_number_stays_alone() {
+    for bad in [f32::NAN, -f32::NAN, f32::INFINITY] {
+        let mut mesh = grid(16);
+        mesh.positions[8 * 17 + 8].x = bad;
+        let level = simplified(&mesh, &[], 1e-3);
+        assert!(level.originals.contains(&(8 * 17 + 8)), "{bad}");
+        assert!(
+            level.mesh.triangles.len() * 4 < mesh.triangles.len(),
+            "{bad}: {}",
+            level.mesh.triangles.len()
+        );
+    }
+}
+
+/// Halves of a mirrored mesh meet at places that differ by the sign of zero alone.
+#[test]
+fn zeros_of_both_signs_are_one_place() {
+    let mut mesh = grid(16);
+    let count = mesh.positions.len() as u32;
+    let seam = |vertex: u32| vertex % 17 == 8;
+    mesh.positions.iter_mut().for_each(|place| place.x -= 8.0);
+    let mirrored = mesh.positions.iter().map(|place| glam::Vec3::new(-0.0, place.y, 0.0)).collect::<Vec<_>>();
+    mesh.positions.extend(mirrored);
+    mesh.normals.extend_from_within(..);
+    mesh.uvs.extend_from_within(..);
+    for triangle in &mut mesh.triangles {
+        if triangle.iter().any(|vertex| vertex % 17 > 8) {
+            *triangle = triangle.map(|vertex| if seam(vertex) { vertex + count } else { vertex });
+        }
+    }
+    let level = simplified(&mesh, &[], 1e-3);
+    // The same places on both sides, so that nothing gapes.
+    let at_seam = |sign: bool| {
+        let mut ends: Vec<u32> = level
+            .mesh
+            .triangles
+            .iter()
+            .flatten()
+            .map(|vertex| level.mesh.positions[*vertex as usize])
+            .filter(|place| place.x == 0.0 && place.x.is_sign_negative() == sign)
+            .map(|place| place.y.to_bits())
+            .collect();
+        ends.sort_unstable();
+        ends.dedup();
+        ends
+    };
+    assert!(!at_seam(true).is_empty());
+    assert_eq!(at_seam(true), at_seam(false));
+}
+
+/// The second set of texture coordinates counts in lengths of its own, even where the first is empty.
+#[test]
+fn second_texture_coordinates_keep_their_places() {
+    let mut mesh = grid(16);
+    // Bent in the middle, and a thousandth as large.
+    mesh.uvs_1 = mesh.positions.iter().map(|p| Vec2::new(p.x + (p.x - 8.0).max(0.0), p.y) * 1e-3).collect();
+    mesh.uvs = vec![Vec2::ZERO; mesh.positions.len()];
+    let level = simplified(&mesh, &[], 0.1);
+    let bend = level.mesh.positions.iter().filter(|place| (place.x - 8.0).abs() < 0.1).count();
+    assert!(bend >= 2, "the bend has {bend} vertices");
+    assert!(level.mesh.triangles.len() * 4 < mesh.triangles.len(), "{}", level.mesh.triangles.len());
+    mesh.uvs_1 = Vec::new();
+    assert!(simplified(&mesh, &[], 0.1).mesh.triangles.len() < level.mesh.triangles.len());
+}
+
+/// A fan of very many triangles takes time in proportion to their number, about.
+#[test]
+fn a_large_fan_takes_bounded_time() {
+    const BLADES: u32 = 200_000;
+    let around = (0..BLADES).map(|i| (std::f32::consts::TAU * i as f32 / BLADES as f32).sin_cos());
+    let positions: Vec<Vec3> =
+        std::iter::once(Vec3::ZERO).chain(around.map(|(y, x)| Vec3::new(x, y, 0.0))).collect();
+    let mesh = Mesh {
+        normals: vec![Vec3::Z; positions.len()],
+        uvs: positions.iter().map(|place| place.truncate()).collect(),
+        triangles: (0..BLADES).map(|i| [0, 1 + i, 1 + (i + 1) % BLADES]).collect(),
+        positions,
+        ..Mesh::default()
+    };
+    // By squares of the number it would take hours.
+    assert!(simplified(&mesh, &[], 0.01).mesh.triangles.len() <= mesh.triangles.len());
+}
+
 proptest! {
     /// Any triangles over any numbers: no panic, no index that leads nowhere, and it ends.
     #[test]

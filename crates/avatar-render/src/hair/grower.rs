@@ -192,7 +192,9 @@ mod tests {
         }
         hair.hang_still();
         assert!(grows(&pose, &hair, 30), "it hangs where it swung");
-        hair.grow_again();
-        assert!(grows(&pose, &hair, 30));
+        hair.hang_still();
+        assert!(!grows(&pose, &hair, 30), "it hangs still already");
+        hair.redo();
+        assert!(grows(&pose, &hair, 30), "what was done is lost");
     }
 }

@@ -136,10 +136,18 @@ impl HairState {
         self.set_grown(0);
     }
 
-    /// Lets strands hang still.
-    pub(crate) fn hang_still(&mut self) {
-        self.swing.stop();
+    /// Lets strands grow and swing again as in the last frame, whose work was lost.
+    pub(crate) fn redo(&self) {
+        self.swing.redo();
         self.grow_again();
+    }
+
+    /// Lets strands hang still. Those that do already need not grow again.
+    pub(crate) fn hang_still(&mut self) {
+        if !self.swing.is_stopped() {
+            self.swing.stop();
+            self.grow_again();
+        }
     }
 
     /// Records the copy of the deformed skin into the texture that growth reads.

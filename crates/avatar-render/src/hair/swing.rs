@@ -134,6 +134,19 @@ impl SwingState {
         self.is_due.load(Ordering::Relaxed)
     }
 
+    /// Lets the next pass spend the time that the last one spent, for work that was lost. Later times are
+    /// added to it.
+    pub(crate) fn redo(&self) {
+        if self.has_begun {
+            self.is_due.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Whether hair hangs still as if no time had ever passed.
+    pub(crate) fn is_stopped(&self) -> bool {
+        !self.has_begun
+    }
+
     pub(crate) fn stop(&mut self) {
         (self.has_begun, self.is_moving) = (false, false);
     }

@@ -145,7 +145,7 @@ impl Canvas {
         avatars: &[(&AvatarModel, &AvatarState)],
         crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
     ) -> Result<Image, RenderImageError> {
-        let (width, height) = self.targets.size();
+        let (_, height) = self.targets.size();
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
         let (view, targets) = (&self.view, &self.targets);
@@ -163,6 +163,18 @@ impl Canvas {
             self.color.size(),
         );
         gpu.queue.submit([encoder.finish()]);
+        let picture = self.read(gpu).await;
+        if picture.is_err() {
+            // Whether a picture that failed deformed them is not known.
+            avatars.iter().for_each(|(_, avatar)| avatar.redo());
+            crowds.iter_mut().for_each(|(_, crowd)| crowd.redo());
+        }
+        picture
+    }
+
+    /// Waits for the picture that was submitted last.
+    async fn read(&self, gpu: &Gpu) -> Result<Image, RenderImageError> {
+        let (width, height) = self.targets.size();
         let view = mapped(&gpu.device, &self.readable).await?;
         let mut pixels = Vec::with_capacity(width as usize * height as usize);
         for row in view.chunks_exact(self.row_bytes as usize) {

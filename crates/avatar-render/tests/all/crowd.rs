@@ -156,7 +156,7 @@ fn what_did_not_move_or_is_out_of_view_is_not_deformed_and_what_is_hidden_not_dr
     let (bones, _) = pose(0);
     let near = Camera::orbit(bones[0].translation.into(), 3.0, 0.0, 0.0, 0.3, 1.0);
     for avatar in 0..AVATARS {
-        // To and fro: both are set.
+        // Another pose and back: that counts as moved.
         for (bones, weights) in [pose(avatar + 1), pose(avatar)] {
             crowd.set(&model, avatar, &bones, &weights).expect("two bones");
         }

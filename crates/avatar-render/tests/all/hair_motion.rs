@@ -8,7 +8,10 @@ use avatar_groom::{SEGMENTS, Strand, Style};
 use avatar_mesh::deform;
 use avatar_pack::FaceState;
 use avatar_render::headless::{Canvas, Gpu};
-use avatar_render::{AvatarModel, AvatarState, Camera, Deformer, Grower, Scene, Shading};
+use avatar_render::{
+    AvatarModel, AvatarState, Camera, Deformer, Grower, Quality, Renderer, RendererConfig, Scene, Shading,
+    Style as Manner, Targets,
+};
 
 const STRANDS: f32 = 4000.0;
 /// The head turns by 30° in so many seconds, and stops.
@@ -214,21 +217,19 @@ fn frames_without_change_and_after_it_are_those_of_a_new_avatar() {
     let picture = |stage: &Stage<'_>, scene: &Scene| {
         canvas.render(gpu, scene, &[(&stage.model, &stage.state)]).expect("a picture").rgba
     };
-    let (mut seen, mut last) = (Vec::new(), Vec::new());
+    let mut seen = Vec::new();
     // Far and near, since a near head grows more strands; each pose twice.
     for (degrees, scene) in [(0.0, 0), (0.0, 1), (25.0, 0), (25.0, 1), (0.0, 1), (0.0, 0)] {
         stage.turn(degrees);
-        last = picture(&stage, &scenes[scene]);
+        let last = picture(&stage, &scenes[scene]);
         stage.turn(degrees);
         assert!(picture(&stage, &scenes[scene]) == last, "{degrees}, {scene}: set again");
         let mut new = Stage::new(gpu, &head, Style::BOB);
         new.turn(degrees);
         assert!(picture(&new, &scenes[scene]) == last, "{degrees}, {scene}: a new avatar");
         assert!(!seen.contains(&last) || degrees == 0.0, "{degrees}, {scene}: something moved");
-        seen.push(last.clone());
+        seen.push(last);
     }
-    stage.state.redo();
-    assert!(picture(&stage, &scenes[0]) == last);
     // Hair that swings is elsewhere in each frame, and where it hangs still when it is told to.
     stage.state.advance_hair(&gpu.queue, 0.0);
     picture(&stage, &scenes[1]);
@@ -240,6 +241,62 @@ fn frames_without_change_and_after_it_are_those_of_a_new_avatar() {
         first
     });
     assert!(swinging[0] != swinging[1] && swinging[1] != swinging[2]);
+    stage.state.redo();
+    assert!(picture(&stage, &scenes[1]) != swinging[2], "the time of the last frame is spent again");
     stage.state.still_hair();
     assert!(picture(&stage, &scenes[1]) == seen[3], "still");
+}
+
+/// A frame that is recorded and thrown away takes its work for done, until it is told otherwise.
+#[test]
+fn what_a_lost_frame_left_out_is_done_again() {
+    let Some(gpu) = gpu() else { return };
+    let head = Head::new();
+    let mut stage = Stage::new(gpu, &head, Style::BOB);
+    let (canvas, scene) = (canvas(gpu, 96, 1), head.scene(0.3, 0.8));
+    let shading = Quality::Low.shading(Manner::Natural);
+    let config = RendererConfig { color_format: wgpu::TextureFormat::Rgba8UnormSrgb, samples: 1, shading };
+    let renderer = Renderer::new(&gpu.device, &gpu.queue, config).expect("a renderer");
+    let targets = Targets::new(&gpu.device, &renderer, 96, 96).expect("targets");
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: 96, height: 96, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: config.color_format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    let lost = |stage: &Stage<'_>| {
+        let view = texture.create_view(&Default::default());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let avatars = [(&stage.model, &stage.state)];
+        renderer.draw(&mut encoder, &view, &targets, &gpu.queue, &scene, &avatars).expect("recorded");
+    };
+    let picture = |stage: &Stage<'_>| {
+        canvas.render(gpu, &scene, &[(&stage.model, &stage.state)]).expect("a picture").rgba
+    };
+    let before = picture(&stage);
+    let mut new = Stage::new(gpu, &head, Style::BOB);
+    new.turn(25.0);
+    let turned = picture(&new);
+    stage.turn(25.0);
+    lost(&stage);
+    assert!(picture(&stage) != turned, "it is taken for done");
+    stage.state.redo();
+    assert!(picture(&stage) == turned && turned != before);
+    // The first frame of hair that begins to swing: it would come from nowhere.
+    for stage in [&mut stage, &mut new] {
+        stage.state.advance_hair(&gpu.queue, 0.1);
+    }
+    lost(&stage);
+    stage.state.redo();
+    assert!(picture(&stage) == picture(&new), "it hangs still first");
+    for stage in [&mut stage, &mut new] {
+        stage.turn(0.0);
+        stage.state.advance_hair(&gpu.queue, 0.1);
+    }
+    let swinging = picture(&stage);
+    assert!(swinging == picture(&new) && swinging != before);
 }

@@ -63,7 +63,7 @@ struct LevelReport {
 }
 
 fn levels(pack: &Pack) -> Vec<LevelReport> {
-    let made = Level::all(pack, false);
+    let made = Level::all(pack, pack.hair().is_some());
     let of_levels = made.iter().map(|level| (&level.pack, level.error));
     let all = std::iter::once((pack, 0.0)).chain(of_levels).enumerate();
     all.map(|(level, (pack, error))| LevelReport {
@@ -197,7 +197,7 @@ fn text(report: &Report<'_>) -> String {
         let heights = Level::HEIGHTS.map(|pixels| pixels.to_string()).join(", ");
         let _ = writeln!(
             out,
-            "\nlevels of detail up to {heights} pixels of height (--levels makes and tells them)"
+            "\nlevels of detail up to {heights} pixels of height (--levels makes and lists them)"
         );
     } else {
         let _ = writeln!(out, "\n{:<15} vertices  triangles      error", "level, up to px");

@@ -183,7 +183,7 @@ impl Presenter {
     fn draw(&mut self, session: &Session, painted: Option<&Painted>, is_at_rest: bool) -> Result<bool> {
         let shot = self.shot(session, painted.map(|painted| painted.free));
         let Some(stage) = &mut self.stage else { return Ok(false) };
-        stage.advance_hair(self.frames.swing(is_at_rest, stage.has_swinging_hair()));
+        stage.advance_hair(self.frames.swing(is_at_rest, stage.has_swinging_hair()), is_at_rest);
         let moves = !is_at_rest || self.frames.swings();
         stage.draw(&shot, self.overlay.as_mut().zip(painted), moves)
     }

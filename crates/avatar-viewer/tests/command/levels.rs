@@ -48,6 +48,43 @@ fn single_pictures_have_the_whole_face() {
     assert_eq!(picture(&size), picture(&["--size", "64x64", "--lod", "0"]));
 }
 
+/// Films of 60 pictures have the level of their height, shorter ones and those with hair the whole face.
+#[test]
+fn auto_goes_by_height_where_many_pictures_are_drawn() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let told = finish(viewer().args(["deform", "--gpu", "--out"]).arg(folder.path().join("skin.obj"))).stderr;
+    // A graphics card draws the whole face.
+    let expected = if told.contains(", Cpu)") { "3" } else { "0" };
+    let film = |frames: &str, options: &[&str]| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let out = folder.path().join("face.png");
+        let mut command = viewer();
+        command.args([
+            "record",
+            "--quality",
+            "plain",
+            "--script",
+            "0 smile",
+            "--size",
+            "64x48",
+            "--samples",
+            "1",
+        ]);
+        finish(command.args(["--fps", "60", "--duration", frames]).args(options).arg("--out").arg(&out)).ok();
+        std::fs::read(out).expect("a film")
+    };
+    let (long, short) = ("1", "0.9");
+    assert!(film(long, &["--lod", "auto"]) == film(long, &["--lod", expected]));
+    assert!(film(long, &["--lod", "3"]) != film(long, &["--lod", "0"]));
+    assert!(film(short, &["--lod", "auto"]) == film(short, &["--lod", "0"]));
+    let haired = ["--hair", "short", "--hair-density", "0.02"];
+    let with = |lod: &str| film(long, &[&haired[..], &["--lod", lod]].concat());
+    assert!(with("auto") == with("0"));
+}
+
 #[test]
 fn info_tells_levels_where_it_is_asked() {
     let pack = golden_pack();

@@ -66,8 +66,9 @@ impl Stage {
         match self.gpu.errors.take() {
             None => Ok(was_draft && !self.shows_draft()),
             Some(error) => {
-                // What the kept picture shows now is not known.
+                // What the kept picture shows now is not known, nor whether the face was deformed.
                 self.forget_kept();
+                self.avatar.redo();
                 self.motion.iter_mut().for_each(Motion::forget);
                 bail!("expected adapter {:?} to draw the frame, found: {error}", self.gpu.info.name)
             }

@@ -305,14 +305,20 @@ impl Stage {
         Ok(())
     }
 
-    /// Lets as much time pass for the hair; seconds that are no number leave it still.
-    pub(super) fn advance_hair(&mut self, dt_secs: f64) {
+    /// Lets as much time pass for the hair; seconds that are no number leave it still. At rest it need not
+    /// grow again then.
+    pub(super) fn advance_hair(&mut self, dt_secs: f64, is_at_rest: bool) {
+        let moves = dt_secs.is_finite();
         // What was in motion hangs still in the first frame without any.
-        if dt_secs.is_finite() || self.hair_moved {
+        if moves || self.hair_moved {
             self.forget_kept();
         }
-        self.hair_moved = dt_secs.is_finite();
-        self.avatar.advance_hair(&self.gpu.queue, dt_secs);
+        self.hair_moved = moves;
+        if moves || !is_at_rest {
+            self.avatar.advance_hair(&self.gpu.queue, dt_secs);
+        } else {
+            self.avatar.still_hair();
+        }
     }
 
     /// Marks the kept picture as out of date: the next frame draws the face again.
