@@ -72,7 +72,7 @@ fn a_file_of_two_parts_becomes_a_face_that_is_drawn() {
 }
 
 #[test]
-fn nothing_is_written_over_or_left_half() {
+fn nothing_is_written_over_or_left_half_and_all_shapes_are_kept() {
     let (pack, folder) = (copy_of_golden_pack(), tempfile::tempdir().expect("a temporary folder"));
     let at = |name: &str| folder.path().join(name);
     fs::create_dir(at("full")).expect("a folder");
@@ -90,8 +90,10 @@ fn nothing_is_written_over_or_left_half() {
     }
     let mut many = viewer();
     many.arg("convert").arg(at("base.obj")).arg("--with").arg(at("targets")).arg("--out").arg(at("many"));
-    finish(&mut many).fails(1, &["base.obj: expected at most 2 shapes", "found 3: A, B, C"]);
-    assert!(!at("many").exists());
+    finish(&mut many).ok();
+    let shapes = fs::read_to_string(at("many/shapes.toml")).expect("more shapes than the raw format holds");
+    assert!(["A", "B", "C"].iter().all(|name| shapes.contains(&format!("name = \"{name}\""))), "{shapes}");
+    assert!(finish(viewer().arg("info").arg(at("many"))).ok().contains("\nC               "), "controls");
     assert_eq!(fs::read_to_string(at("full/mine.txt")).expect("still there"), "mine");
     let hidden = fs::read_dir(folder.path())
         .expect("the folder")
