@@ -54,7 +54,7 @@ def crowd(text):
         else:
             row = re.match(r"^(\d+) (as a crowd|by level|one by one) +([\d., ]+)$", line)
             if row:
-                numbers = [float(number) for number in re.findall(r"[\d.]+", row.group(3))]
+                numbers = [float(number) for number in re.findall(r"\d+\.\d\d", row.group(3))]
                 pairs = zip(numbers[::2], numbers[1::2])
                 found[quality, int(row.group(1)), row.group(2)] = dict(zip(columns, pairs))
     return found
