@@ -250,7 +250,7 @@ pub(crate) struct InfoArgs {
     /// Print JSON instead of text
     #[arg(long)]
     pub(crate) json: bool,
-    /// Make the levels of detail and tell their triangles and errors; takes seconds
+    /// Make the levels of detail and list their triangles and errors; takes seconds
     #[arg(long)]
     pub(crate) levels: bool,
 }

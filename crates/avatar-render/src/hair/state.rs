@@ -36,7 +36,7 @@ pub(crate) struct HairState {
     other_bones: [u32; OTHER_BONES],
     /// Group 2 of the drawing.
     pub(crate) draw: wgpu::BindGroup,
-    /// So many strands are where the pose and their swinging want them.
+    /// How many strands, from the first on, have grown for the present pose and swing.
     grown: AtomicU32,
 }
 
