@@ -1,4 +1,5 @@
 use crate::pseudonormal::{Pseudonormals, pseudonormals};
+use crate::shoulders::with_shoulders;
 use avatar_mesh::{Bounds, Mesh};
 use glam::Vec3;
 use std::collections::BTreeMap;
@@ -93,9 +94,16 @@ impl Field {
     /// The field of a skin at bind pose, whose hair moves with a bone. Triangles with corners that do not
     /// exist or are NaN are ignored.
     pub fn new(skin: &Mesh, head_bone: u32) -> Self {
-        let bounds = skin.bounds().filter(|bounds| bounds.min.is_finite() && bounds.max.is_finite());
-        let bounds = bounds.unwrap_or(Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE });
-        let cell = (bounds.size().max_element() / CELLS).max(1e-9);
+        Self::around(skin, skin.bounds().unwrap_or(Bounds { min: Vec3::NAN, max: Vec3::NAN }), head_bone)
+    }
+
+    /// As [`Field::new`], where only `head` of the skin is the head: cells are as small as for the head
+    /// alone, and of the shoulders the field holds as much as hair can reach from above.
+    pub fn around(skin: &Mesh, head: Bounds, head_bone: u32) -> Self {
+        let finite = |bounds: &Bounds| bounds.min.is_finite() && bounds.max.is_finite();
+        let head = Some(head).filter(finite).unwrap_or(Bounds { min: Vec3::NEG_ONE, max: Vec3::ONE });
+        let cell = (head.size().max_element() / CELLS).max(1e-9);
+        let bounds = skin.bounds().filter(finite).map_or(head, |skin| with_shoulders(head, skin));
         let origin = bounds.min - ROOM * cell;
         let size = ((bounds.size() / cell).ceil() + 2.0 * ROOM + 1.0).to_array().map(|n| (n as u32).max(2));
         let mut grid = Grid { origin, cell, size: size.map(|n| n as usize), nearest: Vec::new() };

@@ -26,6 +26,7 @@ mod regions;
 mod roots;
 
 mod pseudonormal;
+mod shoulders;
 mod field;
 mod groom;
 mod grow;

@@ -2,9 +2,8 @@
 
 use crate::grow::{axes, grow_to};
 use crate::random::unit;
-use crate::{
-    DensityMap, Field, Groom, PlantedStrand, Region, Root, SEGMENTS, Style, Triangle, guides, scatter,
-};
+use crate::roots::scatter_on;
+use crate::{DensityMap, Field, Groom, PlantedStrand, Region, Root, SEGMENTS, Style, Triangle, guides};
 use avatar_mesh::{Bounds, Mesh};
 use glam::{Affine3A, Vec2, Vec3};
 use std::collections::BTreeMap;
@@ -20,7 +19,7 @@ const HAIRLINE_LENGTH: f32 = 0.08;
 const CUT_STEPS: usize = 9;
 
 impl Groom {
-    /// Plants hair on a skin; see [`scatter`] for the arguments.
+    /// Plants hair on a skin that is a head and no more; see [`crate::scatter`] for the arguments.
     pub fn new(
         skin: &Mesh,
         density: &DensityMap,
@@ -29,10 +28,24 @@ impl Groom {
         strands: f32,
         seed: u64,
     ) -> Self {
-        let bounds = skin.bounds().unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ONE });
+        Self::on_head(skin, skin.bounds(), density, eyes, style, strands, seed)
+    }
+
+    /// As [`Groom::new`], on a skin of which only `head` is the head: its height is the unit of lengths, and
+    /// cuts are measured from its lower end.
+    pub fn on_head(
+        skin: &Mesh,
+        head: Option<Bounds>,
+        density: &DensityMap,
+        eyes: &[Bounds],
+        style: Style,
+        strands: f32,
+        seed: u64,
+    ) -> Self {
+        let bounds = head.unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ONE });
         let height = bounds.size().y.max(1e-6);
         let middle = (bounds.min.x + bounds.max.x) * 0.5;
-        let roots = scatter(skin, density, eyes, &style, strands, seed);
+        let roots = scatter_on(skin, bounds, density, eyes, &style, strands, seed);
         let positions: Vec<Vec3> = roots.iter().map(|root| position(skin, root)).collect();
         let parting = middle + style.scalp.parting * height;
         let guides = guides::choose(&roots);
@@ -47,7 +60,7 @@ impl Groom {
         };
         let mut groom = Self {
             strands: roots.into_iter().zip(guide_of).enumerate().map(planted).collect(),
-            field: Field::new(skin, head_bone),
+            field: Field::around(skin, bounds, head_bone),
             head_bone,
             strands_per_square: strands,
             guides,

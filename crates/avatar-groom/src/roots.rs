@@ -52,9 +52,22 @@ pub fn scatter(
     strands: f32,
     seed: u64,
 ) -> Vec<Root> {
-    let Some(skin) = mesh.bounds() else { return Vec::new() };
-    let regions = Regions::new(eyes, skin, style);
-    let height = f64::from(skin.size().y.max(1e-6));
+    let head = mesh.bounds();
+    head.map_or_else(Vec::new, |head| scatter_on(mesh, head, density, eyes, style, strands, seed))
+}
+
+/// As [`scatter`], on a skin of which only `head` is the head: numbers and widths are measured by its height.
+pub(crate) fn scatter_on(
+    mesh: &Mesh,
+    head: Bounds,
+    density: &DensityMap,
+    eyes: &[Bounds],
+    style: &Style,
+    strands: f32,
+    seed: u64,
+) -> Vec<Root> {
+    let regions = Regions::new(eyes, head, style);
+    let height = f64::from(head.size().y.max(1e-6));
     let per_area = f64::from(strands.max(0.0)) / (height * height);
     if regions.is_bald() || per_area <= 0.0 {
         return Vec::new();

@@ -18,6 +18,7 @@ impl Pack {
             .filter_map(|part| part.mesh.bounds())
             .collect();
         let mesh = &self.parts()[skin].mesh;
-        Some((skin, Groom::new(mesh, &density, &eyes, hair.style, hair.strands(), hair.seed)))
+        let head = self.head().or_else(|| mesh.bounds());
+        Some((skin, Groom::on_head(mesh, head, &density, &eyes, hair.style, hair.strands(), hair.seed)))
     }
 }

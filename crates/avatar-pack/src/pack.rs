@@ -57,6 +57,8 @@ pub struct PackContents {
     /// Where an avatar is more than a face: the box around its head, or around what its shapes move, at bind
     /// pose in world space.
     pub face: Option<Bounds>,
+    /// Where a pack in the raw format has shoulders: the box around its head at bind pose.
+    pub head: Option<Bounds>,
     /// What was mended while loading.
     pub warnings: Vec<Warning>,
 }
@@ -236,6 +238,13 @@ impl Pack {
     /// pose in world space.
     pub fn face(&self) -> Option<Bounds> {
         self.contents.face
+    }
+
+    /// The box around the head at bind pose, where a pack in the raw format has shoulders: the neck's joint
+    /// alone moves those. Its height is the unit of lengths of materials and hair, as that of the skin is
+    /// elsewhere.
+    pub fn head(&self) -> Option<Bounds> {
+        self.contents.head
     }
 
     /// What was mended while loading.

@@ -98,6 +98,9 @@ pub fn upload_with_hair(
         })
         .collect();
     let mut model = AvatarModel::new(device, queue, &parts, pack.palette().len())?;
+    if let Some(head) = pack.head() {
+        model.set_height(head.size().y);
+    }
     set_hair(device, queue, pack, textures, &mut model, hair)?;
     set_materials(queue, pack, &model)?;
     Ok(model)

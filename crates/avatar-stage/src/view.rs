@@ -102,6 +102,7 @@ impl View {
     pub fn camera(&self, pack: &Pack, aspect: f32) -> Camera {
         let (framed, nearer) = match (self.framing, pack.face()) {
             (Framing::Whole, _) | (Framing::Head, None) => (None, 1.0),
+            (Framing::Face, Some(head)) if pack.head().is_some() => (Some(head), FACE_DISTANCE),
             (Framing::Head | Framing::Face, Some(face)) => (Some(face), 1.0),
             (Framing::Face, None) => (None, FACE_DISTANCE),
             (Framing::Part(part), _) => (pack.parts().get(part).and_then(|part| part.bounds), 1.0),

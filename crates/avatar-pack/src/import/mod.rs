@@ -135,6 +135,7 @@ impl Import {
             .and_then(|(look_at, head)| Some(LookRule { look_at, head: joints.of_node.get(head).copied()? }));
         let mut pack = Pack::new(PackContents {
             face: None,
+            head: None,
             look_rule,
             palette: joints.palette,
             rig: joints.rig,

@@ -1,12 +1,13 @@
 //! Loads packs in the raw format, and single files of them.
 
+mod bust;
 mod further;
 
 use crate::files;
 use crate::{ContentsError, Pack, PackContents, PackError, PackProblem, PaletteBone, Part, Source, Warning};
 use avatar_groom::Hair;
 use avatar_look::Materials;
-use avatar_mesh::{FACE_BONES, FACE_PARTS, Follows, MeshError, PartSpec, Winding, raw};
+use avatar_mesh::{FACE_BONES, FACE_PARTS, Follows, MeshError, PartKind, PartSpec, Winding, raw};
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use rig_core::Rig;
 use std::borrow::Cow;
@@ -29,6 +30,8 @@ impl Pack {
         let further = further::load(source, &mut controls, &mut parts)?;
         let poses = load_poses(source, &controls)?;
         let clips = load_clips(source, &controls)?;
+        let skin = parts.iter().find(|part| part.kind == PartKind::Skin);
+        let head = skin.and_then(|skin| bust::head(&skin.mesh, skin.bounds?));
         let contents = PackContents {
             rig,
             parts,
@@ -43,7 +46,8 @@ impl Pack {
             hair: load_hair(source)?,
             motion: None,
             look_rule: None,
-            face: None,
+            face: head,
+            head,
             warnings,
         };
         Self::new(contents).map_err(|error| match error {

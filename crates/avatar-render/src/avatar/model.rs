@@ -19,8 +19,9 @@ pub struct AvatarModel {
     pub(crate) parts: Vec<ModelPart>,
     palette_len: usize,
     shape_count: usize,
-    /// Height of the skin at bind pose: the unit of lengths in materials and, if this avatar looks largest,
-    /// of the softness of shadows and the reach of ambient occlusion.
+    /// Height of the skin, or of the head where it has shoulders, at bind pose: the unit of lengths in
+    /// materials and, if this avatar looks largest, of the softness of shadows and the reach of ambient
+    /// occlusion.
     pub(crate) height: f32,
     pub(crate) hair: Option<HairModel>,
 }
@@ -105,6 +106,14 @@ impl AvatarModel {
     /// Number of strands.
     pub fn strand_count(&self) -> usize {
         self.hair.as_ref().map_or(0, |hair| hair.strand_count as usize)
+    }
+
+    /// Sets the height of the head where the skin is more than a head. Call it before
+    /// [`Self::set_material`]: looks that are there already keep the lengths that they have.
+    pub fn set_height(&mut self, height: f32) {
+        if height > 0.0 && height.is_finite() {
+            self.height = height;
+        }
     }
 
     /// Replaces the looks of a part in all avatars of this model, from the next submission on. `part` is its

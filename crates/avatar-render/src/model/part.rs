@@ -47,7 +47,7 @@ fn cornea_of<'a, 'b>(ball: &PartDesc<'b>, parts: &'a [PartDesc<'b>]) -> Option<&
     }
 }
 
-/// The height of the skin, or of everything where there is no skin; never 0.
+/// The height of the skin, or of everything where there is no skin; never 0. Heads with shoulders say theirs.
 pub(crate) fn height(parts: &[PartDesc<'_>]) -> f32 {
     let bounds = |skin_only: bool| {
         parts
