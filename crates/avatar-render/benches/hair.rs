@@ -129,7 +129,12 @@ fn avatar(
         AvatarModel::new(&gpu.device, &gpu.queue, &[part], pack.palette().len()).expect("a model");
     let eyes: Vec<_> =
         ["right-eyeball", "left-eyeball"].iter().filter_map(|name| pack.part(name)?.mesh.bounds()).collect();
-    let groom = Groom::new(&skin.mesh, density, &eyes, style, strands, 1);
+    let head = pack.head();
+    if let Some(head) = head {
+        model.set_height(head.size().y);
+    }
+    let head = head.or_else(|| skin.mesh.bounds());
+    let groom = Groom::on_head(&skin.mesh, head, density, &eyes, style, strands, 1);
     model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
     let mut state = AvatarState::new(&gpu.device, &model);
     state.set_hair_detail(HairDetail { is_automatic: false, ..HairDetail::default() });
@@ -137,7 +142,7 @@ fn avatar(
     corners.sort_unstable();
     corners.dedup();
     let bytes = groom.strands().len() * (ROOT_BYTES + STRAND_BYTES) + corners.len() * VERTEX_BYTES;
-    let bounds = pack.bounds().expect("a face");
+    let bounds = head.or_else(|| pack.bounds()).expect("a face");
     let camera = Camera::frame(bounds, 0.0, 0.0, 0.42, WIDTH as f32 / HEIGHT as f32);
     (model, state, Scene { camera, background: [0.02, 0.02, 0.03, 1.0], light: Light::studio() }, bytes)
 }

@@ -14,7 +14,7 @@ pub const EYEBALL_RADIUS: f64 = 1.8;
 /// How far the corneal apex stands out of the eyeball's sphere.
 pub const CORNEA_RISE: f64 = 0.05;
 /// Radius of the iris disc.
-pub const IRIS_RADIUS: f64 = 0.74;
+pub const IRIS_RADIUS: f64 = 0.68;
 /// Radius that nothing of the eye ever reaches, whatever the gaze.
 pub const EYE_REACH: f64 = EYEBALL_RADIUS + CORNEA_RISE;
 /// Radius of the ball that the skin of the lids lies on.
@@ -38,8 +38,10 @@ pub const JAW: DVec3 = DVec3::new(0.0, -1.9, -4.2);
 pub const HEAD: DVec3 = DVec3::new(0.0, -9.2, -5.6);
 /// Pivot of the neck.
 pub const NECK: DVec3 = DVec3::new(0.0, -13.6, -6.2);
-/// Height of the neck's lower edge.
-pub const NECK_EDGE_Y: f64 = -15.4;
+/// Height of the neck's lower end: what lies below follows no joint but the neck's.
+pub const NECK_BASE_Y: f64 = -15.4;
+/// Height of the edge where the bust stops.
+pub const BUST_EDGE_Y: f64 = -24.5;
 
 /// The margin of a lid as a height above the eye's centre, at `s` from the inner (0) to the outer corner (1).
 #[must_use]

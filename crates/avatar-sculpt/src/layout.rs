@@ -15,14 +15,24 @@ const ACROSS: [(f64, f64); 5] =
     [(0.0, 0.0), (0.9, 0.48), (1.35, 0.69), (2.1, 0.86), (3.141_592_653_589_793_6, 0.998)];
 /// Elevation → height in the image. The crown stays off the edge: smaller versions of the image repeat across
 /// it.
-const DOWN: [(f64, f64); 7] =
-    [(-2.9, 0.89), (-1.4, 0.80), (-0.95, 0.735), (0.0, 0.40), (0.6, 0.19), (1.0, 0.09), (1.6, 0.012)];
+const DOWN: [(f64, f64); 9] = [
+    (-5.2, 0.893),
+    (-3.6, 0.865),
+    (-2.5, 0.79),
+    (-1.4, 0.75),
+    (-0.95, 0.705),
+    (0.0, 0.37),
+    (0.6, 0.16),
+    (1.0, 0.075),
+    (1.6, 0.012),
+];
 
 /// Below this height the picture holds only swept parts.
 pub const STRIP_TOP: f64 = 0.9;
 
 /// Rectangles (left, top, width, height) of the swept parts, for the left half.
-const MOUTH: (f64, f64, f64, f64) = (0.505, 0.905, 0.12, 0.085);
+const MOUTH: (f64, f64, f64, f64) = (0.505, 0.905, 0.08, 0.085);
+const LASHES: (f64, f64, f64, f64) = (0.595, 0.905, 0.035, 0.085);
 const SOCKET: (f64, f64, f64, f64) = (0.64, 0.905, 0.14, 0.085);
 const EAR: (f64, f64, f64, f64) = (0.79, 0.905, 0.20, 0.085);
 
@@ -36,9 +46,13 @@ pub fn corners(half: &Half, triangle: &[usize; 3]) -> [DVec2; 3] {
             let (rect, closed) = match swept.patch {
                 Patch::Mouth => (MOUTH, false),
                 Patch::Ear => (EAR, true),
+                Patch::Lash => (LASHES, false),
                 _ => (SOCKET, true),
             };
             let mut own = nodes.map(|n| n.own);
+            if swept.patch == Patch::Lash {
+                return own.map(|o| DVec2::new(rect.0 + rect.2 * o.x, rect.1 + rect.3 * o.y));
+            }
             let wide = own.iter().any(|o| o.x < 1.0 && o.y > 0.5);
             for o in &mut own {
                 if closed && wide && o.y == 0.0 && o.x < 1.0 {

@@ -35,4 +35,4 @@ pub mod pack;
 mod tests;
 
 pub use pack::{Pack, build};
-pub use paint::Detail;
+pub use paint::{Complexion, Detail};

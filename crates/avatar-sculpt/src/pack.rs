@@ -8,13 +8,15 @@ use avatar_mesh::{
 
 use crate::{
     bake::{self, Scene},
-    paint::{self, Detail},
+    paint::{self, Complexion, Detail},
     raw, rig,
     sculpture::{Sculpture, sculpt},
 };
 
 /// The controls are text that people read and edit; it goes into the pack as it is.
 const CONTROLS: &str = include_str!("controls.toml");
+/// As are the materials.
+const MATERIALS: &str = include_str!("materials.toml");
 
 /// Files by name, in a fixed order.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +34,7 @@ pub fn geometry(sculpture: &Sculpture) -> Result<Pack> {
     let mut files = vec![
         ("Transformations.xml".to_owned(), rig::transformations_xml()?.into_bytes()),
         ("controls.toml".to_owned(), CONTROLS.as_bytes().to_vec()),
+        ("materials.toml".to_owned(), MATERIALS.as_bytes().to_vec()),
     ];
     let mut add = |stem: &str, mesh: &Mesh| {
         files.push((format!("{stem}_VB.raw"), write_vertices(mesh)));
@@ -49,9 +52,9 @@ pub fn geometry(sculpture: &Sculpture) -> Result<Pack> {
 /// # Errors
 ///
 /// If a picture cannot be encoded.
-pub fn pictures(sculpture: &Sculpture, detail: Detail) -> Result<Pack> {
+pub fn pictures(sculpture: &Sculpture, detail: Detail, complexion: &Complexion) -> Result<Pack> {
     let baked = bake::bake(&Scene::new(sculpture));
-    Ok(Pack { files: paint::all(&sculpture.skin, &baked, detail)? })
+    Ok(Pack { files: paint::all(&sculpture.skin, &baked, detail, complexion)? })
 }
 
 /// Builds every file of the pack; touches no file itself.
@@ -59,9 +62,9 @@ pub fn pictures(sculpture: &Sculpture, detail: Detail) -> Result<Pack> {
 /// # Errors
 ///
 /// If a file cannot be encoded.
-pub fn build(detail: Detail) -> Result<Pack> {
+pub fn build(detail: Detail, complexion: &Complexion) -> Result<Pack> {
     let sculpture = sculpt();
     let mut pack = geometry(&sculpture)?;
-    pack.files.extend(pictures(&sculpture, detail)?.files);
+    pack.files.extend(pictures(&sculpture, detail, complexion)?.files);
     Ok(pack)
 }

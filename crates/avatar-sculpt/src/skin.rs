@@ -11,7 +11,7 @@ use crate::{
     surface::{
         ear,
         half::{Half, Patch},
-        mouth_bag,
+        lashes, mouth_bag,
         rings::Loops,
         sheet, socket,
     },
@@ -55,6 +55,7 @@ pub fn build() -> Skin {
     socket::add(&mut half, &loops);
     mouth_bag::add(&mut half, &loops);
     ear::add(&mut half, &loops);
+    lashes::add(&mut half, &loops);
     for node in &mut half.nodes {
         // What the file will hold is what everything is computed from.
         node.p = node.p.as_vec3().as_dvec3();
@@ -75,10 +76,11 @@ pub fn build() -> Skin {
     let fields: Vec<Vec<(DVec3, DVec3)>> = shapes::SHAPES
         .iter()
         .map(|(_, field)| {
-            let offset: Vec<DVec3> = half
-                .nodes
-                .iter()
-                .map(|n| if n.p.x == 0.0 { field(n) * DVec3::new(0.0, 1.0, 1.0) } else { field(n) })
+            let offset: Vec<DVec3> = (0..rest.len())
+                .map(|i| {
+                    let n = half.mover(i);
+                    if n.p.x == 0.0 { field(n) * DVec3::new(0.0, 1.0, 1.0) } else { field(n) }
+                })
                 .collect();
             let moved: Vec<DVec3> = rest.iter().zip(&offset).map(|(p, d)| *p + *d).collect();
             let turned = half_normals(&moved, &half.triangles);
@@ -109,7 +111,7 @@ pub fn build() -> Skin {
                         p: node.p,
                         uv: uvs[k],
                         normal: base[i],
-                        influence: weights::of(node),
+                        influence: weights::of(skin.half.mover(i)),
                         shapes: [fields[0][i], fields[1][i]],
                         source: i,
                     };

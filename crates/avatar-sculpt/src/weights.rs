@@ -1,7 +1,7 @@
 //! Which bone moves which skin, and by how much.
 
 use crate::{
-    anatomy::below_mouth,
+    anatomy::{NECK_BASE_Y, below_mouth},
     lids,
     math::{lerp, smooth},
     surface::half::{Node, Patch},
@@ -25,7 +25,10 @@ pub type Influence = [(usize, f64); 4];
 #[must_use]
 pub fn of(node: &Node) -> Influence {
     let p = node.p;
-    let neck = smooth(-8.6, -15.6, p.y + 0.22 * (p.z + 5.0));
+    // Shoulders stay where they are, however high the muscle between them and the neck rises.
+    let aside = 0.6 * smooth(-10.5, -14.0, p.y) * (p.x.hypot(p.z + 6.0) - 4.4).max(0.0);
+    let height = p.y + 0.22 * (p.z + 5.0) - aside;
+    let neck = smooth(-8.6, -15.6, height).max(smooth(NECK_BASE_Y + 1.4, NECK_BASE_Y, p.y));
     let near_lid = node.lid <= 1.0;
     let lower_lid = if near_lid { node.lower } else { p.y - crate::anatomy::EYE.y < 0.0 };
     let lid = if node.patch == Patch::Mouth { 0.0 } else { lids::weight(p, lower_lid) };

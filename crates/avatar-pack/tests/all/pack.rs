@@ -6,7 +6,7 @@
     reason = "a test: it may panic and read files"
 )]
 
-use crate::common::golden;
+use crate::common::{golden, marsienne};
 use avatar_pack::{
     FaceState, MemorySource, Pack, PackProblem, Source, SourceError, Texture, Textures, Warning,
 };
@@ -17,6 +17,18 @@ fn png(width: u32, height: u32) -> Vec<u8> {
     let picture = image::RgbaImage::from_pixel(width, height, image::Rgba([1, 2, 3, 255]));
     picture.write_to(&mut bytes, image::ImageFormat::Png).expect("a PNG");
     bytes.into_inner()
+}
+
+#[test]
+fn shoulders_are_not_the_head() {
+    // The sculptor says where they begin: at a height of -15.4, and ears are the widest part above that.
+    let head = marsienne().head().expect("shoulders");
+    assert!((head.min.y + 15.4).abs() < 0.3 && (8.0..9.0).contains(&head.max.x), "{head:?}");
+    assert_eq!(marsienne().face(), Some(head), "what pictures of the face frame");
+    let skin = marsienne().part("skin").and_then(|skin| skin.bounds).expect("a skin");
+    assert!(skin.min.y < -24.0 && skin.max.x > 15.0 && skin.max.y == head.max.y, "{skin:?}");
+    // A head without shoulders is all of the skin, however its neck ends.
+    assert_eq!(Pack::load(&golden()).expect("a good pack").head(), None);
 }
 
 #[test]

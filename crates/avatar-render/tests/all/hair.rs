@@ -36,7 +36,7 @@ fn avatar() -> (Pack, DensityMap) {
 fn groom(pack: &Pack, density: &DensityMap, style: Style, strands: f32) -> Groom {
     let eyes: Vec<_> =
         ["right-eyeball", "left-eyeball"].iter().filter_map(|name| pack.part(name)?.mesh.bounds()).collect();
-    Groom::new(&pack.parts()[0].mesh, density, &eyes, style, strands, 7)
+    Groom::on_head(&pack.parts()[0].mesh, pack.head(), density, &eyes, style, strands, 7)
 }
 
 /// The skin alone, without hair.

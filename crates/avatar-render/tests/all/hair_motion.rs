@@ -128,7 +128,7 @@ fn hair_that_swings_stays_outside_of_the_head() {
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
     let skin = &head.pack.parts()[0].mesh;
-    let height = skin.bounds().expect("a skin").size().y;
+    let height = head.head().size().y;
     let mut posed = skin.deformed();
     for style in [Style::BOB, Style::LONG, Style::CURLY] {
         let mut stage = Stage::new(gpu, &head, style);
@@ -195,7 +195,7 @@ fn tips_that_stand_out_of_the_skin_are_seen_where_the_skin_is_not() {
     let mut stage = Stage::new(gpu, &head, style);
     let points = stage.strands().into_iter().flatten();
     let tip = points.max_by(|a, b| a.y.total_cmp(&b.y)).expect("a strand");
-    let skin = head.skin().bounds().expect("a skin");
+    let skin = head.head();
     assert!(tip.y > skin.max.y + 0.2 * skin.size().y, "{tip} above {skin:?}");
     let camera = Camera::orbit(tip, skin.size().y, 0.0, 0.0, 0.03, 1.0);
     let scene = Scene { camera, ..head.scene(0.0, 0.8) };

@@ -64,7 +64,7 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
 /// Offsets of all vertices of the skin; `own` is 1 where the shape's own side is the left one, −1 for right.
 fn offsets(skin: &Skin, kind: Kind, own: f64) -> Vec<DVec3> {
     let on = |field: Field, i: usize, half: f64| {
-        let spot = Spot { node: &skin.half.nodes[i], side: own * half };
+        let spot = Spot { node: skin.half.mover(i), side: own * half };
         clear::of_eye(&spot, field(&spot))
     };
     skin.vertices
@@ -114,7 +114,7 @@ impl Whole {
     /// How normals at rest change under offsets of the vertices, seen at rest or with the jaw open.
     fn changes(&self, skin: &Skin, offsets: &[DVec3], open: bool) -> Vec<DVec3> {
         let bones: Vec<(DMat3, DVec3)> = (skin.vertices.iter())
-            .map(|v| jaw::opened(if open { jaw::share(&skin.half.nodes[v.source]) } else { 0.0 }))
+            .map(|v| jaw::opened(if open { jaw::share(skin.half.mover(v.source)) } else { 0.0 }))
             .collect();
         let mut moved = self.places.clone();
         for (k, n) in self.number.iter().enumerate() {

@@ -73,7 +73,7 @@ impl Spot<'_> {
     #[must_use]
     pub fn on_face(&self) -> f64 {
         match self.node.patch {
-            Patch::Ear => 0.0,
+            Patch::Ear | Patch::Lash => 0.0,
             Patch::Mouth => 0.0,
             Patch::Socket => smooth(0.55, 0.2, self.node.own.x),
             Patch::Sheet => smooth(-3.6, -0.6, self.node.p.z),

@@ -81,13 +81,17 @@ impl<'a> Scene<'a> {
         for v in skin.vertices.iter().filter(|v| v.p.x >= 0.0) {
             normals[v.source] = v.normal;
         }
-        let posed = skin.half.nodes.iter().map(|node| {
-            weights::of(node).iter().fold(DVec3::ZERO, |sum, (bone, w)| sum + turned(*bone, node.p) * *w)
+        let posed = skin.half.nodes.iter().enumerate().map(|(i, node)| {
+            weights::of(skin.half.mover(i))
+                .iter()
+                .fold(DVec3::ZERO, |sum, (bone, w)| sum + turned(*bone, node.p) * *w)
         });
         let posed: Vec<DVec3> = posed.collect();
         let posed_normals = crate::mesh::normals(&posed, &skin.half.triangles);
         let half = |places: &[DVec3]| {
-            let left: Vec<[DVec3; 3]> = skin.half.triangles.iter().map(|t| t.map(|i| places[i])).collect();
+            // Lashes are too thin to take much light away, and would leave specks.
+            let left = skin.half.triangles.iter().filter(|t| skin.half.nodes[t[0]].patch != Patch::Lash);
+            let left: Vec<[DVec3; 3]> = left.map(|t| t.map(|i| places[i])).collect();
             let right = left.iter().map(|t| t.map(|p| DVec3::new(-p.x, p.y, p.z)));
             left.iter().copied().chain(right).collect::<Vec<_>>()
         };
@@ -172,7 +176,7 @@ fn thickness(tree: &Bvh, p: DVec3, n: DVec3, fan: &[DVec3]) -> f64 {
 fn moving(node: &Node) -> f64 {
     match node.patch {
         Patch::Mouth => 1.0,
-        Patch::Ear => 0.0,
+        Patch::Ear | Patch::Lash => 0.0,
         _ => smooth(1.7, 0.5, node.lip).max(smooth(1.0, 0.7, node.lid)),
     }
 }

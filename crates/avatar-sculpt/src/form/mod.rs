@@ -6,6 +6,7 @@
 //! can be drawn from it. What a distance function is poor at (thin sheets: lids' edges, mouth bag, ears) is
 //! swept directly.
 
+mod bust;
 mod features;
 mod furrows;
 mod lips;

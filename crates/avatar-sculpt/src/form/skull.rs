@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::bust;
 use crate::{
     math::{curve, pow},
     sdf::{cone, ellipsoid, join},
@@ -54,7 +55,7 @@ pub(super) fn distance(q: DVec3) -> f64 {
     let cranium = ellipsoid(q, DVec3::new(0.0, 3.7, -5.0), DVec3::new(7.15, 8.55, 9.1));
     let crown = ellipsoid(q, DVec3::new(0.0, 4.7, -6.9), DVec3::new(6.95, 6.9, 7.2));
     let head = join(join(cranium, crown, 1.5), face(q), 1.4);
-    join(head, neck(q), 1.1)
+    join(head, bust::join_below(neck(q), q), 1.1)
 }
 
 /// The face as a stack of rounded outlines between front profile, side outline and back.

@@ -23,9 +23,9 @@ pub struct Iris {
 
 /// The four irises of the pack: jade, amber, violet, umber.
 pub const IRISES: [Iris; 4] = [
-    Iris { inner: [182, 142, 74], outer: [78, 134, 108], ring: [16, 44, 42] },
-    Iris { inner: [236, 178, 84], outer: [176, 96, 38], ring: [62, 26, 12] },
-    Iris { inner: [170, 168, 190], outer: [112, 96, 168], ring: [38, 28, 74] },
+    Iris { inner: [138, 122, 80], outer: [92, 122, 106], ring: [34, 52, 52] },
+    Iris { inner: [206, 152, 78], outer: [158, 98, 48], ring: [66, 34, 18] },
+    Iris { inner: [156, 150, 172], outer: [110, 102, 150], ring: [44, 38, 72] },
     Iris { inner: [150, 104, 62], outer: [84, 50, 30], ring: [26, 14, 10] },
 ];
 
@@ -86,7 +86,7 @@ pub fn picture(width: usize, iris: &Iris, shade: &Shade) -> Picture {
         let open = shade.at(uv);
         // Not the whole depth of the shade: some of it the renderer adds for every eye.
         let dim = lerp(0.42, 1.0, smooth(0.05, 0.62, open));
-        let c = sclera(d, s).lerp(iris_colour(iris, turn, s), smooth(1.04, 0.955, s));
+        let c = sclera(d, s).lerp(iris_colour(iris, turn, s), smooth(1.07, 0.92, s));
         // Shade on flesh and eyes is warm: light comes back from the lids.
         let warm = DVec3::new(1.0, 0.94, 0.90);
         c * dim * DVec3::ONE.lerp(warm, 1.0 - dim)
@@ -98,17 +98,21 @@ fn iris_colour(iris: &Iris, turn: f64, s: f64) -> DVec3 {
     let bytes = |c: [u8; 3]| rgb(c[0], c[1], c[2]);
     let round = DVec3::new(cos(turn), sin(turn), 0.0);
     // Fibres run outward from the pupil and part at the collarette.
-    let fine = fbm(round * 26.0 + DVec3::Z * (s * 1.6), 2);
+    let fine = fbm(round * 34.0 + DVec3::Z * (s * 2.2), 2);
     let coarse = fbm(round * 8.0 + DVec3::new(3.0, 7.0, s * 1.2), 2);
     let crypts = smooth(0.25, 0.6, noise3(round * 5.0 + DVec3::Z * (s * 5.0)));
-    let collarette = 0.52 + 0.05 * coarse;
-    let mut c = bytes(iris.inner).lerp(bytes(iris.outer), smooth(collarette - 0.10, collarette + 0.16, s));
-    c *= 1.0 + 0.50 * fine + 0.25 * coarse;
-    c *= 1.0 - 0.35 * crypts * smooth(collarette, collarette + 0.1, s) * smooth(0.95, 0.8, s);
-    c = c.lerp(bytes(iris.inner) * 1.15, 0.40 * bell(s - collarette, 0.045));
+    // The collarette is a ragged line, and its colour runs out along the fibres: a round one is a target.
+    let ragged = fbm(round * 5.0 + DVec3::new(9.0, 1.0, 0.0), 3);
+    let collarette = 0.50 + 0.16 * ragged + 0.05 * coarse;
+    let inner = smooth(collarette + 0.26 + 0.25 * fine, collarette - 0.16, s);
+    let mut c = bytes(iris.outer).lerp(bytes(iris.inner), 0.8 * inner);
+    c *= 1.0 + 0.62 * fine + 0.30 * coarse;
+    c *= 1.0 - 0.40 * crypts * smooth(collarette, collarette + 0.1, s) * smooth(0.95, 0.8, s);
+    c = c.lerp(bytes(iris.inner) * 1.2, 0.22 * bell(s - collarette, 0.05));
+    c *= lerp(0.72, 1.0, smooth(PUPIL, PUPIL + 0.12, s));
     // Light gathers on the side away from the lamp, as through a lens.
     c *= 1.0 + 0.22 * smooth(0.35, 0.75, s) * -sin(turn);
-    c = c.lerp(bytes(iris.ring), 0.92 * smooth(0.78, 0.98, s + 0.05 * coarse));
+    c = c.lerp(bytes(iris.ring), 0.75 * smooth(0.74, 1.02, s + 0.07 * coarse + 0.05 * fine));
     c.lerp(rgb(7, 5, 7), smooth(PUPIL + 0.03, PUPIL - 0.02, s + 0.01 * fine))
 }
 

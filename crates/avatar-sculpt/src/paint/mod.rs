@@ -9,6 +9,7 @@ pub mod picture;
 pub mod relief;
 pub mod skin;
 pub mod teeth;
+pub mod top;
 
 use anyhow::Result;
 use glam::DVec3;
@@ -42,6 +43,21 @@ impl Detail {
     }
 }
 
+/// What skins have more or less of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Complexion {
+    /// Freckles: 0 none, 1 many.
+    pub freckles: f64,
+    /// The markings of her people: 0 none, 1 dark.
+    pub marks: f64,
+}
+
+impl Default for Complexion {
+    fn default() -> Self {
+        Self { freckles: 0.5, marks: 0.0 }
+    }
+}
+
 /// A colour from bytes, each channel 0…1.
 #[must_use]
 pub fn rgb(r: u8, g: u8, b: u8) -> DVec3 {
@@ -53,19 +69,24 @@ pub fn rgb(r: u8, g: u8, b: u8) -> DVec3 {
 /// # Errors
 ///
 /// If a picture cannot be encoded.
-pub fn all(skin: &Skin, baked: &Baked, detail: Detail) -> Result<Vec<(String, Vec<u8>)>> {
+pub fn all(
+    skin: &Skin,
+    baked: &Baked,
+    detail: Detail,
+    complexion: &Complexion,
+) -> Result<Vec<(String, Vec<u8>)>> {
     let fine = canvas::Sites::of(skin, detail.skin_pixels());
     let coarse = canvas::Sites::of(skin, detail.other_pixels());
     let (black, white, level) = (DVec3::ZERO, DVec3::ONE, DVec3::new(0.5, 0.5, 1.0));
     let mut files = vec![
-        ("SkinTex_Decal.png".to_owned(), fine.paint(rgb(190, 140, 114), skin::colour).png()?),
+        (
+            "SkinTex_Decal.png".to_owned(),
+            fine.paint(rgb(190, 140, 114), |s| skin::colour(s, complexion)).png()?,
+        ),
         ("SkinTex_Normal.png".to_owned(), fine.paint(level, relief::normal).png()?),
         ("SkinTex_AO.png".to_owned(), fine.paint(white, |s| skin::occlusion(s, baked)).png_grey()?),
         ("SkinTex_Gloss.png".to_owned(), fine.paint(DVec3::splat(0.34), skin::gloss).png_grey()?),
-        (
-            "SkinTex_Thickness.png".to_owned(),
-            coarse.paint(white, |s| DVec3::splat(s.mix(&baked.thickness))).png_grey()?,
-        ),
+        ("SkinTex_Thickness.png".to_owned(), coarse.paint(white, |s| skin::thickness(s, baked)).png_grey()?),
         ("HairMap.png".to_owned(), coarse.paint(black, hair::density_colour).png_grey()?),
         ("TeethTex_Decal.png".to_owned(), teeth::picture(detail.other_pixels()).png()?),
     ];

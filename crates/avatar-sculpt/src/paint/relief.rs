@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{canvas::Site, hair};
+use super::{canvas::Site, hair, top};
 use crate::{
-    math::{bell3, hash01, lerp, noise3, smooth},
+    math::{bell3, fbm, hash01, lerp, noise3, smooth},
     surface::half::Patch,
 };
 
@@ -19,30 +19,38 @@ struct Kinds {
     pores: f64,
     grain: f64,
     grooves: f64,
+    stubble: f64,
+    cloth: f64,
 }
 
 fn kinds(site: &Site) -> Kinds {
-    let none = Kinds { pores: 0.0, grain: 0.0, grooves: 0.0 };
+    let none = Kinds { pores: 0.0, grain: 0.0, grooves: 0.0, stubble: 0.0, cloth: 0.0 };
     let node = &site.node;
     match node.patch {
-        Patch::Mouth | Patch::Socket => return none,
+        Patch::Mouth | Patch::Socket | Patch::Lash => return none,
         Patch::Ear => return Kinds { grain: 0.4, ..none },
         Patch::Sheet => {}
     }
     let q = node.p;
+    if top::below_neckline(q) > -0.1 {
+        return Kinds { cloth: 1.0, ..none };
+    }
     let nose = bell3(q, DVec3::new(0.4, -2.8, 5.0), DVec3::new(1.1, 1.3, 1.4));
     let cheek = bell3(q, DVec3::new(2.6, -2.6, 3.2), DVec3::new(1.8, 1.5, 1.8));
     let chin = bell3(q, DVec3::new(0.0, -8.3, 4.0), DVec3::new(1.6, 1.1, 1.4));
     let forehead = bell3(q, DVec3::new(0.0, 4.0, 3.8), DVec3::new(4.0, 2.4, 3.0));
     let lip = smooth(1.05, 0.85, node.lip);
     let lid = smooth(0.75, 0.25, node.lid);
-    let bald = 1.0 - hair::scalp(site);
+    let stubble = hair::scalp(site);
+    let bald = 1.0 - stubble;
     let face = smooth(-3.0, 1.0, q.z) * smooth(-12.5, -10.5, q.y);
     let region = (0.18 + 0.8 * nose + 0.55 * cheek + 0.4 * chin + 0.35 * forehead).min(1.0) * face;
     Kinds {
         pores: region * (1.0 - lip) * (1.0 - lid) * bald,
         grain: (1.0 - lip) * lerp(1.0, 0.5, lid) * bald * smooth(-10.0, -4.0, q.z),
         grooves: lip * smooth(0.02, 0.25, node.lip),
+        stubble,
+        cloth: 0.0,
     }
 }
 
@@ -77,6 +85,13 @@ fn height(kinds: Kinds, p: DVec3) -> f64 {
         let line = noise3(DVec3::new(x * 9.0, p.y * 0.9, 3.5));
         h += 0.011 * kinds.grooves * (line - 0.5 * line * line);
     }
+    if kinds.stubble > 0.0 {
+        // Short hair lies down and back, in streaks.
+        h += 0.02 * kinds.stubble * fbm(p * DVec3::new(9.0, 3.5, 5.0), 2);
+    }
+    if kinds.cloth > 0.0 {
+        h += kinds.cloth * top::height(p);
+    }
     h
 }
 
@@ -95,7 +110,7 @@ pub fn depth(site: &Site) -> f64 {
 pub fn normal(site: &Site) -> DVec3 {
     let kinds = kinds(site);
     let flat = DVec3::Z;
-    if kinds.pores + kinds.grain + kinds.grooves <= 0.0 {
+    if kinds.pores + kinds.grain + kinds.grooves + kinds.stubble + kinds.cloth <= 0.0 {
         return encoded(flat);
     }
     let [pu, pv] = site.per_uv;

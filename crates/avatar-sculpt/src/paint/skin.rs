@@ -2,61 +2,110 @@
 
 use glam::DVec3;
 
-use super::{canvas::Site, hair, marks, relief, rgb};
+use super::{Complexion, canvas::Site, hair, marks, relief, rgb, top};
 use crate::{
     anatomy::EYE,
     bake::Baked,
     lids,
-    math::{bell, bell3, fbm, lerp, pow, smooth},
+    math::{bell, bell3, fbm, hash01, lerp, pow, smooth},
     surface::half::Patch,
 };
 
 /// Colour of the skin.
 #[must_use]
-pub fn colour(site: &Site) -> DVec3 {
+pub fn colour(site: &Site, complexion: &Complexion) -> DVec3 {
     match site.node.patch {
         Patch::Mouth => rgb(96, 36, 40)
             .lerp(rgb(128, 56, 56), smooth(0.1, 0.3, site.node.own.x))
             .lerp(rgb(58, 16, 20), smooth(0.3, 0.8, site.node.own.x)),
         Patch::Socket => lid_edge(site),
         Patch::Ear => ear(site),
-        Patch::Sheet => sheet(site),
+        Patch::Lash => rgb(15, 11, 10),
+        Patch::Sheet => sheet(site, complexion),
     }
 }
 
-/// The bare complexion: warm copper with a trace of green where the skin is thin.
+/// The bare complexion. Faces have zones: yellow over the bone of the forehead, red from ear to ear over the
+/// nose, where blood lies near, and cool around the mouth, on the temples and under the eyes.
 fn complexion(p: DVec3) -> DVec3 {
-    let x = p.x.abs();
-    let q = DVec3::new(x, p.y, p.z);
-    let mut c = rgb(217, 165, 136);
-    let blush = bell3(q, DVec3::new(3.8, -2.3, 2.4), DVec3::new(1.8, 1.2, 2.2))
-        + 0.45 * bell3(q, DVec3::new(0.0, -3.0, 5.9), DVec3::new(0.8, 0.7, 0.9))
-        + 0.25 * bell3(q, DVec3::new(0.0, -8.9, 4.3), DVec3::new(1.3, 0.9, 1.5));
-    c = c.lerp(rgb(209, 124, 104), 0.36 * blush.min(1.0));
-    c = c.lerp(rgb(224, 180, 146), 0.5 * bell3(q, DVec3::new(0.0, 4.5, 4.0), DVec3::new(3.5, 2.2, 3.0)));
-    // Green shimmers at the temples, under the jaw, around eyes and mouth.
-    let green = 0.75 * bell3(q, DVec3::new(6.6, 1.8, -0.8), DVec3::new(1.3, 2.6, 2.6))
-        + 0.22 * smooth(-9.0, -12.5, p.y)
-        + 0.35 * bell3(q, DVec3::new(2.6, -6.5, 3.7), DVec3::new(1.2, 1.3, 1.2))
-        + 0.20 * bell3(q, EYE + DVec3::new(-0.6, -1.2, 1.6), DVec3::new(1.5, 0.6, 1.2));
-    c = c.lerp(rgb(158, 154, 118), 0.42 * green.min(1.0));
+    let q = DVec3::new(p.x.abs(), p.y, p.z);
+    let mut c = rgb(214, 167, 142);
     let mottle = fbm(p * 0.9, 3);
+    let blush = bell3(q, DVec3::new(3.7, -2.5, 2.4), DVec3::new(1.9, 1.3, 2.4))
+        + 0.75 * bell3(q, DVec3::new(0.3, -3.0, 5.6), DVec3::new(0.9, 0.8, 1.1))
+        + 0.40 * bell3(q, DVec3::new(1.1, -3.2, 4.2), DVec3::new(0.5, 0.5, 0.7))
+        + 0.30 * bell3(q, DVec3::new(0.0, -8.9, 4.3), DVec3::new(1.3, 0.9, 1.5));
+    // Blood lies in patches.
+    let patches = 1.0 + 0.7 * fbm(p * 2.6 + DVec3::splat(3.0), 3);
+    c = c.lerp(rgb(203, 116, 101), (0.36 * blush.min(1.1) * patches).clamp(0.0, 1.0));
+    c = c.lerp(rgb(224, 184, 146), 0.5 * bell3(q, DVec3::new(0.0, 4.5, 4.0), DVec3::new(3.5, 2.2, 3.0)));
+    let cool = 0.70 * bell3(q, DVec3::new(6.6, 1.8, -0.8), DVec3::new(1.3, 2.6, 2.6))
+        + 0.30 * smooth(-9.0, -12.5, p.y)
+        + 0.45 * bell3(q, DVec3::new(2.4, -6.6, 3.7), DVec3::new(1.4, 1.4, 1.4));
+    c = c.lerp(rgb(176, 152, 128), 0.40 * cool.min(1.0));
+    let under = bell3(q, EYE + DVec3::new(-0.5, -1.25, 1.6), DVec3::new(1.5, 0.55, 1.2));
+    c = c.lerp(rgb(164, 112, 112), 0.26 * under);
+    c = c.lerp(rgb(138, 140, 146), 0.13 * veins(q));
     let fine = fbm(p * 7.0, 2);
-    c * (1.0 + 0.05 * mottle + 0.035 * fine) + DVec3::new(0.012, -0.004, -0.006) * fbm(p * 2.2, 2)
+    c * (1.0 + 0.06 * mottle + 0.045 * fine) + DVec3::new(0.016, -0.005, -0.008) * fbm(p * 2.2, 2)
+}
+
+/// Where veins shine through: on the temples, the lids and the throat.
+fn veins(q: DVec3) -> f64 {
+    let thin = bell3(q, DVec3::new(6.5, 2.6, -0.4), DVec3::new(1.3, 2.0, 2.2))
+        + 0.3 * bell3(q, EYE + DVec3::new(0.4, 1.0, 1.8), DVec3::new(1.4, 0.5, 1.0))
+        + 0.6 * bell3(q, DVec3::new(3.0, -13.0, -3.5), DVec3::new(1.6, 3.0, 2.2));
+    if thin < 0.02 {
+        return 0.0;
+    }
+    thin.min(1.0) * smooth(0.055, 0.0, fbm(q * DVec3::new(0.8, 0.45, 0.8) + DVec3::splat(5.0), 3).abs())
+}
+
+/// Freckles over nose and cheeks, fewer on the forehead and below the neck: 0…1.
+fn freckles(p: DVec3) -> f64 {
+    const GRID: f64 = 0.30;
+    let q = DVec3::new(p.x.abs(), p.y, p.z);
+    let share = 0.75 * bell3(q, DVec3::new(2.4, -2.2, 3.4), DVec3::new(2.3, 1.2, 2.2))
+        + 0.55 * bell3(q, DVec3::new(0.0, -1.6, 5.0), DVec3::new(1.2, 1.3, 1.6))
+        + 0.14 * bell3(q, DVec3::new(1.5, 4.4, 3.6), DVec3::new(3.5, 1.8, 2.5))
+        + 0.16 * bell3(q, DVec3::new(4.0, -17.0, -3.5), DVec3::new(6.0, 2.5, 4.0));
+    if share < 0.02 {
+        return 0.0;
+    }
+    let at = p / GRID;
+    let base = at.floor();
+    let mut sum = 0.0_f64;
+    for n in 0..27 {
+        let cell = base + DVec3::new(f64::from(n % 3 - 1), f64::from(n / 3 % 3 - 1), f64::from(n / 9 - 1));
+        let [x, y, z] = cell.to_array().map(|c| (c as i64 as u64) & 0xFFFF);
+        let chance = |k: u64| hash01(x | (y << 16) | (z << 32) | (k << 48));
+        if chance(1) > 0.9 * share {
+            continue;
+        }
+        let away = cell + DVec3::new(chance(2), chance(3), chance(4)) - at;
+        let size = lerp(0.10, 0.26, chance(5) * chance(5));
+        let spot = smooth(size * 1.3, size * 0.5, away.length() * (1.0 + 0.25 * fbm(p * 9.0, 2)));
+        sum = sum.max(spot * lerp(0.45, 1.0, chance(6)));
+    }
+    sum
 }
 
 /// The outer skin with everything drawn on it.
-fn sheet(site: &Site) -> DVec3 {
+fn sheet(site: &Site, own: &Complexion) -> DVec3 {
     let p = site.p;
     let mut c = complexion(p) * (1.0 - 0.03 * relief::depth(site));
-    c = c.lerp(rgb(112, 116, 92), 0.62 * marks::at(p));
+    c = c.lerp(rgb(150, 96, 70), 0.60 * own.freckles * freckles(p));
+    c = c.lerp(rgb(112, 116, 92), 0.62 * own.marks * marks::at(p));
     c = eyes(site, c);
     c = lips(site, c);
     c = c.lerp(rgb(62, 40, 36), 0.86 * hair::brows(p, true));
     let q = DVec3::new(p.x.abs(), p.y, p.z);
-    let nostril = bell3(q, DVec3::new(0.45, -3.52, 4.70), DVec3::new(0.24, 0.30, 0.36));
-    c = c.lerp(rgb(70, 32, 28), 0.85 * nostril.min(1.0));
-    c.lerp(rgb(58, 42, 42), 0.80 * hair::scalp(site))
+    let nostril = bell3(q, DVec3::new(0.45, -3.50, 4.66), DVec3::new(0.25, 0.30, 0.42));
+    c = c.lerp(rgb(52, 22, 20), 0.95 * nostril.min(1.0));
+    // Hair cut to the skin: a shade of many dark points, not a cap.
+    let shorn = hair::scalp(site) * (0.78 + 0.5 * fbm(p * DVec3::new(7.0, 4.0, 5.0), 3));
+    c = c.lerp(rgb(62, 44, 40), (0.82 * shorn).clamp(0.0, 0.9));
+    c.lerp(top::colour(p), top::at(p))
 }
 
 /// Shadow on the lids and the dark line of the lashes.
@@ -68,14 +117,13 @@ fn eyes(site: &Site, c: DVec3) -> DVec3 {
     let rel = site.node.p - EYE;
     let s = lids::along(rel);
     if site.node.lower {
-        let line = smooth(0.075, 0.0, lid) * lerp(0.25, 0.85, smooth(0.1, 0.9, s));
+        let line = smooth(0.05, 0.0, lid) * lerp(0.10, 0.55, smooth(0.1, 0.9, s));
         let shade = 0.20 * smooth(0.35, 0.05, lid) * smooth(0.2, 1.0, s);
         return c.lerp(rgb(126, 84, 70), shade).lerp(rgb(52, 32, 30), line);
     }
     let shade = 0.55 * smooth(0.62, 0.12, lid) * smooth(-0.1, 0.25, s);
-    let wing = smooth(1.0, 1.16, s) * smooth(1.32, 1.16, s) * smooth(0.16, 0.05, lid);
-    let line = smooth(lerp(0.07, 0.15, smooth(0.2, 1.0, s)), 0.02, lid).max(0.7 * wing);
-    c.lerp(rgb(140, 92, 74), shade).lerp(rgb(34, 22, 22), 0.96 * line)
+    let line = smooth(lerp(0.05, 0.10, smooth(0.2, 1.0, s)), 0.01, lid) * smooth(-0.05, 0.2, s);
+    c.lerp(rgb(150, 100, 84), shade).lerp(rgb(44, 28, 26), 0.85 * line)
 }
 
 /// The edge of the lids and what lies behind it.
@@ -83,11 +131,11 @@ fn lid_edge(site: &Site) -> DVec3 {
     let lid = site.node.lid;
     let s = lids::along(site.node.p - EYE);
     let wet = rgb(205, 130, 118);
-    let dark = if site.node.lower { lerp(0.15, 0.6, smooth(0.3, 1.0, s)) } else { 0.92 };
+    let dark = if site.node.lower { lerp(0.05, 0.35, smooth(0.3, 1.0, s)) } else { 0.80 };
     let edge = wet
-        .lerp(rgb(34, 22, 22), dark * smooth(-0.22, -0.05, lid).max(if site.node.lower { 0.0 } else { 0.8 }));
+        .lerp(rgb(40, 26, 24), dark * smooth(-0.22, -0.05, lid).max(if site.node.lower { 0.0 } else { 0.5 }));
     // The inner corner is moist and red.
-    let edge = edge.lerp(rgb(190, 112, 98), 0.95 * smooth(0.15, 0.05, s));
+    let edge = edge.lerp(rgb(206, 128, 118), 0.95 * smooth(0.15, 0.05, s));
     edge.lerp(rgb(96, 42, 40), smooth(-0.24, -0.5, lid))
 }
 
@@ -124,6 +172,7 @@ pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
         // Bare darkness says less than a mouth that can be seen into.
         Patch::Mouth => open.max(0.2),
         Patch::Socket | Patch::Ear => open,
+        Patch::Lash => 0.8,
         // The crease above the wing of the nose is finer than the mesh.
         Patch::Sheet => {
             let q = site.node.p - DVec3::new(1.08, -2.72, 4.15);
@@ -133,6 +182,13 @@ pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
     };
     // The ear and the neck still see each other: full openness is rare, and should be white.
     DVec3::splat(pow(lerp(0.06, 1.06, drawn), 0.75).clamp(0.05, 1.0))
+}
+
+/// Thickness of the flesh: 0 thin, 1 thick. Neither cloth nor lashes let light through.
+#[must_use]
+pub fn thickness(site: &Site, baked: &Baked) -> DVec3 {
+    let cloth = if site.node.patch == Patch::Lash { 1.0 } else { top::at(site.p) };
+    DVec3::splat(lerp(site.mix(&baked.thickness), 1.0, cloth))
 }
 
 /// Shade of the lashes on the lids' edges.
@@ -149,15 +205,25 @@ pub fn gloss(site: &Site) -> DVec3 {
     g += 0.05 * bell3(q, DVec3::new(0.0, -2.4, 5.6), DVec3::new(0.7, 1.5, 1.2));
     g += 0.10 * bell3(q, DVec3::new(0.0, 4.2, 4.0), DVec3::new(2.5, 1.8, 2.0));
     g += 0.08 * bell3(q, DVec3::new(4.6, -1.4, 2.2), DVec3::new(1.2, 0.8, 1.6));
+    g -= 0.22 * smooth(-10.0, -13.0, p.y);
     // The flank of the nose is seen at grazing angles, where every gloss flares up.
     g -= 0.26 * bell3(q, DVec3::new(1.0, -2.4, 4.3), DVec3::new(0.6, 1.1, 0.8));
-    g = lerp(g, 0.18, hair::scalp(site));
+    // Tears stand along the edge of the lower lid and in the inner corner.
+    let tears = |lid: f64, s: f64| {
+        let rim = smooth(-0.30, -0.20, lid) * smooth(-0.08, -0.16, lid);
+        if site.node.lower { rim.max(smooth(0.12, 0.04, s)) } else { smooth(0.12, 0.04, s) }
+    };
     g = match site.node.patch {
         Patch::Mouth => 0.85,
-        Patch::Socket => 0.45,
+        Patch::Socket => lerp(0.45, 1.5, tears(site.node.lid, lids::along(site.node.p - EYE))),
+        Patch::Lash => -0.83,
         _ if site.node.lip <= 1.1 => lerp(g, 0.74, smooth(1.1, 0.5, site.node.lip)),
         _ if site.node.lid <= 0.5 => g + 0.06 * smooth(0.5, 0.1, site.node.lid),
         _ => g,
     };
-    DVec3::splat(g)
+    // Skin is rough by 0.65 where it is dry; `materials.toml` says what black (0.9) and white (0.2) are.
+    // Cloth and short hair are rougher than any skin.
+    let rough = 0.65 - 0.30 * g;
+    let skin = (0.9 - rough) / 0.7 * (1.0 - hair::scalp(site).max(hair::brows(p, false)));
+    DVec3::splat(lerp(skin, 0.0, top::at(p)))
 }

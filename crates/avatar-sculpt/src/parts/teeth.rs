@@ -11,7 +11,7 @@ const PI: f64 = std::f64::consts::PI;
 
 /// Widths of the upper teeth from the midline outward, and their lengths.
 const UPPER: [(f64, f64); 7] =
-    [(0.64, 0.92), (0.50, 0.84), (0.53, 0.92), (0.50, 0.76), (0.50, 0.72), (0.72, 0.66), (0.70, 0.62)];
+    [(0.64, 0.92), (0.50, 0.84), (0.53, 0.87), (0.50, 0.76), (0.50, 0.72), (0.72, 0.66), (0.70, 0.62)];
 /// The same for the lower teeth.
 const LOWER: [(f64, f64); 7] =
     [(0.42, 0.84), (0.44, 0.84), (0.50, 0.88), (0.50, 0.72), (0.52, 0.64), (0.74, 0.52), (0.72, 0.48)];
@@ -101,7 +101,7 @@ fn tooth(part: &mut Part, arch: &Arch, angle: f64, kind: usize, size: DVec3, gro
         // Toward the biting edge front teeth thin out and widen a trace.
         let tip = 0.5 + 0.5 * up * grow;
         let thin = if kind < 3 { lerp(1.0, 0.45, tip) } else { lerp(1.0, 0.9, tip) };
-        let wide = lerp(0.86, 1.0, tip) * if kind == 2 { lerp(1.0, 0.72, tip * tip) } else { 1.0 };
+        let wide = lerp(0.86, 1.0, tip) * if kind == 2 { lerp(1.0, 0.84, tip * tip) } else { 1.0 };
         let p = centre
             + side * (0.498 * size.x * wide * ring * block(sin(lon), 0.7))
             + DVec3::Y * (0.5 * (size.y + root) * up)

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use crate::{
     form,
-    math::{atan2, cos, exp, sin},
+    math::{atan2, cos, exp, lerp, sin, smooth},
 };
 
 /// The centre that the rays leave.
@@ -18,6 +18,20 @@ const CENTRE: DVec3 = DVec3::new(0.0, -1.0, -4.5);
 const SLIDE_FROM: f64 = -0.872_664_625_997_164_8;
 /// How far the start slides per unit of `t`.
 const SLIDE_RATE: f64 = 8.0;
+/// How far the start has slid down below the chin.
+const CHIN_END: f64 = 3.0;
+/// How far the start has slid down where rays meet shoulders.
+const NECK_END: f64 = 9.5;
+/// How far where they meet the trapezius last, and the tops of the shoulders.
+const TRAPEZIUS_END: f64 = 12.0;
+/// See [`TRAPEZIUS_END`].
+const SHOULDER_END: f64 = 15.0;
+/// Below this height lies nothing of the head, only neck and shoulders.
+const CHIN_Y: f64 = -11.0;
+/// Rays of the neck meet the skin within this distance from the axis.
+const NECK_REACH: f64 = 7.0;
+/// How far the start slides at most.
+const SLIDE_END: f64 = 38.0;
 
 /// A place in the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,9 +43,21 @@ pub struct Place {
 }
 
 /// Tangent of the elevation after the start has slid down by `slide`.
-fn tangent(slide: f64) -> f64 {
+///
+/// Rays level out quickly below the chin, so that they meet the tops of the shoulders from inside. Where they
+/// meet them `r` from the axis, the tangent may grow by less than 1 / r, or rays would cross there.
+fn tangent(slide: f64, phi: f64) -> f64 {
     const STEEP: f64 = -1.191_753_592_594_21;
-    if slide <= 3.0 { STEEP } else { STEEP + (slide - 3.0) * 0.083 }
+    // The nape lies farther from the axis than the sides of the neck.
+    let neck = 0.14 - 0.035 * smooth(2.0, 2.6, phi);
+    let rates: [(f64, f64); 4] =
+        [(CHIN_END, neck), (NECK_END, 0.11), (TRAPEZIUS_END, 0.07), (SHOULDER_END, 0.02)];
+    let mut value = STEEP;
+    for (i, (from, rate)) in rates.iter().enumerate() {
+        let to = rates.get(i + 1).map_or(SLIDE_END, |next| next.0);
+        value += (slide - from).clamp(0.0, to - from) * rate;
+    }
+    value
 }
 
 /// Where a chart place's ray starts and where it points.
@@ -48,7 +74,7 @@ fn ray(place: Place) -> (DVec3, DVec3) {
         return (CENTRE, DVec3::new(ct * sp, st, ct * cp));
     }
     let slide = (SLIDE_FROM - place.t) * SLIDE_RATE;
-    let direction = DVec3::new(sp, tangent(slide), cp).normalize_or_zero();
+    let direction = DVec3::new(sp, tangent(slide, place.phi), cp).normalize_or_zero();
     (CENTRE - DVec3::Y * slide, direction)
 }
 
@@ -56,7 +82,17 @@ fn ray(place: Place) -> (DVec3, DVec3) {
 #[must_use]
 pub fn point(place: Place) -> DVec3 {
     let (start, direction) = ray(place);
-    let p = cast(start + direction * 17.0, -direction);
+    // Rays that lead down past the neck end in the shoulders: they are followed from between the two.
+    let slide = CENTRE.y - start.y;
+    let reach = if slide == 0.0 {
+        17.0
+    } else if slide < NECK_END {
+        let neck = NECK_REACH + 2.5 * smooth(2.0, 2.8, place.phi);
+        lerp(10.0, neck, (slide / CHIN_END).min(1.0)) / direction.x.hypot(direction.z)
+    } else {
+        30.0
+    };
+    let p = cast(start + direction * reach, -direction);
     // Both ends of the half lie on the midline, to the last bit.
     if direction.x == 0.0 { DVec3::new(0.0, p.y, p.z) } else { p }
 }
@@ -103,13 +139,26 @@ pub fn place_of(p: DVec3) -> Place {
     };
     let r = p.x.hypot(p.z - CENTRE.z);
     let t = atan2(p.y - CENTRE.y, r);
-    if t >= SLIDE_FROM {
+    let below_chin = p.y < CHIN_Y;
+    if t >= SLIDE_FROM && !below_chin {
         return Place { phi, t };
     }
-    let (mut low, mut high) = (0.0, 16.0);
+    // Farther out than they meet the skin, rays cross: there a place belongs to the chin or to what lies
+    // below.
+    let (mut low, mut high) = if !below_chin && CENTRE.y - CHIN_END + r * tangent(CHIN_END, phi) <= p.y {
+        (0.0, CHIN_END)
+    } else {
+        let low = match r {
+            r if r > 12.0 => SHOULDER_END,
+            r if r > 9.0 => TRAPEZIUS_END,
+            r if r > NECK_REACH => NECK_END,
+            _ => CHIN_END,
+        };
+        (low, SLIDE_END)
+    };
     for _ in 0..52 {
         let mid = 0.5 * (low + high);
-        if CENTRE.y - mid + r * tangent(mid) > p.y { low = mid } else { high = mid }
+        if CENTRE.y - mid + r * tangent(mid, phi) > p.y { low = mid } else { high = mid }
     }
     Place { phi, t: SLIDE_FROM - 0.5 * (low + high) / SLIDE_RATE }
 }
@@ -124,16 +173,18 @@ pub fn flat(place: Place) -> DVec2 {
     } else if place.t >= SLIDE_FROM {
         polar(place.t)
     } else {
-        polar(SLIDE_FROM) * exp((SLIDE_FROM - place.t) * SLIDE_RATE / 5.0)
+        // The logarithm grows by a step along the skin over the distance from the axis.
+        let slide = (SLIDE_FROM - place.t) * SLIDE_RATE;
+        polar(SLIDE_FROM) * exp(slide.min(NECK_END) / 5.0 + (slide - NECK_END).max(0.0) / 14.0)
     };
     let across = if place.phi == 0.0 || place.phi == std::f64::consts::PI { 0.0 } else { sin(place.phi) };
     DVec2::new(rho * across, -rho * cos(place.phi))
 }
 
-/// The place on the neck's lower edge at turn `phi`.
+/// The place on the bust's lower edge at turn `phi`.
 #[must_use]
 pub fn edge_place(phi: f64, height: f64) -> Place {
-    let (mut low, mut high) = (SLIDE_FROM - 16.0 / SLIDE_RATE, SLIDE_FROM);
+    let (mut low, mut high) = (SLIDE_FROM - SLIDE_END / SLIDE_RATE, SLIDE_FROM);
     for _ in 0..40 {
         let mid = 0.5 * (low + high);
         if point(Place { phi, t: mid }).y > height { high = mid } else { low = mid }

@@ -7,18 +7,40 @@ use super::{
     half::{Half, Node, Patch},
     rings::Loops,
 };
-use crate::math::{bell, cos, lerp, sin, smooth};
+use crate::math::{bell, cos, curve, lerp, sin, smooth};
 
 const PI: f64 = std::f64::consts::PI;
 /// Steps of the path between its knots.
 const STEPS: usize = 3;
 
-/// The rim in the ear's own plane: a long ear with a soft point behind its top.
+/// The rim in the ear's own plane, by the angle from the back over the top, in degrees: (angle, back, up). A
+/// human ear with a soft point behind its top.
+const RIM: [(f64, f64, f64); 18] = [
+    (-15.0, 1.42, -0.60),
+    (0.0, 1.64, 0.30),
+    (28.0, 1.74, 1.50),
+    (52.0, 1.62, 2.62),
+    (72.0, 0.92, 2.98),
+    (100.0, 0.02, 2.80),
+    (130.0, -0.70, 2.22),
+    (160.0, -1.02, 1.20),
+    (180.0, -1.06, 0.35),
+    (205.0, -1.02, -0.70),
+    (230.0, -0.98, -1.80),
+    (250.0, -0.84, -2.62),
+    (270.0, -0.30, -3.06),
+    (288.0, 0.30, -2.94),
+    (306.0, 0.80, -2.34),
+    (325.0, 1.14, -1.56),
+    (345.0, 1.42, -0.60),
+    (360.0, 1.64, 0.30),
+];
+
+/// The place on the rim at `beta` radians.
 fn rim(beta: f64) -> DVec2 {
-    let up = if sin(beta) > 0.0 { 2.55 } else { 2.25 };
-    let width = lerp(1.28, 0.90, smooth(0.0, -0.9, sin(beta)));
-    let point = bell(beta - 1.10, 0.34);
-    DVec2::new(0.30 + width * cos(beta), up * sin(beta)) + DVec2::new(0.46, 1.0) * point
+    let at = beta * 180.0 / PI;
+    let of = |pick: fn(&(f64, f64, f64)) -> (f64, f64)| curve(&RIM.map(|knot| pick(&knot)), at);
+    DVec2::new(of(|knot| (knot.0, knot.1)), of(|knot| (knot.0, knot.2)))
 }
 
 /// Knots of the path at `beta`: share of the way from the ear's middle to its rim, and height over the front
@@ -30,14 +52,14 @@ fn knots(beta: f64, root: DVec3, front_x: f64) -> Vec<DVec3> {
     let lobe = bell(beta - 4.75, 0.55);
     let front = bell(beta - PI, 0.75);
     let groove = (1.0 - lobe) * (1.0 - 0.9 * front);
-    let lift = 0.12 + 0.98 * back + 0.25 * smooth(0.2, 1.0, sin(beta)) + 0.15 * lobe;
+    let lift = (0.12 + 0.90 * back + 0.25 * smooth(0.2, 1.0, sin(beta))) * (1.0 - 0.45 * lobe) + 0.10 * lobe;
     let tragus = bell(beta - 3.45, 0.30);
     let at = |share: f64, height: f64| {
         let own = middle + (edge - middle) * share;
         let head = to_head(own);
         DVec3::new(front_x + height, head.y, head.x)
     };
-    let outer = at(1.0, lift - 0.14);
+    let outer = at(0.96, lift - 0.36);
     let half_way = root.lerp(outer, 0.55) + DVec3::new(0.04, 0.0, 0.0);
     // A hollow where ear and head meet, instead of a fold.
     let hollow = root.lerp(outer, 0.20) + DVec3::new(0.07, 0.0, 0.0);
@@ -46,13 +68,14 @@ fn knots(beta: f64, root: DVec3, front_x: f64) -> Vec<DVec3> {
         hollow,
         half_way,
         outer,
-        at(0.99, lift + 0.06),
-        at(0.91, lift + 0.04 + 0.22 * tragus),
-        at(0.81 - 0.05 * tragus, lift - 0.30 * groove + 0.34 * tragus),
-        at(0.64 - 0.12 * tragus, lift - 0.12 * groove - 0.04 * lobe + 0.30 * tragus),
+        at(1.04, lift - 0.10),
+        at(0.97, lift + 0.10),
+        at(0.87, lift + 0.04 + 0.22 * tragus),
+        at(0.79 - 0.05 * tragus, lift - 0.36 * groove + 0.34 * tragus),
+        at(0.62 - 0.12 * tragus, lift - 0.02 * groove - 0.04 * lobe + 0.30 * tragus),
         at(0.47, lerp(lift, 0.5, 0.62) - 0.08 * (1.0 - lobe) - 0.1 * tragus),
-        at(0.27, 0.10 + 0.38 * back),
-        at(0.10, 0.06 + 0.18 * back),
+        at(0.28, -0.08 + 0.36 * back),
+        at(0.11, -0.26 + 0.16 * back),
     ]
 }
 

@@ -15,6 +15,8 @@ pub enum Patch {
     Mouth,
     /// The auricle.
     Ear,
+    /// The lashes.
+    Lash,
 }
 
 /// A vertex of the half mesh.
@@ -34,8 +36,10 @@ pub struct Node {
     pub lip: f64,
     /// Distance across the lid: 0 at its outer edge, 1 at the last ring; negative inside; 3 elsewhere.
     pub lid: f64,
-    /// A swept patch's own coordinates (ring, place along the ring), 0…1.
+    /// A swept patch's own coordinates (ring, place along the ring), 0…1; a lash's place in its picture.
     pub own: DVec2,
+    /// The vertex whose motion this one takes over; none for its own.
+    pub follows: Option<usize>,
 }
 
 impl Node {
@@ -50,6 +54,7 @@ impl Node {
             lip: 3.0,
             lid: 3.0,
             own: DVec2::ZERO,
+            follows: None,
         }
     }
 }
@@ -64,6 +69,12 @@ pub struct Half {
 }
 
 impl Half {
+    /// The vertex that decides how a vertex moves: weights and shapes are those of its place.
+    #[must_use]
+    pub fn mover(&self, number: usize) -> &Node {
+        &self.nodes[self.nodes[number].follows.unwrap_or(number)]
+    }
+
     /// Adds a vertex and returns its number.
     pub fn add(&mut self, node: Node) -> usize {
         self.nodes.push(node);

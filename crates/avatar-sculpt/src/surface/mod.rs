@@ -10,3 +10,4 @@ pub mod sheet;
 pub mod socket;
 pub mod mouth_bag;
 pub mod ear;
+pub mod lashes;

@@ -1,5 +1,5 @@
 //! Rows of vertices that follow the features: around the eye, around the mouth, around the ear's root, along
-//! the neck's edge and over the crown.
+//! the bust's edge and over the crown.
 
 use glam::{DVec2, DVec3};
 
@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     anatomy::{
-        EYE, MOUTH_HALF_WIDTH, MOUTH_Y, NECK_EDGE_Y, lid_margin, lower_lip, mouth_depth, mouth_line,
+        BUST_EDGE_Y, EYE, MOUTH_HALF_WIDTH, MOUTH_Y, lid_margin, lower_lip, mouth_depth, mouth_line,
         upper_lip,
     },
     math::{cos, lerp, sin, smooth},
@@ -33,8 +33,8 @@ pub struct Loops {
     pub mouth: Vec<usize>,
     /// The ear's root, counter-clockwise seen from the character's left.
     pub ear: Vec<usize>,
-    /// The neck's lower edge, from the front to the back.
-    pub neck: Vec<usize>,
+    /// The bust's lower edge, from the front to the back.
+    pub edge: Vec<usize>,
     /// All rings around the eye, from the lids' edge outward; each runs like `eye`.
     pub eye_rings: Vec<Vec<usize>>,
     /// All rows around the mouth, from the lips' line outward; each runs like `mouth`.
@@ -154,13 +154,13 @@ pub fn ear(half: &mut Half, loops: &mut Loops) {
     }
 }
 
-/// Adds the neck's lower edge, from the front to the back.
-pub fn neck(half: &mut Half, loops: &mut Loops) {
-    const COUNT: usize = 44;
+/// Adds the bust's lower edge, from the front to the back.
+pub fn edge(half: &mut Half, loops: &mut Loops) {
+    const COUNT: usize = 48;
     for i in 0..=COUNT {
-        let place = chart::edge_place(PI * (i as f64 / COUNT as f64), NECK_EDGE_Y);
+        let place = chart::edge_place(PI * (i as f64 / COUNT as f64), BUST_EDGE_Y);
         let p = chart::point(place);
-        loops.neck.push(half.add(Node::sheet(DVec3::new(p.x, NECK_EDGE_Y, p.z))));
+        loops.edge.push(half.add(Node::sheet(DVec3::new(p.x, BUST_EDGE_Y, p.z))));
     }
 }
 

@@ -24,6 +24,11 @@ pub fn spacing(p: DVec3) -> f64 {
     let ear = bell3(p, DVec3::new(7.0, -1.5, -5.3), DVec3::new(2.0, 3.0, 2.0));
     let throat = smooth(-5.0, -8.0, p.y) * smooth(-13.0, -11.5, p.y) * smooth(-9.0, -6.5, p.z);
     let h = h.min(lerp(h, 0.31, throat));
+    let h = lerp(h, 0.62, smooth(-11.0, -13.0, p.y));
+    let below = smooth(-17.5, -20.5, p.y).max(smooth(6.5, 10.0, p.x) * smooth(-11.0, -13.0, p.y));
+    let h = lerp(h, 0.86, below);
+    let bone = bell3(p, DVec3::new(4.2, -17.0, -3.0), DVec3::new(4.5, 1.5, 2.6));
+    let h = lerp(h, 0.42, bone);
     lerp(lerp(h, 0.115, nose.min(1.0)), 0.3, ear)
 }
 
@@ -40,7 +45,7 @@ impl Buckets {
     }
 
     fn cell(p: DVec3) -> [usize; 3] {
-        let at = (p + DVec3::new(4.0, 19.0, 18.0)).max(DVec3::ZERO).min(DVec3::splat(46.0));
+        let at = (p + DVec3::new(4.0, 26.0, 18.0)).max(DVec3::ZERO).min(DVec3::splat(46.0));
         [at.x as usize, at.y as usize, at.z as usize]
     }
 
@@ -85,7 +90,7 @@ pub fn fill(half: &mut Half, loops: &Loops) -> Vec<usize> {
         buckets.add(node.p);
     }
     let ear: Vec<DVec2> = loops.ear.iter().map(|&i| chart::flat(chart::place_of(half.nodes[i].p))).collect();
-    let neck_end: Vec<Place> = loops.neck.iter().map(|&i| chart::place_of(half.nodes[i].p)).collect();
+    let edge: Vec<Place> = loops.edge.iter().map(|&i| chart::place_of(half.nodes[i].p)).collect();
     let blocked = |place: Place| {
         let flat = chart::flat(place);
         inside(&loops.eye_outline, flat)
@@ -93,16 +98,20 @@ pub fn fill(half: &mut Half, loops: &Loops) -> Vec<usize> {
             || (flat.x >= 0.0 && inside(&loops.mouth_outline, flat))
     };
     let lowest = |phi: f64| {
-        let at = phi / PI * (neck_end.len() - 1) as f64;
-        let i = (at as usize).min(neck_end.len() - 2);
-        lerp(neck_end[i].t, neck_end[i + 1].t, at - i as f64)
+        let at = phi / PI * (edge.len() - 1) as f64;
+        let i = (at as usize).min(edge.len() - 2);
+        lerp(edge[i].t, edge[i + 1].t, at - i as f64)
     };
 
     midline(half, &mut buckets, loops, lowest(0.0), lowest(PI));
 
     let mut free = Vec::new();
-    let areas =
-        [(0.0, 0.30, -0.42, 0.02, 9000), (0.0, 1.15, -0.95, 0.75, 26000), (0.0, PI, -2.6, 1.3, 30000)];
+    let areas = [
+        (0.0, 0.30, -0.42, 0.02, 9000),
+        (0.0, 1.15, -0.95, 0.75, 26000),
+        (0.0, PI, -2.6, 1.3, 30000),
+        (0.0, PI, -5.5, -2.4, 12000),
+    ];
     for (phi0, phi1, t0, t1, count) in areas {
         for i in 1..=count {
             // The R2 sequence (Roberts): evenly spread, without rows.
@@ -117,7 +126,7 @@ pub fn fill(half: &mut Half, loops: &Loops) -> Vec<usize> {
             let p = chart::point(place);
             let h = spacing(p);
             // Next to the midline a whole step must stay free, or the mirrored twin comes too close.
-            if p.x > 0.6 * h && p.y > crate::anatomy::NECK_EDGE_Y + 0.5 * h && buckets.is_free(p, 0.86 * h) {
+            if p.x > 0.6 * h && p.y > crate::anatomy::BUST_EDGE_Y + 0.5 * h && buckets.is_free(p, 0.86 * h) {
                 buckets.add(p);
                 free.push(half.add(Node::sheet(p)));
             }

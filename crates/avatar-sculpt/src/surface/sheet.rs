@@ -17,7 +17,7 @@ pub fn build() -> (Half, Loops) {
     rings::eye(&mut half, &mut loops);
     rings::mouth(&mut half, &mut loops);
     rings::ear(&mut half, &mut loops);
-    rings::neck(&mut half, &mut loops);
+    rings::edge(&mut half, &mut loops);
     rings::crown(&mut half);
     let free = scatter::fill(&mut half, &loops);
     for _ in 0..5 {
@@ -47,7 +47,7 @@ fn triangles(half: &Half, loops: &Loops) -> Vec<[usize; 3]> {
     points.extend(twins);
     let last = |rings: &[Vec<usize>]| rings.last().cloned().unwrap_or_default();
     let (eye, mouth) = (last(&loops.eye_rings), last(&loops.mouth_rings));
-    let holes: [&[usize]; 4] = [&eye, &mouth, &loops.ear, &loops.neck];
+    let holes: [&[usize]; 4] = [&eye, &mouth, &loops.ear, &loops.edge];
     let mut hole = vec![usize::MAX; count];
     for (h, row) in holes.iter().enumerate() {
         for &i in *row {

@@ -1,7 +1,7 @@
 //! The built-in avatar's skin with hair, and pictures of it.
 
 use avatar_groom::{DensityMap, Groom, Style};
-use avatar_mesh::Mesh;
+use avatar_mesh::{Bounds, Mesh};
 use avatar_pack::{Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Canvas, Gpu};
 use avatar_render::{
@@ -41,6 +41,11 @@ impl Head {
         &self.pack.parts()[0].mesh
     }
 
+    /// The box around the head, without the shoulders.
+    pub(crate) fn head(&self) -> Bounds {
+        self.pack.head().expect("a head with shoulders")
+    }
+
     /// The skin with this hair, at bind pose.
     pub(crate) fn with_hair(&self, gpu: &Gpu, style: Style, strands: f32) -> (AvatarModel, AvatarState) {
         self.planted(gpu, self.skin(), style, strands)
@@ -68,7 +73,8 @@ impl Head {
             .iter()
             .filter_map(|name| self.pack.part(name)?.mesh.bounds())
             .collect();
-        let groom = Groom::new(skin, &self.density, &eyes, style, strands, 3);
+        model.set_height(self.head().size().y);
+        let groom = Groom::on_head(skin, Some(self.head()), &self.density, &eyes, style, strands, 3);
         model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");
         let state = AvatarState::new(&gpu.device, &model);
         (model, state)
@@ -76,7 +82,7 @@ impl Head {
 
     /// All of the head in the picture, `share` of its height, before a transparent background.
     pub(crate) fn scene(&self, yaw: f32, share: f32) -> Scene {
-        let bounds = self.skin().bounds().expect("a skin");
+        let bounds = self.head();
         let fov = 0.4f32;
         let distance = bounds.size().y * 0.5 / (share * (fov * 0.5).tan());
         let camera = Camera::orbit(bounds.center(), distance, yaw, 0.0, fov, 1.0);
