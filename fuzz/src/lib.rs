@@ -19,13 +19,13 @@ mod texts;
 pub use mutate::mutate_json;
 pub use packed::{SEPARATOR, glb_of};
 pub use scenes::{bvh, collada, fbx, glb, gltf, md5, obj, target, vrm};
-pub use texts::{clips, controls, hair, materials, pack, picture, poses, rig};
+pub use texts::{clips, controls, hair, materials, pack, picture, poses, rig, shapes};
 
 /// What a target does with an input.
 pub type Run = fn(&[u8]);
 
 /// All targets by their names, which are also those of their folders in `corpus` and `regressions`.
-pub const TARGETS: [(&str, Run); 17] = [
+pub const TARGETS: [(&str, Run); 18] = [
     ("gltf", gltf),
     ("glb", glb),
     ("vrm", vrm),
@@ -41,6 +41,7 @@ pub const TARGETS: [(&str, Run); 17] = [
     ("clips", clips),
     ("materials", materials),
     ("hair", hair),
+    ("shapes", shapes),
     ("pack", pack),
     ("picture", picture),
 ];

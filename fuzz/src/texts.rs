@@ -1,7 +1,7 @@
 //! The project's own files: rigs, everything in TOML, packs and their pictures.
 
 use crate::exercise::{act, within_memory};
-use crate::packed::files;
+use crate::packed::{files, text_and_bytes};
 use avatar_groom::Hair;
 use avatar_look::Materials;
 use avatar_pack::{MemorySource, Pack, Textures, raw_files};
@@ -159,12 +159,13 @@ const SAID: [&str; 8] = [
     "LowerJaw_VB.raw",
 ];
 
+fn golden() -> MemorySource {
+    MemorySource { files: GOLDEN.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).into() }
+}
+
 /// A whole pack: texts that belong together, and the buffers of one part. It is written back, too.
 pub fn pack(data: &[u8]) {
-    let mut source = MemorySource::default();
-    for (name, bytes) in GOLDEN {
-        source.files.insert(name.to_owned(), bytes.to_vec());
-    }
+    let mut source = golden();
     for (name, bytes) in SAID.into_iter().zip(files(data)).filter(|(_, bytes)| !bytes.is_empty()) {
         source.files.insert(name.to_owned(), bytes.to_vec());
     }
@@ -176,6 +177,28 @@ pub fn pack(data: &[u8]) {
                 Ok(_) => {}
                 Err(error) => drop(error.to_string()),
             }
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `shapes.toml` and the bytes of `shapes.raw`, for the golden pack. It is written back and read again.
+pub fn shapes(data: &[u8]) {
+    let (toml, raw) = text_and_bytes(data);
+    let mut source = golden();
+    source.files.insert("shapes.toml".to_owned(), toml.to_vec());
+    source.files.insert("shapes.raw".to_owned(), raw.to_vec());
+    match within_memory(data.len(), "the reader", || Pack::load(&source)) {
+        Ok(pack) => {
+            let textures = Textures::default();
+            act(&pack, &textures);
+            let files = match raw_files(&pack, &textures) {
+                Ok(files) => files.files,
+                Err(error) => panic!("what was read cannot be written: {error}"),
+            };
+            let again = Pack::load(&MemorySource { files: files.into_iter().collect() });
+            let list = again.as_ref().map(Pack::further_shapes).map_err(ToString::to_string);
+            assert_eq!(list, Ok(pack.further_shapes()));
         }
         Err(error) => drop(error.to_string()),
     }

@@ -58,6 +58,7 @@ fn behind_sliders() -> Pack {
         max: 1.0,
         default: 0.0,
         pace: Pace::SHAPE,
+        group: None,
     }));
     let couplings = old.couplings().to_vec();
     contents.controls = ControlTable::with_couplings(controls, couplings).expect("controls");
@@ -68,6 +69,7 @@ fn behind_sliders() -> Pack {
         drivers,
         expressions: Expressions::default(),
         of_controls: Vec::new(),
+        mixing: Vec::new(),
     });
     Pack::new(contents).expect("a pack")
 }

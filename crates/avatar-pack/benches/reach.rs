@@ -44,7 +44,7 @@ fn sixty_controls() -> Pack {
         contents.shapes.push(name.clone());
         let drives = Drive::Shape { shape: name.clone() };
         let pace = Pace::of(&drives);
-        controls.push(Control { name, drives, min: 0.0, max: 1.0, default: 0.0, pace });
+        controls.push(Control { name, drives, min: 0.0, max: 1.0, default: 0.0, pace, group: None });
     }
     contents.controls = ControlTable::new(controls).expect("controls");
     Pack::new(contents).expect("a pack")

@@ -78,6 +78,7 @@ impl FaceCrowd {
         match pack.sliders() {
             None => pack.binding().apply_crowd(&self.effective, &mut self.rigs, &mut self.weights)?,
             Some(sliders) => {
+                sliders.mix_crowd(pack.controls(), &mut self.effective);
                 pack.binding().apply_crowd(&self.effective, &mut self.rigs, &mut self.sliders)?;
                 let count = pack.controls().len();
                 sliders.follow_controls_crowd(count, &self.effective, &mut self.sliders);
@@ -127,7 +128,7 @@ impl FaceCrowd {
         &self.weights
     }
 
-    /// Control values after the couplings, by block of [`LANES`] faces, one per control.
+    /// Control values after the couplings and mixtures, by block of [`LANES`] faces, one per control.
     pub fn effective(&self) -> &[Lanes] {
         &self.effective
     }

@@ -64,7 +64,7 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut note = |text: &str| scene.notes.push(Note::new("the avatar", Finding::left_out(text)));
     note("controls, couplings and times of poses are left out");
     if pack.sliders().is_some() {
-        note("sliders are left out: in-between shapes have weights of their own");
+        note("sliders are left out: in-between and corrective shapes have weights of their own");
     }
     if pack.hair().is_some() {
         note("hair is left out");
@@ -157,6 +157,7 @@ fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
     match pack.sliders() {
         None => pack.binding().apply(&effective, &mut locals, &mut weights).ok()?,
         Some(sliders) => {
+            sliders.mix(pack.controls(), &mut effective);
             let mut values = vec![0.0; sliders.names.len()];
             pack.binding().apply(&effective, &mut locals, &mut values).ok()?;
             sliders.follow_controls(&effective, &mut values);

@@ -77,8 +77,8 @@ impl FaceState {
         self.pose_with(pack, values, |_| {}, &[])
     }
 
-    /// As [`FaceState::pose`], with a hand on the way: `adjust` may change the values after the couplings,
-    /// and `locals` replaces the `L` of single joints after the controls.
+    /// As [`FaceState::pose`], with a hand on the way: `adjust` may change the values after the couplings
+    /// and before the mixtures, and `locals` replaces the `L` of single joints after the controls.
     ///
     /// # Errors
     /// As [`FaceState::pose`].
@@ -139,6 +139,9 @@ impl FaceState {
         }
         pack.binding().couple(values, &mut self.effective);
         adjust(&mut self.effective);
+        if let Some(sliders) = pack.sliders() {
+            sliders.mix(pack.controls(), &mut self.effective);
+        }
         self.locals.as_mut_slice().fill(Affine3A::IDENTITY);
         match pack.sliders() {
             None => pack.binding().apply(&self.effective, &mut self.locals, &mut self.weights)?,
@@ -228,7 +231,7 @@ impl FaceState {
         &self.pose
     }
 
-    /// Control values after the couplings.
+    /// Control values after the couplings and mixtures.
     pub fn effective(&self) -> &[f32] {
         &self.effective
     }

@@ -4,7 +4,7 @@ use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
 use avatar_mesh::{Bounds, Mesh, PartKind};
 use glam::Affine3A;
-use pose_anim::{Binding, ClipSet, ControlTable, PoseSet};
+use pose_anim::{Binding, ClipSet, ControlTable, Coupling, PoseSet};
 use rig_core::{JointId, Rig};
 use std::ops::Range;
 
@@ -339,6 +339,9 @@ fn check(contents: &PackContents) -> Result<(), ContentsError> {
         let place = || "the sliders of controls".to_owned();
         in_range(*slider, sliders.names.len(), "sliders", place)?;
         in_range(*control, controls.len(), "controls", place)?;
+    }
+    for Coupling { from, to, .. } in &sliders.mixing {
+        in_range(*from.max(to), controls.len(), "controls", || "the mixtures".to_owned())?;
     }
     let expressions = &sliders.expressions;
     let end = expressions.first_slider.saturating_add(expressions.list.len());

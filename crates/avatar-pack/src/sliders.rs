@@ -1,6 +1,7 @@
 use avatar_mesh::drivers::{LengthError, ShapeDrivers};
 use avatar_mesh::expressions::{self, Expression};
 use lanes::Lanes;
+use pose_anim::{Control, ControlTable, Coupling};
 
 /// What moves shapes where that is not simply one number for each: shapes that show how a slider is on its
 /// way, and those that count as products of others.
@@ -17,6 +18,9 @@ pub struct Sliders {
     pub expressions: Expressions,
     /// Sliders that show where a control of a joint is: shapes may correct what joints do.
     pub of_controls: Vec<ControlSlider>,
+    /// Controls that move others: by `factor` times their value. None of these is moved
+    /// itself.
+    pub mixing: Vec<Coupling>,
 }
 
 /// A slider that shows where a control is: 0 at rest, 1 when it has gone its way.
@@ -30,6 +34,13 @@ pub struct ControlSlider {
     pub rest: f32,
     /// How far from there the slider is 1; not 0.
     pub way: f32,
+}
+
+/// A control's value after a move, within its range.
+fn moved(value: f32, way: f32, control: &Control) -> f32 {
+    let sum = value + way;
+    // A NaN goes through to where it is reported; max and min would hide it.
+    if sum.is_nan() { sum } else { sum.min(control.max.max(value)).max(control.min.min(value)) }
 }
 
 impl ControlSlider {
@@ -51,6 +62,41 @@ pub struct Expressions {
 }
 
 impl Sliders {
+    /// Moves the controls that others move, in the values after the couplings: by `factor` times the other's
+    /// value, within the range. What is beyond its range already stays there. Allocates nothing.
+    pub fn mix(&self, controls: &ControlTable, values: &mut [f32]) {
+        for one in &self.mixing {
+            let Some((from, control)) = values.get(one.from).copied().zip(controls.controls().get(one.to))
+            else {
+                continue;
+            };
+            if let Some(slot) = values.get_mut(one.to) {
+                *slot = moved(*slot, one.factor * from, control);
+            }
+        }
+    }
+
+    /// [`Self::mix`] for many faces, with the same bits: by block of [`lanes::LANES`] faces, `values` have
+    /// one number per control. Allocates nothing.
+    pub fn mix_crowd(&self, controls: &ControlTable, values: &mut [Lanes]) {
+        if self.mixing.is_empty() {
+            return;
+        }
+        for values in values.chunks_exact_mut(controls.len().max(1)) {
+            for one in &self.mixing {
+                let Some((from, control)) =
+                    values.get(one.from).copied().zip(controls.controls().get(one.to))
+                else {
+                    continue;
+                };
+                let slots = values.get_mut(one.to).into_iter().flat_map(|lanes| lanes.iter_mut());
+                slots
+                    .zip(from.iter())
+                    .for_each(|(slot, from)| *slot = moved(*slot, one.factor * from, control));
+            }
+        }
+    }
+
     /// Sets the values of those sliders that show where controls are, from the controls' values after the
     /// couplings. Allocates nothing.
     pub fn follow_controls(&self, controls: &[f32], values: &mut [f32]) {

@@ -14,7 +14,15 @@ fn shapes(count: usize) -> ControlTable {
     let controls = (0..count).map(|index| {
         let name = format!("shape{index}");
         let drives = Drive::Shape { shape: name.clone() };
-        Control { pace: Pace::named(&name, &drives), name, drives, min: 0.0, max: 1.0, default: 0.0 }
+        Control {
+            pace: Pace::named(&name, &drives),
+            name,
+            drives,
+            min: 0.0,
+            max: 1.0,
+            default: 0.0,
+            group: None,
+        }
     });
     ControlTable::new(controls.collect()).expect("a good table")
 }

@@ -108,7 +108,7 @@ impl Face {
     fn refresh(&mut self, model: &Model<'_>) {
         let mut hasher = DefaultHasher::new();
         self.query.hash(&mut hasher);
-        model.controls.names().for_each(|name| name.hash(&mut hasher));
+        model.controls.controls().iter().for_each(|one| (&one.name, &one.group).hash(&mut hasher));
         let made_of = Some(hasher.finish());
         if self.made_of != made_of {
             self.made_of = made_of;

@@ -8,7 +8,7 @@ use std::collections::HashSet;
 pub(crate) enum Row {
     /// A heading.
     Group {
-        /// What the controls' names begin with.
+        /// What the controls' names begin with, or what the controls say themselves.
         key: String,
         /// What the user reads.
         title: String,
@@ -26,7 +26,7 @@ pub(crate) enum Row {
 
 /// Whole faces, then parts of the face from the large to the small. What is not here follows in the order of
 /// the table.
-const ORDER: [(&str, &str); 12] = [
+const ORDER: [(&str, &str); 14] = [
     ("expression", "Expressions"),
     ("neck", "Neck"),
     ("head", "Head"),
@@ -38,6 +38,8 @@ const ORDER: [(&str, &str); 12] = [
     ("lid", "Lids"),
     ("brow", "Brows"),
     ("cheek", "Cheeks"),
+    ("nose", "Nose"),
+    ("viseme", "Visemes"),
     (SHAPES, "Shapes"),
 ];
 
@@ -80,21 +82,30 @@ pub(crate) fn unit(control: &Control) -> (&'static str, &'static str, usize) {
     }
 }
 
-/// Every word of the search is a part of the control's name or of what it drives.
+/// Every word of the search is a part of the control's name, of what it drives, or of its heading.
 fn matches(control: &Control, wanted: &[String]) -> bool {
     let driven = match &control.drives {
         Drive::Joint { joint, .. } => joint,
         Drive::Shape { shape } => shape,
     };
-    let (name, driven) = (control.name.to_lowercase(), driven.to_lowercase());
-    wanted.iter().all(|word| name.contains(word) || driven.contains(word))
+    let group = control.group.as_deref().unwrap_or_default();
+    let texts = [control.name.to_lowercase(), driven.to_lowercase(), group.to_lowercase()];
+    wanted.iter().all(|word| texts.iter().any(|text| text.contains(word)))
 }
 
+/// What a control says itself; else what its name has before a dot; else, of a shape, the first word of its
+/// name, if that is a part of the face: `browInnerUp`.
 fn group(control: &Control) -> String {
-    match (control.name.split_once('.'), &control.drives) {
-        (Some((group, _)), _) => singular(&group.to_lowercase()).to_owned(),
-        (None, Drive::Shape { .. }) => SHAPES.to_owned(),
+    let named = control.group.as_deref().or(control.name.split_once('.').map(|(group, _)| group));
+    match (named, &control.drives) {
+        (Some(group), _) => singular(&group.to_lowercase()).to_owned(),
         (None, Drive::Joint { .. }) => OTHERS.to_owned(),
+        (None, Drive::Shape { .. }) => {
+            let end = control.name.find(|letter: char| !letter.is_lowercase());
+            let word = singular(&control.name[..end.unwrap_or(control.name.len())]);
+            let known = ORDER.iter().find(|(key, _)| *key == word);
+            known.map_or(SHAPES, |(key, _)| key).to_owned()
+        }
     }
 }
 
@@ -137,6 +148,7 @@ mod tests {
             max: 1.0,
             default: 0.0,
             pace: Pace::SHAPE,
+            group: None,
         };
         ControlTable::new(names.iter().map(control).collect()).unwrap()
     }
@@ -166,6 +178,31 @@ mod tests {
         let rows = rows(&table, "", &HashSet::new());
         assert_eq!(titles(&rows), ["Head", "Jaw", "Eyes", "Lids", "Shapes", "Tail", "Ear"]);
         assert!(rows.contains(&Row::Group { key: "eye".to_owned(), title: "Eyes".to_owned(), count: 2 }));
+    }
+
+    #[test]
+    fn shapes_stand_with_their_part_of_the_face() {
+        let mut controls =
+            table(&["smile", "browInnerUp", "mouthPucker", "tongueOut", "viseme_aa", "oh", "mouse"]);
+        let names: Vec<_> = controls.names().map(str::to_owned).collect();
+        let mut list = controls.controls().to_vec();
+        list[5].group = Some("Visemes".to_owned());
+        controls = ControlTable::new(list).unwrap();
+        let all = rows(&controls, "", &HashSet::new());
+        assert_eq!(titles(&all), ["Mouth", "Tongue", "Brows", "Visemes", "Shapes"]);
+        let under = |title: &str| {
+            let from =
+                all.iter().position(|row| matches!(row, Row::Group { title: own, .. } if own == title));
+            let members = all.iter().skip(from.unwrap() + 1).map_while(|row| match row {
+                Row::Control { index, .. } => Some(names[*index].as_str()),
+                Row::Group { .. } => None,
+            });
+            members.collect::<Vec<_>>()
+        };
+        assert_eq!(under("Visemes"), ["viseme_aa", "oh"]);
+        assert_eq!(under("Shapes"), ["smile", "mouse"]);
+        // The heading is searched, too.
+        assert_eq!(titles(&rows(&controls, "visem oh", &HashSet::new())), ["Visemes"]);
     }
 
     #[test]

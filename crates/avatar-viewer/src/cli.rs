@@ -13,10 +13,10 @@ use std::str::FromStr;
 /// Shows a rigged face in a window, and does the same without one.
 ///
 /// PACK is a folder in the raw format: Transformations.xml, a vertex and an index buffer for each of the
-/// seven parts, textures, and optionally controls.toml, poses.toml, clips.toml, materials.toml and hair.toml;
-/// or a file of an interchange format (.glb, .gltf, .vrm, .obj, .fbx, .dae, .md5mesh, .bvh; docs/formats.md).
-/// Without PACK the built-in avatar is used. Without a verb a window opens; a folder whose name is that of a
-/// verb is given as ./NAME.
+/// seven parts, textures, and optionally controls.toml, shapes.toml, poses.toml, clips.toml, materials.toml
+/// and hair.toml; or a file of an interchange format (.glb, .gltf, .vrm, .obj, .fbx, .dae, .md5mesh, .bvh;
+/// docs/formats.md). Without PACK the built-in avatar is used. Without a verb a window opens; a folder whose
+/// name is that of a verb is given as ./NAME.
 ///
 /// Exit status: 0 on success, 2 on wrong usage, 1 on any other failure.
 #[derive(Debug, Parser)]

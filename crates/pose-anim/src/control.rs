@@ -15,6 +15,8 @@ pub struct Control {
     pub default: f32,
     /// How long moves of this control take by themselves.
     pub pace: Pace,
+    /// Heading under which it is listed, such as `brows`; without one its name says where it belongs.
+    pub group: Option<String>,
 }
 
 /// What a control drives.

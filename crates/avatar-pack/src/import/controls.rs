@@ -173,6 +173,6 @@ impl Table {
 
     fn push(&mut self, name: String, drives: Drive, min: f32, max: f32, default: f32) {
         let pace = Pace::named(&name, &drives);
-        self.controls.push(Control { name, drives, min, max, default, pace });
+        self.controls.push(Control { name, drives, min, max, default, pace, group: None });
     }
 }

@@ -77,8 +77,14 @@ impl Wanted {
                 }
             }
             let names = wanted.driven.names.clone();
-            wanted.sliders =
-                Some(Sliders { names, of_shapes, drivers, expressions, of_controls: Vec::new() });
+            wanted.sliders = Some(Sliders {
+                names,
+                of_shapes,
+                drivers,
+                expressions,
+                of_controls: Vec::new(),
+                mixing: Vec::new(),
+            });
         }
         Ok(wanted)
     }

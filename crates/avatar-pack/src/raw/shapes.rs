@@ -12,6 +12,8 @@ pub(super) struct Places<'a> {
     pub(super) list: FurtherShapes,
     /// By the names that further shapes have in the avatar their positions in the list.
     further: HashMap<&'a str, usize>,
+    /// Names of the mixtures, which keep them.
+    mixtures: HashSet<&'a str>,
 }
 
 /// A place of a shape.
@@ -31,7 +33,8 @@ impl<'a> Places<'a> {
         if let Some(list) = pack.further_shapes() {
             let further = list.shapes.iter().zip(0..).map(|(shape, place)| (shape.name.as_str(), place));
             let further = further.collect();
-            return Self { names: FACE_SHAPES.map(Some), list: list.clone(), further };
+            let mixtures = list.mixtures.iter().map(|mixture| mixture.name.as_str()).collect();
+            return Self { names: FACE_SHAPES.map(Some), list: list.clone(), further, mixtures };
         }
         let mut moving = moving(pack);
         let mut names = [None; FACE_SHAPES.len()];
@@ -50,7 +53,7 @@ impl<'a> Places<'a> {
         }
         let further = moving.iter().zip(0..).map(|(name, place)| (*name, place)).collect();
         let list = FurtherShapes { shapes: further_shapes(pack, &moving), mixtures: Vec::new() };
-        Self { names, list, further }
+        Self { names, list, further, mixtures: HashSet::new() }
     }
 
     /// The place of the shape of this name. The format's own names are always there.
@@ -71,10 +74,7 @@ impl<'a> Places<'a> {
         match self.place(shape) {
             Some(Place::Skin(place)) => FACE_SHAPES.get(place).copied(),
             Some(Place::Further(place)) => self.list.shapes.get(place).map(|shape| shape.name.as_str()),
-            None => {
-                let mixture = self.list.mixtures.iter().find(|mixture| mixture.name == shape)?;
-                Some(mixture.name.as_str())
-            }
+            None => self.mixtures.get(shape).copied(),
         }
     }
 }

@@ -1,11 +1,11 @@
-//! How further shapes hang on controls: more controls, couplings for mixtures, and rules for weights.
+//! How further shapes hang on controls: more controls, what mixtures move, and rules for weights.
 
 use super::{FurtherShapes, ShapeWeight};
 use crate::{ControlSlider, Expressions, Sliders};
 use avatar_mesh::FACE_SHAPES;
 use avatar_mesh::drivers::{DriversError, Input, Rule, ShapeDrivers, ShapeRule};
 use pose_anim::{Control, ControlError, ControlTable, Coupling, Drive, Pace};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// What an input of a shape is.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -33,58 +33,49 @@ pub(super) fn resolve(
 }
 
 impl FurtherShapes {
-    /// These controls, and behind them one for each shape and mixture that needs one and has none. Mixtures
-    /// are couplings; where the controls already have one of the same two, theirs stays.
+    /// These controls, and behind them one for each shape and mixture that needs one and has none.
     pub(crate) fn add_controls(&self, controls: &ControlTable) -> Result<ControlTable, ControlError> {
         let own = self.shapes.iter().filter(|shape| shape.weight == ShapeWeight::Control);
-        let own = own.map(|shape| &shape.name).chain(self.mixtures.iter().map(|mixture| &mixture.name));
-        let driven = |control: &Control| match &control.drives {
-            Drive::Shape { shape } => Some(shape.clone()),
-            Drive::Joint { .. } => None,
-        };
-        let driven: HashSet<String> = controls.controls().iter().filter_map(driven).collect();
-        let mut all = controls.controls().to_vec();
-        all.extend(own.filter(|name| !driven.contains(*name)).map(|name| control(name)));
-        // The controls that drive a shape, of which the first is the one that a mixture moves.
-        let mut of_name: HashMap<&str, usize> = HashMap::new();
-        for (index, control) in all.iter().enumerate() {
-            of_name.entry(&control.name).or_insert(index);
-        }
-        for (index, control) in all.iter().enumerate() {
-            if let Drive::Shape { shape } = &control.drives {
+        let mixtures = self.mixtures.iter().map(|mixture| (&mixture.name, &mixture.group));
+        let own = own.map(|shape| (&shape.name, &shape.group)).chain(mixtures);
+        let driven: HashSet<&str> = controls.controls().iter().filter_map(driven_shape).collect();
+        let new = own.filter(|(name, _)| !driven.contains(name.as_str()));
+        let all = controls.controls().iter().cloned().chain(new.map(|(name, group)| control(name, group)));
+        ControlTable::with_couplings(all.collect(), controls.couplings().to_vec())
+    }
+
+    /// What each mixture moves, as pairs of controls; mixtures of mixtures are multiplied out.
+    fn mixing(&self, controls: &ControlTable) -> Vec<Coupling> {
+        // By their names, and by the shape that they drive: the first of several.
+        let with_places = || controls.controls().iter().zip(0..);
+        let mut of_name: HashMap<&str, usize> =
+            with_places().map(|(control, index)| (control.name.as_str(), index)).collect();
+        for (control, index) in with_places() {
+            if let Some(shape) = driven_shape(control) {
                 of_name.entry(shape).or_insert(index);
             }
         }
-        let mut couplings = controls.couplings().to_vec();
-        let mut known: HashSet<(usize, usize)> = couplings.iter().map(|one| (one.from, one.to)).collect();
+        let mut mixing = Vec::new();
         let mut flat: HashMap<&str, Vec<(usize, f32)>> = HashMap::new();
         for mixture in &self.mixtures {
-            let mut ways: Vec<(usize, f32)> = Vec::new();
-            let mut places: HashMap<usize, usize> = HashMap::new();
+            let mut ways: BTreeMap<usize, f32> = BTreeMap::new();
             for (target, way) in &mixture.of {
-                let single;
-                let (targets, factor) = match flat.get(target.as_str()) {
-                    Some(earlier) => (&earlier[..], *way),
-                    None => {
-                        single = of_name.get(target.as_str()).map(|index| (*index, *way));
-                        (single.as_slice(), 1.0)
+                match flat.get(target.as_str()) {
+                    Some(earlier) => {
+                        earlier.iter().for_each(|(to, part)| *ways.entry(*to).or_default() += way * part);
                     }
-                };
-                for (index, way) in targets {
-                    let place = *places.entry(*index).or_insert(ways.len());
-                    match ways.get_mut(place) {
-                        Some((_, sum)) => *sum += factor * way,
-                        None => ways.push((*index, factor * way)),
-                    }
+                    None => of_name
+                        .get(target.as_str())
+                        .into_iter()
+                        .for_each(|to| *ways.entry(*to).or_default() += way),
                 }
             }
             if let Some(&from) = of_name.get(mixture.name.as_str()) {
-                let new = ways.iter().filter(|(to, _)| known.insert((from, *to)));
-                couplings.extend(new.map(|&(to, factor)| Coupling { from, to, factor }));
+                mixing.extend(ways.iter().map(|(&to, &factor)| Coupling { from, to, factor }));
             }
-            flat.insert(&mixture.name, ways);
+            flat.insert(&mixture.name, ways.into_iter().collect());
         }
-        ControlTable::with_couplings(all, couplings)
+        mixing
     }
 
     /// What moves a pack's shapes of these names: the format's two, these ones, once for each part that has
@@ -128,15 +119,24 @@ impl FurtherShapes {
         let Wires { names, of_controls, .. } = wires;
         let sliders: Vec<String> = (0..names.len()).map(slider_key).collect();
         let drivers = ShapeDrivers::new(&sliders, &keys, &rules)?;
-        Ok(Sliders { names, of_shapes, drivers, expressions: Expressions::default(), of_controls })
+        let mixing = self.mixing(controls);
+        Ok(Sliders { names, of_shapes, drivers, expressions: Expressions::default(), of_controls, mixing })
+    }
+}
+
+/// The shape that a control drives.
+fn driven_shape(control: &Control) -> Option<&str> {
+    match &control.drives {
+        Drive::Shape { shape } => Some(shape),
+        Drive::Joint { .. } => None,
     }
 }
 
 /// The control of a shape or mixture that `controls.toml` does not have.
-fn control(name: &str) -> Control {
+fn control(name: &str, group: &Option<String>) -> Control {
     let drives = Drive::Shape { shape: name.to_owned() };
     let pace = Pace::named(name, &drives);
-    Control { name: name.to_owned(), drives, min: 0.0, max: 1.0, default: 0.0, pace }
+    Control { name: name.to_owned(), drives, min: 0.0, max: 1.0, default: 0.0, pace, group: group.clone() }
 }
 
 /// Names may come more than once, keys do not.

@@ -53,7 +53,8 @@ pub enum ShapeWeight {
     Product(Vec<String>),
 }
 
-/// A control that moves others: a sound of speech, or the name that other programs have for a movement.
+/// A control that moves others: a sound of speech, or the name that other programs have for a movement. It
+/// acts after the couplings ([`crate::Sliders::mix`]), so that it does so wherever its value comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mixture {
     /// Name, unlike those of all shapes and other mixtures.
@@ -83,15 +84,5 @@ impl Side {
             Self::Left => "left",
             Self::Right => "right",
         }
-    }
-}
-
-impl FurtherShapes {
-    /// The heading of a control by its name, where these shapes or mixtures say one.
-    pub fn group(&self, control: &str) -> Option<&str> {
-        let shapes = self.shapes.iter().map(|shape| (&shape.name, &shape.group));
-        let mixtures = self.mixtures.iter().map(|mixture| (&mixture.name, &mixture.group));
-        let (_, group) = shapes.chain(mixtures).find(|(name, _)| *name == control)?;
-        group.as_deref()
     }
 }

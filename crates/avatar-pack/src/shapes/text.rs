@@ -3,9 +3,9 @@
 use super::controls::{Resolved, resolve};
 use super::{FurtherShape, FurtherShapes, Mixture, ShapeWeight, Side};
 use avatar_mesh::{FACE_PARTS, FACE_SHAPES};
-use placed_toml::{Document, Entry, Table, TomlError, quote};
+use placed_toml::{Document, Entry, LARGEST, Table, TomlError, quote};
 use pose_anim::{ControlTable, Drive};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 const INPUT: &str = "a shape with a control of its own, or a control of a joint or shape";
 const AT: &str = "a number up to 1e9 that is not 0";
@@ -38,7 +38,6 @@ impl FurtherShapes {
         for table in mixtures {
             let mixture = reader.mixture(table)?;
             reader.later.remove(&mixture.name);
-            reader.movable.insert(mixture.name.clone());
             read.mixtures.push(mixture);
         }
         Ok(read)
@@ -58,21 +57,37 @@ struct Reader<'c> {
     /// Shapes that have a control of their own.
     own: HashSet<String>,
     /// Shapes with a control of their own, and mixtures so far.
-    movable: HashSet<String>,
+    movable: HashMap<String, Moves>,
     /// Mixtures that are still to come.
     later: HashSet<String>,
     /// Where shapes of an input stand alone.
     alone: HashSet<(Resolved, u32)>,
     /// How many names lists have had.
     listed: usize,
+    /// How many controls all mixtures so far move, each counted by itself.
+    moved: usize,
+}
+
+/// What a shape or mixture moves.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moves {
+    /// How far in all, at its value 1.
+    way: f64,
+    /// How many controls, at most.
+    controls: usize,
+}
+
+impl Moves {
+    /// Of a single control.
+    const ITSELF: Self = Self { way: 1.0, controls: 1 };
 }
 
 impl<'c> Reader<'c> {
     fn new(controls: &'c ControlTable) -> Self {
         let own: HashSet<String> = FACE_SHAPES.into_iter().map(str::to_owned).collect();
         let alone = own.iter().map(|name| (Resolved::Slider(name.clone()), 1.0f32.to_bits())).collect();
-        let movable = own.clone();
-        Self { controls, names: own.clone(), own, movable, later: HashSet::new(), alone, listed: 0 }
+        let movable = own.iter().map(|name| (name.clone(), Moves::ITSELF)).collect();
+        Self { controls, names: own.clone(), own, movable, later: HashSet::new(), alone, listed: 0, moved: 0 }
     }
 
     /// Reads a shape; what it takes its weight from is left to be checked.
@@ -115,7 +130,7 @@ impl<'c> Reader<'c> {
             }
             (None, None) => {
                 self.own.insert(name.clone());
-                self.movable.insert(name.clone());
+                self.movable.insert(name.clone(), Moves::ITSELF);
                 self.alone.insert((Resolved::Slider(name.clone()), 1.0f32.to_bits()));
                 ShapeWeight::Control
             }
@@ -134,12 +149,12 @@ impl<'c> Reader<'c> {
         table.finish(&["name", "group", "side", "of"])?;
         let entries = of.table()?;
         self.count(&of, entries.entries().len())?;
-        let mut parts = Vec::new();
+        let (mut parts, mut all) = (Vec::new(), Moves::default());
         for entry in entries.rest() {
             let target = entry.name();
-            let is_known = self.movable.contains(target) || self.controls.index(target).is_some();
+            let is_known = self.movable.contains_key(target) || self.controls.index(target).is_some();
             if self.later.contains(target) || !is_known {
-                let known = self.controls.names().chain(self.movable.iter().map(String::as_str));
+                let known = self.controls.names().chain(self.movable.keys().map(String::as_str));
                 let known = sorted(known.filter(|other| !self.later.contains(*other)));
                 return Err(entry.unknown_name(
                     target,
@@ -147,8 +162,22 @@ impl<'c> Reader<'c> {
                     known,
                 ));
             }
-            parts.push((target.to_owned(), entry.number("a finite number up to 1e9")?));
+            let way = entry.number("a finite number up to 1e9")?;
+            let moves = self.movable.get(target).copied().unwrap_or(Moves::ITSELF);
+            all.way += f64::from(way).abs() * moves.way;
+            all.controls = all.controls.saturating_add(moves.controls);
+            parts.push((target.to_owned(), way));
         }
+        // Mixtures of mixtures multiply; a coupling of controls takes no more.
+        if all.way > LARGEST {
+            return Err(of.error("moves of at most 1e9 in all", format!("{:e}", all.way)));
+        }
+        self.moved = self.moved.saturating_add(all.controls);
+        if self.moved > MOST_NAMES {
+            let expected = format!("mixtures that move at most {MOST_NAMES} controls in all");
+            return Err(of.error(expected, "mixtures of mixtures that move more"));
+        }
+        self.movable.insert(name.clone(), all);
         Ok(Mixture { name, group, side, of: parts })
     }
 

@@ -90,8 +90,9 @@ fn shapes_and_mixtures_are_controls_behind_those_of_the_face() {
     assert_eq!(names, ["browInnerUp", "tongueOut", "eyeBlinkLeft", "oh", "loud"]);
     let plain = Pack::load(&golden()).expect("a pack");
     assert_eq!(pack.controls().controls()[..15], plain.controls().controls()[..]);
+    let groups: Vec<_> = pack.controls().controls().iter().skip(15).map(|one| one.group.as_deref()).collect();
+    assert_eq!(groups, [Some("brows"), Some("tongue"), Some("eyes"), None, None]);
     let list = pack.further_shapes().expect("a list");
-    assert_eq!(list.group("eyeBlinkLeft"), Some("eyes"));
     assert_eq!(list.mixtures[0].side, Some(Side::Left));
     assert_eq!(list.shapes[2].weight, ShapeWeight::Follows { input: "browInnerUp".to_owned(), at: 0.5 });
     let skin = pack.part("skin").expect("a skin");
@@ -126,6 +127,11 @@ fn a_mixture_is_as_good_as_its_controls() {
     let half = [("lid.left.upper", 22.5), ("lid.left.lower", 12.5)];
     assert_eq!(posed(&[("eyeBlinkLeft", 0.5)]), posed(&half));
     assert_eq!(posed(&[("loud", 0.5)]), posed(&[("jaw.open", 4.5), ("browInnerUp", 0.5)]));
+    // Set by itself, behind the couplings, as `--set` does.
+    let mut state = FaceState::new(&pack);
+    let blink = pack.controls().index("eyeBlinkLeft").expect("a control");
+    state.pose_with(&pack, &pack.controls().defaults(), |set| set[blink] = 1.0, &[]).expect("a pose");
+    assert_eq!(state.bones(), posed(&lids).0);
     // Closed lids close no further.
     assert_eq!(posed(&[lids[0], lids[1], ("eyeBlinkLeft", 1.0)]), posed(&lids));
 }
@@ -232,6 +238,10 @@ fn mistakes_are_told_with_their_places() {
             r#"line 3, column 8: mixture.of.n: expected a control, a shape or an earlier mixture"#,
         ),
         (
+            "[[mixture]]\nname = 'm'\nof = { smile = 1e9 }\n[[mixture]]\nname = 'n'\nof = { m = 2 }\n",
+            "line 6, column 6: mixture.of: expected moves of at most 1e9 in all, found 2e9",
+        ),
+        (
             "[[mixture]]\nname = 'm'\nof = { smile = nan }\n",
             "mixture.of.smile: expected a finite number up to 1e9, found nan",
         ),
@@ -252,6 +262,21 @@ fn mistakes_are_told_with_their_places() {
     let text =
         r#"shapes.raw: byte 4, shape "browInnerUp": expected 28 more bytes for its moved vertices, found 4"#;
     assert_eq!(cut, text);
+}
+
+/// Multiplied out, each of these moves all controls of the face.
+#[test]
+fn mixtures_of_mixtures_do_not_grow_without_bounds() {
+    let mut text = String::new();
+    let controls = ControlTable::default_face();
+    let first: Vec<_> = controls.names().map(|name| format!("{name:?} = 1")).collect();
+    text += &format!("[[mixture]]\nname = 'm0'\nof = {{ {} }}\n", first.join(", "));
+    for number in 1..6000 {
+        text += &format!("[[mixture]]\nname = 'm{number}'\nof = {{ m{} = 1 }}\n", number - 1);
+    }
+    let error = FurtherShapes::from_toml(&text, &controls).expect_err("too much").to_string();
+    let expected = "mixture.of: expected mixtures that move at most 65536 controls in all, found ";
+    assert!(error.contains(expected), "{error}");
 }
 
 #[test]

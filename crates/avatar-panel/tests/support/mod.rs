@@ -206,6 +206,7 @@ pub(crate) fn many(count: usize) -> ControlTable {
         max: 1.0,
         default: 0.0,
         pace: Pace::SHAPE,
+        group: None,
     };
     ControlTable::new((0..count).map(control).collect()).unwrap()
 }

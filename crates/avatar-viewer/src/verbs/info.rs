@@ -10,6 +10,9 @@ use std::fmt::Write;
 struct Report<'a> {
     parts: Vec<PartReport<'a>>,
     joints: Vec<String>,
+    /// Shapes beside the two of the raw format.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    further_shapes: Vec<String>,
     controls: Vec<ControlReport>,
     poses: Vec<PoseReport>,
     clips: Vec<ClipReport>,
@@ -36,6 +39,8 @@ struct ControlReport {
     min: f32,
     max: f32,
     default: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    group: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -132,6 +137,7 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
         min: control.min,
         max: control.max,
         default: control.default,
+        group: control.group.clone(),
     });
     let poses = pack.poses().iter().map(|pose| PoseReport { name: pose.name.clone(), key: pose.key.clone() });
     let clips = pack.motion().into_iter().flat_map(|motion| {
@@ -142,10 +148,12 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
     let of_controls = pack.clips().clips.iter();
     let of_controls =
         of_controls.map(|clip| ClipReport { seconds: clip.duration_secs() as f32, name: clip.name.clone() });
+    let further = pack.further_shapes().into_iter().flat_map(|list| &list.shapes);
     let warnings = pack.warnings().iter().chain(&textures.warnings);
     Report {
         parts: parts.collect(),
         joints: pack.rig().names().to_vec(),
+        further_shapes: further.map(|shape| shape.name.clone()).collect(),
         controls: controls.collect(),
         poses: poses.collect(),
         clips: clips.chain(of_controls).collect(),
@@ -175,11 +183,15 @@ fn text(report: &Report<'_>) -> String {
         );
     }
     let _ = writeln!(out, "\njoints: {}", report.joints.join(", "));
+    if !report.further_shapes.is_empty() {
+        let _ = writeln!(out, "\nfurther shapes: {}", report.further_shapes.join(", "));
+    }
     let wide = width("control", report.controls.iter().map(|control| control.name.as_str()));
     let _ = writeln!(out, "\n{:<wide$}     min     max  default", "control");
     for control in &report.controls {
         let (min, max, default) = (control.min, control.max, control.default);
-        let _ = writeln!(out, "{:<wide$} {min:>7} {max:>7} {default:>8}", control.name);
+        let group = control.group.as_ref().map(|group| format!("  {group}")).unwrap_or_default();
+        let _ = writeln!(out, "{:<wide$} {min:>7} {max:>7} {default:>8}{group}", control.name);
     }
     let wide = width("pose", report.poses.iter().map(|pose| pose.name.as_str()));
     let _ = writeln!(out, "\n{:<wide$} key", "pose");

@@ -24,6 +24,7 @@ mod places;
 mod record;
 #[cfg(unix)]
 mod safety;
+mod shapes;
 mod snapshots;
 mod stage;
 mod words;

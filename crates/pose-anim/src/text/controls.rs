@@ -88,8 +88,9 @@ fn control(mut table: Table<'_, '_>, before: &[Control]) -> Result<Control, Toml
         Some(entry) => pace(&entry)?,
         None => Pace::named(name, &drives),
     };
-    table.finish(&["name", "joint", "axis", "kind", "shape", "min", "max", "default", "seconds"])?;
-    Ok(Control { name: name.to_owned(), drives, min, max, default, pace })
+    let group = table.take("group").map(|entry| Ok(entry.string("a heading")?.to_owned())).transpose()?;
+    table.finish(&["name", "joint", "axis", "kind", "shape", "min", "max", "default", "seconds", "group"])?;
+    Ok(Control { name: name.to_owned(), drives, min, max, default, pace, group })
 }
 
 fn drive(table: &mut Table<'_, '_>) -> Result<Drive, TomlError> {

@@ -136,7 +136,7 @@ fn gap(out: &mut String) {
 
 fn write_control(out: &mut String, control: &Control) {
     gap(out);
-    let Control { name, drives, min, max, default, pace } = control;
+    let Control { name, drives, min, max, default, pace, group } = control;
     let _ = writeln!(out, "[[control]]\nname = {}", string(name));
     match drives {
         Drive::Joint { joint, axis, kind } => {
@@ -157,6 +157,9 @@ fn write_control(out: &mut String, control: &Control) {
     }
     if *pace != Pace::named(name, drives) {
         let _ = writeln!(out, "seconds = [{:?}, {:?}]", pace.shortest_secs, pace.longest_secs);
+    }
+    if let Some(group) = group {
+        let _ = writeln!(out, "group = {}", string(group));
     }
 }
 

@@ -36,14 +36,14 @@ fn controls() {
         ("shape = \"S\"\nmin = 2", "line 1, column 1: control.max: expected a number that is not less than min = 2, found none".into()),
         ("shape = \"S\"\ndefault = 2", "line 4, column 11: control.default: expected a number from 0 to 1, found 2".into()),
         ("shape = \"S\"\nmin = 0.5", "line 1, column 1: control.default: expected a number from 0.5 to 1, found none (which means 0)".into()),
-        ("shape = \"S\"\nmaximum = 1", "line 4, column 1: control.maximum: expected one of the keys name, joint, axis, kind, shape, min, max, default, seconds, found \"maximum\"".into()),
-        ("shape = \"S\"\nmni = 1", "line 4, column 1: control.mni: expected one of the keys name, joint, axis, kind, shape, min, max, default, seconds, found \"mni\"; did you mean \"min\"?".into()),
+        ("shape = \"S\"\nmaximum = 1", "line 4, column 1: control.maximum: expected one of the keys name, joint, axis, kind, shape, min, max, default, seconds, group, found \"maximum\"".into()),
+        ("shape = \"S\"\nmni = 1", "line 4, column 1: control.mni: expected one of the keys name, joint, axis, kind, shape, min, max, default, seconds, group, found \"mni\"; did you mean \"min\"?".into()),
         ("shape = \"S\"\nseconds = 1", "line 4, column 11: control.seconds: expected an array, found 1".into()),
         ("shape = \"S\"\nseconds = [2, 1]", "line 4, column 11: control.seconds: expected [shortest, longest]: two numbers of seconds, 0.001 to 3600, in this order, found [2, 1]".into()),
         ("shape = \"S\"\n[[control]]\nname = \"a\"\nshape = \"T\"", "line 5, column 8: control.name: expected unique names, found \"a\" again".into()),
         ("shape = \"S\"\n[[coupling]]\nfrom = \"a\"\nto = \"b\"\nfactor = 1", "line 6, column 6: coupling.to: expected one of the controls a, found \"b\"".into()),
         ("shape = \"S\"\n[[coupling]]\nfrom = \"a\"\nto = \"a\"\nfactor = 1", "line 6, column 6: coupling.to: expected another control than `from`, found \"a\"".into()),
-        ("shape = \"S\"\n[control.x]\ny = 1", "line 4, column 10: control.x: expected one of the keys name, joint, axis, kind, shape, min, max, default, seconds, found \"x\"".into()),
+        ("shape = \"S\"\n[control.x]\ny = 1", "line 4, column 10: control.x: expected one of the keys name, joint, axis, kind, shape, min, max, default, seconds, group, found \"x\"".into()),
         ("shape = \"S\"\n[[poses]]", "line 4, column 3: poses: expected one of the keys control, coupling, found \"poses\"".into()),
     ];
     for (rest, expected) in rows {
