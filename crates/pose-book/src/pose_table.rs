@@ -62,13 +62,17 @@ pub(crate) fn set_values(table: &mut Table, values: &[(usize, f32)], controls: &
     let named: Vec<(&str, f32)> =
         values.iter().map(|(control, value)| (name_of(controls, *control), *value)).collect();
     retain(entries, "", &|name| named.iter().any(|(other, _)| *other == name), controls);
-    for (name, value) in named {
+    for (name, value) in &named {
         match find(entries, name) {
-            Some(item) => put(item, number(value)),
+            Some(item) => put(item, number(*value)),
             None => {
-                entries.insert(name, Item::Value(number(value)));
+                entries.insert(name, Item::Value(number(*value)));
             }
         }
+    }
+    if named.len() < controls.len() {
+        // It would say those that are to go on as they are.
+        table.remove("others");
     }
 }
 

@@ -152,6 +152,16 @@ fn the_usual_poses_keep_their_comments_and_others_get_a_text_that_says_the_same(
     assert_eq!(*book.poses(), set);
 }
 
+/// A pose that says what all others do no longer says it once it is set to some controls.
+#[test]
+fn what_is_set_are_these_controls_and_no_others() {
+    let controls = controls();
+    let mut book = PoseBook::read(DEFAULT_POSES_TOML, &controls).expect("a book");
+    book.set_values(0, &[(index("smile"), 0.5)]).expect("set");
+    assert_eq!(book.poses().poses[0].values, [(index("smile"), 0.5)]);
+    assert_eq!(book.poses().poses[1].values.len(), controls.len());
+}
+
 #[test]
 fn line_ends_of_windows_are_read() {
     let text = TEXT.replace('\n', "\r\n");

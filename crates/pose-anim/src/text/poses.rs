@@ -3,7 +3,11 @@
 use super::entries::{by_control, key, transition, value};
 use crate::{Control, ControlTable, Pose, PoseSet, Timing};
 use placed_toml::{Document, Entry, Table, TomlError, quote};
+use std::collections::HashSet;
 use std::sync::LazyLock;
+
+/// Values that `others` may add to all poses of a text: more is no set of faces.
+const MOST_OTHERS: usize = 1 << 20;
 
 const DURATION: &str = "a number of seconds from 0.001 to 3600";
 
@@ -30,7 +34,7 @@ impl PoseSet {
     }
 
     /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without
-    /// those that it lacks, and within its ranges.
+    /// those that it lacks, within its ranges, and with all that these poses do not know at their defaults.
     pub fn default_face(controls: &ControlTable) -> Self {
         let (face, poses) = &*DEFAULT_FACE;
         let mut set = poses.clone();
@@ -43,6 +47,7 @@ impl PoseSet {
                 Some((here, value.max(control.min).min(control.max)))
             });
             pose.values = values.collect();
+            rest_others(pose, controls);
             let timings = pose.timings.iter();
             let timings = timings.filter_map(|(index, timing)| Some((of_face[*index]?, *timing)));
             pose.timings = timings.collect();
@@ -55,15 +60,29 @@ fn read(source: &str, controls: &ControlTable) -> Result<PoseSet, TomlError> {
     let document = Document::parse(source)?;
     let mut root = document.root();
     let mut set = PoseSet::default();
+    let mut room = MOST_OTHERS;
     for table in root.take_tables("pose")? {
-        let pose = pose(table, controls, &set)?;
+        let pose = pose(table, controls, &set, &mut room)?;
         set.poses.push(pose);
     }
     root.finish(&["pose"])?;
     Ok(set)
 }
 
-fn pose(mut table: Table<'_, '_>, controls: &ControlTable, before: &PoseSet) -> Result<Pose, TomlError> {
+/// Adds the defaults of all controls that the pose does not say.
+fn rest_others(pose: &mut Pose, controls: &ControlTable) {
+    let said: HashSet<usize> = pose.values.iter().map(|(control, _)| *control).collect();
+    let others = controls.controls().iter().enumerate().filter(|(index, _)| !said.contains(index));
+    pose.values.extend(others.map(|(index, control)| (index, control.default)));
+}
+
+/// Reads a pose; `room` is how many values `others` may still add.
+fn pose(
+    mut table: Table<'_, '_>,
+    controls: &ControlTable,
+    before: &PoseSet,
+    room: &mut usize,
+) -> Result<Pose, TomlError> {
     let entry = table.require("name", "the name of a pose")?;
     let name = entry.string("the name of a pose")?;
     if before.get(name).is_some() {
@@ -80,13 +99,24 @@ fn pose(mut table: Table<'_, '_>, controls: &ControlTable, before: &PoseSet) -> 
     if let Some(entry) = table.take("controls") {
         by_control(&entry, "", controls, &mut pose.values, &value)?;
     }
+    if let Some(entry) = table.take("others") {
+        let word = entry.string("\"default\"")?;
+        if word != "default" {
+            return Err(entry.unknown_value(word, "only", ["default"]));
+        }
+        let more = controls.len().saturating_sub(pose.values.len());
+        *room = room.checked_sub(more).ok_or_else(|| {
+            entry.error(format!("poses that say at most {MOST_OTHERS} others in all"), "more")
+        })?;
+        rest_others(&mut pose, controls);
+    }
     if let Some(entry) = table.take("transition") {
         pose.transition = Some(transition(&entry)?);
     }
     if let Some(entry) = table.take("timing") {
         by_control(&entry, "", controls, &mut pose.timings, &timing)?;
     }
-    table.finish(&["name", "key", "duration", "transition", "controls", "timing"])?;
+    table.finish(&["name", "key", "duration", "transition", "controls", "others", "timing"])?;
     Ok(pose)
 }
 

@@ -67,5 +67,31 @@ fn a_face_with_other_controls_gets_what_it_can_show() {
     let text = "[[control]]\nname='smile'\nshape='S'\nmax=0.5\n[[control]]\nname='ears'\nshape='E'";
     let table = ControlTable::from_toml(text).unwrap();
     let set = PoseSet::default_face(&table);
-    assert_eq!(set.get("laugh").unwrap().values, [(0, 0.5)]);
+    // What the poses do not know comes to rest: a pose is a whole face.
+    assert_eq!(set.get("laugh").unwrap().values, [(0, 0.5), (1, 0.0)]);
+    let more = format!(
+        "{}\n[[control]]\nname='ears'\nshape='E'\nmin=0.25\ndefault=0.5",
+        pose_anim::DEFAULT_CONTROLS_TOML
+    );
+    let table = ControlTable::from_toml(&more).unwrap();
+    let set = PoseSet::default_face(&table);
+    assert_eq!(set, PoseSet::from_toml(DEFAULT_POSES_TOML, &table).unwrap());
+    assert_eq!(set.get("yawn").unwrap().value(15), Some(0.5));
+}
+
+#[test]
+fn others_go_on_as_they_are_unless_the_pose_says_so() {
+    let table = ControlTable::default_face();
+    let read = |others: &str| {
+        let text = format!("[[pose]]\nname = 'a'\n{others}\n[pose.controls]\nsmile = 1\n\"jaw.open\" = 3");
+        PoseSet::from_toml(&text, &table).unwrap().poses[0].values.clone()
+    };
+    let [smile, jaw] = ["smile", "jaw.open"].map(|name| table.index(name).unwrap());
+    assert_eq!(read(""), [(smile, 1.0), (jaw, 3.0)]);
+    let whole = read("others = 'default'");
+    assert_eq!(whole[..2], [(smile, 1.0), (jaw, 3.0)]);
+    let mut controls: Vec<usize> = whole.iter().map(|(control, _)| *control).collect();
+    controls.sort_unstable();
+    assert_eq!(controls, (0..15).collect::<Vec<_>>());
+    assert!(whole[2..].iter().all(|(_, value)| *value == 0.0));
 }

@@ -98,6 +98,10 @@ fn poses() {
             "line 3, column 7: pose.key: expected the name of one key, such as \"1\", \"q\" or \"F5\", found \"Ctrl+A\"",
         ),
         (
+            "name = \"a\"\nothers = \"defualt\"",
+            "line 3, column 10: pose.others: expected only default, found \"defualt\"; did you mean \"default\"?",
+        ),
+        (
             "name = \"a\"\nkey = 1",
             "line 3, column 7: pose.key: expected the name of one key, such as \"1\", \"q\" or \"F5\", found 1",
         ),
