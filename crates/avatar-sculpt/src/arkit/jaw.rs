@@ -5,7 +5,8 @@ use glam::{DMat3, DVec3};
 use super::Spot;
 use crate::{
     anatomy::JAW,
-    math::{curve, lerp, smooth},
+    math::{cos, curve, lerp, sin, smooth},
+    skin::Skin,
     surface::half::Node,
     weights,
 };
@@ -21,8 +22,14 @@ pub(super) fn share(node: &Node) -> f64 {
 /// What the fully opened jaw does to places that take a share of its motion: the turn, and where the origin
 /// goes.
 pub(super) fn opened(share: f64) -> (DMat3, DVec3) {
-    let turn = DMat3::from_rotation_x(OPEN_DEG.to_radians());
+    let (s, c) = (sin(OPEN_DEG.to_radians()), cos(OPEN_DEG.to_radians()));
+    let turn = DMat3::from_cols(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c));
     (DMat3::IDENTITY * (1.0 - share) + turn * share, (JAW - turn * JAW) * share)
+}
+
+/// [`opened`] for each vertex of the skin.
+pub(super) fn bones(skin: &Skin) -> Vec<(DMat3, DVec3)> {
+    skin.vertices.iter().map(|v| opened(share(skin.half.mover(v.source)))).collect()
 }
 
 /// How far the jaw goes forward: down by a little, too, so that the lower teeth pass below the upper ones.

@@ -38,7 +38,7 @@ pub(super) fn lower_down(spot: &Spot) -> DVec3 {
 pub(super) fn press(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
     let corner = m.corner(spot, 1.7, 1.6, 1.4, 1.6);
-    let along = m.along(&[(0.0, 0.9), (0.6, 1.0), (1.0, 0.2), (1.2, 0.0)]) * m.front;
+    let along = m.along(&[(0.0, 0.9), (0.45, 0.95), (0.8, 0.4), (1.0, 0.1), (1.3, 0.0)]) * m.front;
     let thin = curve(&[(0.0, 0.0), (0.5, 0.7), (1.0, 1.0), (1.5, 0.5), (2.0, 0.0)], m.across);
     let back = curve(&[(0.0, 0.4), (0.5, 1.0), (1.0, 0.4), (1.6, 0.0)], m.across);
     DVec3::new(0.32, 0.20, 0.02) * corner + DVec3::new(0.0, -0.22 * m.upper * thin, -0.16 * back) * along
@@ -47,7 +47,7 @@ pub(super) fn press(spot: &Spot) -> DVec3 {
 /// The upper lip is rolled inward over the teeth; the skin up to the nose is drawn down.
 pub(super) fn roll_upper(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
-    let along = m.along(&[(0.0, 1.0), (0.45, 0.95), (0.8, 0.4), (1.0, 0.1), (1.3, 0.0)]);
+    let along = m.along(&[(0.0, 1.0), (0.4, 0.85), (0.75, 0.35), (1.0, 0.06), (1.4, 0.0)]);
     let down = curve(&[(0.0, 0.12), (0.5, 0.26), (1.0, 0.44), (1.5, 0.46), (2.0, 0.36)], m.across);
     let back = curve(&[(0.0, 0.20), (0.5, 0.46), (1.0, 0.46), (1.5, 0.22), (2.0, 0.12)], m.across);
     let above = dome(((m.fade_height(spot) - 0.9).max(0.0) / 1.25).powi(2));
@@ -57,7 +57,7 @@ pub(super) fn roll_upper(spot: &Spot) -> DVec3 {
 /// The lower lip is rolled inward over the teeth; the skin below it is drawn up over them.
 pub(super) fn roll_lower(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
-    let along = m.along(&[(0.0, 1.0), (0.45, 0.95), (0.8, 0.4), (1.0, 0.1), (1.3, 0.0)]);
+    let along = m.along(&[(0.0, 1.0), (0.45, 0.95), (0.8, 0.38), (1.0, 0.06), (1.3, 0.0)]);
     let up = curve(&[(0.0, 0.12), (0.5, 0.32), (1.0, 0.48), (1.5, 0.42), (2.0, 0.30)], m.across);
     let forward = curve(&[(0.0, -0.20), (0.4, -0.22), (0.8, 0.0), (1.1, 0.16), (2.0, 0.20)], m.across);
     let below = dome(((m.fade_height(spot) + 1.0).min(0.0) / 1.3).powi(2));

@@ -10,6 +10,8 @@ mod brows;
 mod cheeks;
 mod clear;
 mod corners;
+mod evened;
+mod file;
 mod jaw;
 mod lips;
 mod mouth;
@@ -18,6 +20,7 @@ mod spot;
 
 use glam::DVec3;
 
+pub use file::{raw, toml};
 pub use jaw::FORWARD;
 pub use moved::{Moved, moved};
 pub use spot::Spot;
@@ -35,6 +38,9 @@ pub enum Kind {
     Sided(Field, f64),
     /// Two shapes, `…Left` and `…Right`, of which each moves both sides in different ways.
     Across(Field),
+    /// One shape, the same on both sides, that follows the jaw's share of the skin, which changes steeply at
+    /// the corners of the mouth.
+    WithJaw(Field),
     /// One shape, the same on both sides, that is meant for the fully opened jaw.
     OpenJaw(Field),
 }
@@ -48,8 +54,8 @@ pub const FIELDS: [(&str, Kind); 24] = [
     ("cheekSquint", Kind::Sided(cheeks::squint, 0.5)),
     ("eyeSquint", Kind::Sided(brows::eye_squint, 0.3)),
     ("eyeWide", Kind::Sided(brows::eye_wide, 0.3)),
-    ("jawForward", Kind::Both(jaw::forward)),
-    ("mouthClose", Kind::OpenJaw(mouth::close)),
+    ("jawForward", Kind::WithJaw(jaw::forward)),
+    ("mouthClose", Kind::Both(mouth::close)),
     ("mouthDimple", Kind::Sided(corners::dimple, 1.1)),
     ("mouthFrown", Kind::Sided(corners::frown, 1.0)),
     ("mouthFunnel", Kind::Both(mouth::funnel)),
@@ -66,6 +72,21 @@ pub const FIELDS: [(&str, Kind); 24] = [
     ("mouthUpperUp", Kind::Sided(lips::upper_up, 1.0)),
     ("noseSneer", Kind::Sided(cheeks::sneer, 0.8)),
 ];
+
+/// What is added where linear motion fails, by name: the field, and what its weight is ([`Weight`]).
+pub const CORRECTIVES: [(&str, Kind, Weight); 1] =
+    [("jawOpen_mouthClose", Kind::OpenJaw(mouth::close_opened), Weight::Product(["mouthClose", "jaw.open"]))];
+
+/// Where the weight of a shape comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weight {
+    /// It has a control of its own.
+    Control,
+    /// It follows a control of a bone, evenly from its default to its end.
+    Follows(&'static str),
+    /// It is the product of the values of two controls, of which that of a bone counts 1 at its end.
+    Product([&'static str; 2]),
+}
 
 /// What lids, eyes and jaw do by turning bones.
 pub const BY_BONES: [&str; 13] = [

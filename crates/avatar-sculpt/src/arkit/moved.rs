@@ -1,8 +1,8 @@
 //! From fields to offsets of vertices.
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
-use super::{FIELDS, Field, Kind, Spot, clear, jaw};
+use super::{CORRECTIVES, FIELDS, Field, Kind, Spot, Weight, clear, evened::Corners, jaw};
 use crate::{
     math::smooth,
     mesh::{self, Part},
@@ -16,6 +16,9 @@ const LEAST: f64 = 2.8e-4;
 /// Changes of normals below this length (a twentieth of a degree) are none.
 const LEAST_TURN: f64 = 1e-3;
 
+/// The stem of the skin's files.
+pub(super) const SKIN: &str = "MarsienneSkin";
+
 /// What one shape does to one part: offsets of its vertices, and changes of their normals.
 #[derive(Clone, Debug)]
 pub struct Moved {
@@ -23,6 +26,8 @@ pub struct Moved {
     pub name: String,
     /// Stem of the part's files.
     pub stem: &'static str,
+    /// Where its weight comes from.
+    pub weight: Weight,
     /// Offset of every vertex.
     pub offsets: Vec<DVec3>,
     /// Change of every normal.
@@ -35,17 +40,41 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
     let skin = &sculpture.skin;
     let whole = Whole::new(skin);
     let mut all = Vec::new();
-    for (name, kind) in FIELDS {
+    let corners = Corners::new(&whole, skin);
+    let mut opened = corners.opened(&whole, skin);
+    drop_traces(&mut opened, LEAST);
+    let mut opened_normals = whole.changes(skin, &opened, true);
+    drop_traces(&mut opened_normals, LEAST_TURN);
+    let fields = FIELDS.into_iter().map(|(name, kind)| (name, kind, Weight::Control));
+    for (name, kind, weight) in fields.chain(CORRECTIVES) {
         let sides: &[(&str, f64)] = match kind {
-            Kind::Both(_) | Kind::OpenJaw(_) => &[("", 1.0)],
+            Kind::Both(_) | Kind::WithJaw(_) | Kind::OpenJaw(_) => &[("", 1.0)],
             Kind::Sided(..) | Kind::Across(_) => &[("Left", 1.0), ("Right", -1.0)],
         };
         for (suffix, own) in sides {
-            let offsets = offsets(skin, kind, *own);
-            let normals = whole.changes(skin, &offsets, matches!(kind, Kind::OpenJaw(_)));
-            all.push(Moved { name: format!("{name}{suffix}"), stem: "MarsienneSkin", offsets, normals });
+            let mut offsets = offsets(skin, kind, *own);
+            if matches!(kind, Kind::WithJaw(_)) {
+                corners.offsets(&whole, &mut offsets);
+            }
+            let open = matches!(kind, Kind::OpenJaw(_));
+            let mut normals = whole.changes(skin, &offsets, open);
+            if open {
+                // Closed lips need no evened corners: what the jaw brings along is taken away again.
+                offsets.iter_mut().zip(&opened).for_each(|(d, corner)| *d -= *corner);
+                normals.iter_mut().zip(&opened_normals).for_each(|(n, corner)| *n -= *corner);
+            }
+            drop_traces(&mut offsets, LEAST);
+            drop_traces(&mut normals, LEAST_TURN);
+            all.push(Moved { name: format!("{name}{suffix}"), stem: SKIN, weight, offsets, normals });
         }
     }
+    all.push(Moved {
+        name: "openMouthCorners".to_owned(),
+        stem: SKIN,
+        weight: Weight::Follows("jaw.open"),
+        offsets: opened,
+        normals: opened_normals,
+    });
     for (stem, part) in sculpture.parts.iter().filter(|(stem, _)| *stem == "LowerJaw") {
         let tongue = |(p, uv): (&DVec3, &DVec2)| {
             if teeth::is_tongue(*uv) { jaw::tongue_out(*p) } else { DVec3::ZERO }
@@ -54,11 +83,17 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
         let forward = vec![jaw::FORWARD; part.positions.len()];
         for (name, offsets) in [("jawForward", forward), ("tongueOut", out)] {
             let normals = part_changes(part, &offsets);
-            all.push(Moved { name: name.to_owned(), stem, offsets, normals });
+            all.push(Moved { name: name.to_owned(), stem, weight: Weight::Control, offsets, normals });
         }
     }
-    all.sort_by(|a, b| a.name.cmp(&b.name));
+    // Shapes of their own first; the skin comes before the rigid parts.
+    all.sort_by_key(|m| (m.weight != Weight::Control, m.name.clone(), m.stem != SKIN));
     all
+}
+
+/// What is too little to be seen is none, so that shapes stay small.
+fn drop_traces(values: &mut [DVec3], least: f64) {
+    values.iter_mut().filter(|d| d.length_squared() < least * least).for_each(|d| *d = DVec3::ZERO);
 }
 
 /// Offsets of all vertices of the skin; `own` is 1 where the shape's own side is the left one, −1 for right.
@@ -74,7 +109,9 @@ fn offsets(skin: &Skin, kind: Kind, own: f64) -> Vec<DVec3> {
             // On the midline both halves must agree: a mirrored field has no way across it.
             let on_midline = |d: DVec3| if v.p.x == 0.0 { DVec3::new(0.0, d.y, d.z) } else { d };
             let d = match kind {
-                Kind::Both(field) | Kind::OpenJaw(field) => on_midline(on(field, v.source, half)),
+                Kind::Both(field) | Kind::WithJaw(field) | Kind::OpenJaw(field) => {
+                    on_midline(on(field, v.source, half))
+                }
                 Kind::Sided(field, width) => {
                     // A pull sideways is one direction on both sides, as far as it reaches across.
                     let d = on(field, v.source, half);
@@ -82,17 +119,21 @@ fn offsets(skin: &Skin, kind: Kind, own: f64) -> Vec<DVec3> {
                 }
                 Kind::Across(field) => on(field, v.source, half),
             };
-            let d = DVec3::new(d.x * half, d.y, d.z);
-            if d.length_squared() < LEAST * LEAST { DVec3::ZERO } else { d }
+            DVec3::new(d.x * half, d.y, d.z)
         })
         .collect()
 }
 
 /// The skin with its vertices joined across the seams of the picture, but not across sharp folds.
-struct Whole {
-    places: Vec<DVec3>,
-    triangles: Vec<[usize; 3]>,
-    number: Vec<usize>,
+pub(super) struct Whole {
+    /// Places of joined vertices.
+    pub(super) places: Vec<DVec3>,
+    /// Triangles between them.
+    pub(super) triangles: Vec<[usize; 3]>,
+    /// Which joined vertex each vertex of the skin is.
+    pub(super) number: Vec<usize>,
+    /// For each joined vertex the first at the same place: sharp folds have several there.
+    pub(super) same: Vec<usize>,
     rest: Vec<DVec3>,
 }
 
@@ -108,14 +149,13 @@ impl Whole {
         let triangles: Vec<[usize; 3]> =
             skin.triangles.iter().map(|t| t.map(|i| number[i as usize])).collect();
         let rest = mesh::normals(&places, &triangles);
-        Self { places, triangles, number, rest }
+        let same = mesh::weld(&places);
+        Self { places, triangles, number, same, rest }
     }
 
     /// How normals at rest change under offsets of the vertices, seen at rest or with the jaw open.
     fn changes(&self, skin: &Skin, offsets: &[DVec3], open: bool) -> Vec<DVec3> {
-        let bones: Vec<(DMat3, DVec3)> = (skin.vertices.iter())
-            .map(|v| jaw::opened(if open { jaw::share(skin.half.mover(v.source)) } else { 0.0 }))
-            .collect();
+        let bones = if open { jaw::bones(skin) } else { vec![jaw::opened(0.0); skin.vertices.len()] };
         let mut moved = self.places.clone();
         for (k, n) in self.number.iter().enumerate() {
             moved[*n] = bones[k].0 * (self.places[*n] + offsets[k]) + bones[k].1;
@@ -124,7 +164,8 @@ impl Whole {
         // Elsewhere bones alone decide.
         let mut touched = vec![false; self.places.len()];
         let mut still = vec![true; self.places.len()];
-        self.number.iter().zip(offsets).for_each(|(n, d)| still[*n] = *d == DVec3::ZERO);
+        let least = LEAST * LEAST;
+        self.number.iter().zip(offsets).for_each(|(n, d)| still[*n] = d.length_squared() < least);
         for t in self.triangles.iter().filter(|t| t.iter().any(|n| !still[*n])) {
             t.iter().for_each(|n| touched[*n] = true);
         }
@@ -135,8 +176,7 @@ impl Whole {
             }
             // The bones will turn what is added here.
             let wanted = bones[k].0.inverse() * turned[n];
-            let d = (v.normal + wanted - self.rest[n]).normalize_or_zero() - v.normal;
-            if d.length_squared() < LEAST_TURN * LEAST_TURN { DVec3::ZERO } else { d }
+            (v.normal + wanted - self.rest[n]).normalize_or_zero() - v.normal
         };
         skin.vertices.iter().enumerate().map(change).collect()
     }
@@ -148,9 +188,8 @@ fn part_changes(part: &Part, offsets: &[DVec3]) -> Vec<DVec3> {
     let triangles: Vec<[usize; 3]> = part.triangles.iter().map(|t| t.map(|i| welded[i as usize])).collect();
     let moved: Vec<DVec3> = part.positions.iter().zip(offsets).map(|(p, d)| *p + *d).collect();
     let turned = mesh::normals(&moved, &triangles);
-    let change = |(i, n): (usize, &DVec3)| {
-        let d = turned[welded[i]] - *n;
-        if d.length_squared() < LEAST_TURN * LEAST_TURN { DVec3::ZERO } else { d }
-    };
-    part.normals.iter().enumerate().map(change).collect()
+    let mut changes: Vec<DVec3> =
+        part.normals.iter().enumerate().map(|(i, n)| turned[welded[i]] - *n).collect();
+    drop_traces(&mut changes, LEAST_TURN);
+    changes
 }

@@ -10,7 +10,11 @@ mod shapes;
 mod surface;
 mod witness;
 
-use std::sync::OnceLock;
+use std::{
+    io::Write as _,
+    path::{Path, PathBuf},
+    sync::OnceLock,
+};
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -19,6 +23,20 @@ use crate::{
     pack::{self, Pack},
     sculpture::{self, Sculpture},
 };
+
+/// A folder of the data beside the workspace. Where it is missing, that is said on the terminal, or is a
+/// failure under `MIMIK_REQUIRE_DATA=1`.
+pub(super) fn shared(name: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data").join(name);
+    if path.is_dir() {
+        return Some(path);
+    }
+    let required = std::env::var_os("MIMIK_REQUIRE_DATA").is_some_and(|value| value == "1");
+    assert!(!required, "expected data in {} (MIMIK_REQUIRE_DATA=1), found none", path.display());
+    // Past the harness, which keeps the output of tests that pass to itself.
+    let _ = writeln!(std::io::stderr(), "SKIPPED: {} is not there", path.display());
+    None
+}
 
 /// A part as read back from its files.
 pub(super) struct Mesh {

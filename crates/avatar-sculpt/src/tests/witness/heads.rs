@@ -115,9 +115,11 @@ impl Ours {
             return d;
         }
         let mut known = false;
-        for moved in self.moved.iter().filter(|m| m.name == name) {
+        // The target closes the lips of an open jaw: what ours does there comes with it.
+        let with = if name == "mouthClose" { "jawOpen_mouthClose" } else { name };
+        for moved in self.moved.iter().filter(|m| m.name == name || m.name == with) {
             let start = self.starts[moved.stem];
-            d[start..start + moved.offsets.len()].copy_from_slice(&moved.offsets);
+            d[start..].iter_mut().zip(&moved.offsets).for_each(|(d, more)| *d += *more);
             known = true;
         }
         assert!(known, "no shape {name}");

@@ -1,24 +1,26 @@
-//! Single shapes and mixtures of the 52: no triangle flips, lids stay off the eyes, lips off the teeth.
+//! The face under a mixture of shapes, and what is wrong with it.
 
 use std::{collections::BTreeMap, sync::OnceLock};
 
 use glam::{DMat3, DVec3};
 
-use super::{eye, mesh, sculpture, skin};
+use super::super::{eye, hit, mesh, sculpture, skin};
 use crate::{
     anatomy::{EYE_REACH, JAW},
-    arkit, layout,
+    arkit::{self, Weight},
+    layout,
     mesh::{normals, weld},
     parts::teeth,
 };
 
 /// Weights by the names of the 52 shapes.
-type Weights = BTreeMap<String, f64>;
+pub(super) type Weights = BTreeMap<String, f64>;
 
 /// The face that mixtures are made of.
-struct Face {
-    moved: BTreeMap<String, Vec<(usize, DVec3)>>,
-    triangles: Vec<[usize; 3]>,
+pub(super) struct Face {
+    /// Name, weight and moved vertices of every shape.
+    pub(super) moved: Vec<(String, Weight, Vec<(usize, DVec3)>)>,
+    pub(super) triangles: Vec<[usize; 3]>,
     /// Triangles of the skin around each eye, left first.
     lids: [Vec<[usize; 3]>; 2],
     /// Vertices near the mouth, inside and outside.
@@ -34,7 +36,7 @@ struct Piece {
     high: DVec3,
 }
 
-fn face() -> &'static Face {
+pub(super) fn face() -> &'static Face {
     static FACE: OnceLock<Face> = OnceLock::new();
     FACE.get_or_init(|| {
         let m = skin();
@@ -56,7 +58,7 @@ fn face() -> &'static Face {
         };
         let near_mouth = |i: &usize| m.p[*i].z > 0.0 && m.p[*i].y < -3.0 && m.p[*i].y > -9.0;
         Face {
-            moved: moved.map(|s| (s.name.clone(), sparse(&s.offsets))).collect(),
+            moved: moved.map(|s| (s.name.clone(), s.weight, sparse(&s.offsets))).collect(),
             triangles: m.triangles.iter().map(|t| t.map(|i| joined[i])).collect(),
             lids: [around(1.0), around(-1.0)],
             lips: (0..m.p.len()).filter(near_mouth).collect(),
@@ -104,24 +106,26 @@ impl Piece {
         }
         // An odd number of crossings; the direction is none of the mesh's own.
         let ray = DVec3::new(0.123, 0.317, 0.94);
-        self.triangles.iter().filter(|t| super::hit(p, ray, **t).is_some()).count() % 2 == 1
+        self.triangles.iter().filter(|t| hit(p, ray, **t).is_some()).count() % 2 == 1
     }
 }
 
 /// What is wrong with a face.
 #[derive(Debug, Default)]
-struct Faults {
-    flipped: usize,
-    flipped_inside: usize,
+pub(super) struct Faults {
+    pub(super) flipped: usize,
+    pub(super) flipped_inside: usize,
     /// Least distance of the lids from an eye's centre.
-    lids: f64,
+    pub(super) lids: f64,
     /// Vertices of the skin inside a tooth or a gum.
-    in_teeth: usize,
-    place: DVec3,
+    pub(super) in_teeth: usize,
+    pub(super) place: DVec3,
+    pub(super) flips: Vec<usize>,
+    pub(super) touching: Vec<usize>,
 }
 
 impl Faults {
-    fn clean(&self) -> bool {
+    pub(super) fn clean(&self) -> bool {
         self.flipped == 0 && self.in_teeth == 0 && self.lids > EYE_REACH
     }
 }
@@ -137,11 +141,16 @@ fn deformed(face: &Face, weights: &Weights) -> Vec<DVec3> {
     let m = skin();
     let w = |name: &str| weights.get(name).copied().unwrap_or(0.0);
     let mut p = m.p.clone();
-    for (name, weight) in weights {
-        // Lips are closed by as much as the jaw has parted them.
-        let weight = if name == "mouthClose" { weight * w("jawOpen") } else { *weight };
-        for (i, d) in face.moved.get(name).into_iter().flatten() {
-            p[*i] += *d * weight;
+    // Controls by the names that bones have in ARKit.
+    let control = |name: &str| if name == "jaw.open" { w("jawOpen") } else { w(name) };
+    for (name, weight, moved) in &face.moved {
+        let weight = match weight {
+            Weight::Control => w(name),
+            Weight::Follows(input) => control(input),
+            Weight::Product([a, b]) => control(a) * control(b),
+        };
+        if weight != 0.0 {
+            moved.iter().for_each(|(i, d)| p[*i] += *d * weight);
         }
     }
     let about_x = |degrees: f64| DMat3::from_rotation_x(degrees.to_radians());
@@ -176,16 +185,17 @@ fn deformed(face: &Face, weights: &Weights) -> Vec<DVec3> {
         .collect()
 }
 
-fn faults(face: &Face, weights: &Weights) -> Faults {
+pub(super) fn faults(face: &Face, weights: &Weights) -> Faults {
     let m = skin();
     let p = deformed(face, weights);
     let mut found = Faults { lids: f64::INFINITY, ..Faults::default() };
     let n = normals(&p, &face.triangles);
-    for t in &face.triangles {
+    for (number, t) in face.triangles.iter().enumerate() {
         let cross = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]);
         if cross.dot(n[t[0]] + n[t[1]] + n[t[2]]) <= 0.0 {
             if m.uv[t[0]].y < layout::STRIP_TOP || m.uv[t[1]].y < layout::STRIP_TOP {
                 found.flipped += 1;
+                found.flips.push(number);
                 found.place = m.p[t[0]];
             } else {
                 found.flipped_inside += 1;
@@ -205,6 +215,7 @@ fn faults(face: &Face, weights: &Weights) -> Faults {
             || face.rows[1].iter().any(|piece| piece.contains(below));
         if inside {
             found.in_teeth += 1;
+            found.touching.push(i);
             found.place = m.p[i];
         }
     }
@@ -213,7 +224,7 @@ fn faults(face: &Face, weights: &Weights) -> Faults {
 
 /// Distance from a point to a triangle that it sees from within a convex neighbourhood: to its plane where
 /// the foot lies inside, else to its nearest edge.
-fn distance(from: DVec3, t: [DVec3; 3]) -> f64 {
+pub(super) fn distance(from: DVec3, t: [DVec3; 3]) -> f64 {
     let n = (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero();
     let height = (t[0] - from).dot(n);
     let foot = from + n * height;
@@ -229,66 +240,8 @@ fn distance(from: DVec3, t: [DVec3; 3]) -> f64 {
     edge(0).min(edge(1)).min(edge(2))
 }
 
-fn names() -> Vec<String> {
+pub(super) fn names() -> Vec<String> {
     let bones = arkit::BY_BONES.map(str::to_owned);
-    face().moved.keys().cloned().chain(bones).chain(["tongueOut".to_owned()]).collect()
-}
-
-/// Shapes of fields, one at a time.
-#[test]
-fn a_shape_alone_flips_nothing_and_keeps_off_eyes_and_teeth() {
-    let face = face();
-    assert!(faults(face, &Weights::new()).clean());
-    for name in names().into_iter().filter(|n| !arkit::BY_BONES.contains(&n.as_str())) {
-        for weight in [0.5, 1.0] {
-            let found = faults(face, &[(name.clone(), weight)].into());
-            assert!(found.clean(), "{name} {weight}: {found:?}");
-        }
-    }
-}
-
-#[test]
-fn the_test_finds_faults() {
-    // Far too much of shapes: lips go through teeth, lids come to the eye or fold.
-    let face = face();
-    let rolled = faults(face, &[("mouthRollUpper".to_owned(), 4.0)].into());
-    assert!(rolled.in_teeth > 0 && rolled.flipped > 0, "{rolled:?}");
-    let pressed = distance(
-        DVec3::ZERO,
-        [DVec3::new(-1.0, -1.0, 0.5), DVec3::new(2.0, -1.0, 0.5), DVec3::new(0.0, 2.0, 0.5)],
-    );
-    assert!((pressed - 0.5).abs() < 1e-12, "{pressed}");
-}
-
-#[test]
-fn left_and_right_mirror_each_other() {
-    let m = skin();
-    let vertices = &sculpture().skin.vertices;
-    // The right half's triangles come after the left half's, in the same order and turned around.
-    let half = m.triangles.len() / 2;
-    let mut twin: Vec<usize> = (0..m.p.len()).collect();
-    for (l, r) in sculpture().skin.triangles[..half].iter().zip(&sculpture().skin.triangles[half..]) {
-        for (a, b) in [(0, 0), (1, 2), (2, 1)] {
-            twin[l[a] as usize] = r[b] as usize;
-            twin[r[b] as usize] = l[a] as usize;
-        }
-    }
-    let flip = |d: DVec3| DVec3::new(-d.x, d.y, d.z);
-    assert!((0..twin.len()).all(|i| vertices[i].p.distance(flip(vertices[twin[i]].p)) < 1e-6));
-    let all = arkit::moved(sculpture());
-    let find = |name: &str| all.iter().find(|s| s.name == name && s.stem == "MarsienneSkin").unwrap();
-    for shape in all.iter().filter(|s| s.stem == "MarsienneSkin") {
-        let other = if let Some(stem) = shape.name.strip_suffix("Left") {
-            find(&format!("{stem}Right"))
-        } else if let Some(stem) = shape.name.strip_suffix("Right") {
-            find(&format!("{stem}Left"))
-        } else {
-            shape
-        };
-        for (i, &k) in twin.iter().enumerate() {
-            let off = shape.offsets[i].distance(flip(other.offsets[k]));
-            let turned = shape.normals[i].distance(flip(other.normals[k]));
-            assert!(off < 1e-4 && turned < 1e-4, "{}: {off} {turned} at {}", shape.name, m.p[i]);
-        }
-    }
+    let own = face().moved.iter().filter(|m| m.1 == Weight::Control).map(|m| m.0.clone());
+    own.chain(bones).chain(["tongueOut".to_owned()]).collect()
 }
