@@ -7,6 +7,7 @@ use avatar_mesh::{
 };
 
 use crate::{
+    arkit,
     bake::{self, Scene},
     paint::{self, Complexion, Detail},
     raw, rig,
@@ -44,6 +45,9 @@ pub fn geometry(sculpture: &Sculpture) -> Result<Pack> {
     for (stem, part) in &sculpture.parts {
         add(stem, &raw::part(part));
     }
+    let shapes = arkit::moved(sculpture);
+    files.push(("shapes.toml".to_owned(), arkit::toml(&shapes).into_bytes()));
+    files.push(("shapes.raw".to_owned(), arkit::raw(&shapes)));
     Ok(Pack { files })
 }
 

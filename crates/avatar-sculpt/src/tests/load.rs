@@ -4,10 +4,20 @@ use avatar_pack::{FaceState, MemorySource, Pack};
 use glam::DVec3;
 
 use super::{geometry, hit, mesh, sculpture};
+use crate::arkit;
 
 fn loaded() -> Pack {
     let files = geometry().files.iter().cloned().collect();
     Pack::load(&MemorySource { files }).unwrap()
+}
+
+/// The 52 names.
+fn arkit_names() -> Vec<String> {
+    let shapes = arkit::moved(sculpture()).into_iter().filter(|m| m.weight == arkit::Weight::Control);
+    let mut names: Vec<String> = shapes.map(|m| m.name).collect();
+    names.dedup();
+    names.extend(arkit::BY_BONES.map(str::to_owned));
+    names
 }
 
 /// Values of all controls, with some set.
@@ -23,10 +33,8 @@ fn values(pack: &Pack, set: &[(&str, f32)]) -> Vec<f32> {
 fn posed(pack: &Pack, set: &[(&str, f32)]) -> Vec<DVec3> {
     let mut face = FaceState::new(pack);
     face.pose(pack, &values(pack, set)).unwrap();
-    let skin = &pack.part("skin").unwrap().mesh;
-    let mut out = skin.deformed();
-    avatar_mesh::deform(skin, face.bones(), face.weights(), &mut out).unwrap();
-    out.positions.iter().map(|p| p.as_dvec3()).collect()
+    let skin = pack.parts().iter().position(|part| part.name == "skin").unwrap();
+    face.deform(pack, skin).unwrap().positions.iter().map(|p| p.as_dvec3()).collect()
 }
 
 #[test]
@@ -34,6 +42,71 @@ fn the_pack_loads_without_a_warning() {
     let pack = loaded();
     assert!(pack.warnings().is_empty(), "{:?}", pack.warnings());
     assert_eq!(pack.rig().len(), 9);
+}
+
+/// The sounds of speech, by the names of Oculus.
+const SOUNDS: [&str; 15] =
+    ["sil", "PP", "FF", "TH", "DD", "kk", "CH", "SS", "nn", "RR", "aa", "E", "I", "O", "U"];
+
+#[test]
+fn all_names_of_arkit_and_the_sounds_of_speech_are_controls() {
+    let pack = loaded();
+    let mut names = arkit_names();
+    assert_eq!(names.len(), 52);
+    let rest = posed(&pack, &[]);
+    names.extend(SOUNDS.map(|sound| format!("viseme_{sound}")));
+    for name in names {
+        let index = pack.controls().index(&name).unwrap_or_else(|| panic!("no control {name}"));
+        let control = &pack.controls().controls()[index];
+        assert_eq!((control.min, control.max, control.default), (0.0, 1.0, 0.0), "{name}");
+        assert!(pack.further_shapes().unwrap().group(&name).is_some(), "{name} has no group");
+        // Of the skin each moves something, but eyes that look aside and the tongue; silence and lips that are
+        // closed already move by a trace.
+        let apart = ["eyeLookIn", "eyeLookOut", "tongueOut"].iter().any(|start| name.starts_with(start));
+        let least = if name == "viseme_sil" || name == "mouthClose" { 0.005 } else { 0.1 };
+        let moved = posed(&pack, &[(&name, 1.0)]);
+        let most = moved.iter().zip(&rest).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
+        assert!(apart || most > least, "{name} moves the skin by {most}");
+    }
+}
+
+#[test]
+fn what_bones_do_turns_bones() {
+    let pack = loaded();
+    let same = |name: &str, controls: &[(&str, f32)]| {
+        let (by_name, by_bones) = (posed(&pack, &[(name, 1.0)]), posed(&pack, controls));
+        for (p, q) in by_name.iter().zip(&by_bones) {
+            assert!(p.distance(*q) < 1e-5, "{name}: {p} and {q}");
+        }
+        assert!(by_bones.iter().zip(&posed(&pack, &[])).any(|(p, q)| p.distance(*q) > 0.1), "{name}");
+    };
+    same("eyeBlinkLeft", &[("lid.left.upper", 45.0), ("lid.left.lower", 25.0)]);
+    same("eyeBlinkRight", &[("lid.right.upper", 45.0), ("lid.right.lower", 25.0)]);
+    same("jawOpen", &[("jaw.open", 20.0)]);
+    same("jawLeft", &[("jaw.jut", 8.0)]);
+    same("jawRight", &[("jaw.jut", -8.0)]);
+    same("eyeLookDownLeft", &[("eye.left.ud", -25.0)]);
+}
+
+#[test]
+fn lips_that_are_closed_over_an_open_jaw_meet() {
+    let pack = loaded();
+    let skin = &sculpture().skin;
+    // The rows that touch at rest, from the midline nearly to the corner.
+    let row = &skin.loops.mouth;
+    let vertex = |node: usize| {
+        (0..skin.vertices.len()).find(|&i| skin.vertices[i].source == node && skin.vertices[i].p.x >= 0.0)
+    };
+    let pairs: Vec<(usize, usize)> = (0..row.len() / 2 - 3)
+        .map(|k| (vertex(row[k]).unwrap(), vertex(row[row.len() - 1 - k]).unwrap()))
+        .collect();
+    let gap = |set: &[(&str, f32)]| {
+        let p = posed(&pack, set);
+        pairs.iter().map(|(up, low)| p[*up].distance(p[*low])).fold(0.0, f64::max)
+    };
+    let (open, closed) = (gap(&[("jawOpen", 1.0)]), gap(&[("jawOpen", 1.0), ("mouthClose", 1.0)]));
+    let half = gap(&[("jawOpen", 0.5), ("mouthClose", 1.0)]);
+    assert!(open > 2.0 && closed < 0.1 && half < 0.25, "open {open}, closed {closed}, half {half}");
 }
 
 #[test]
