@@ -195,6 +195,32 @@ impl Style {
     /// Brows and lashes only.
     pub const BALD: Self = Self { scalp: RegionStyle { density: 0.0, ..Self::STRAND }, ..Self::SHORT };
 
+    /// Colours of hair by name, linear: [`Style::colored`].
+    pub const COLORS: [(&str, [f32; 3]); 8] = [
+        ("black", [0.012, 0.010, 0.009]),
+        ("dark-brown", [0.055, 0.028, 0.016]),
+        ("brown", [0.11, 0.052, 0.026]),
+        ("light-brown", [0.22, 0.115, 0.055]),
+        ("blond", [0.50, 0.33, 0.155]),
+        ("red", [0.32, 0.075, 0.022]),
+        ("gray", [0.30, 0.295, 0.29]),
+        ("white", [0.72, 0.70, 0.66]),
+    ];
+
+    /// This style with hair of this colour: tips have it, roots are darker, and so are brows. Lashes stay.
+    pub fn colored(self, color: [f32; 3]) -> Self {
+        // Pale hair is less transparent for its own colour: its roots differ less.
+        let light = color[0].max(color[1]).max(color[2]).min(1.0);
+        let root = color.map(|channel| channel * (0.32 + 0.4 * light));
+        let brow = color.map(|channel| channel * (0.75 - 0.25 * light));
+        let over = |style: RegionStyle, root_color, tip_color| RegionStyle { root_color, tip_color, ..style };
+        Self {
+            scalp: over(self.scalp, root, color),
+            brows: over(self.brows, root.map(|channel| channel * 0.8), brow),
+            ..self
+        }
+    }
+
     /// The preset of this name.
     pub fn preset(name: &str) -> Option<Self> {
         Self::PRESETS.into_iter().find(|(other, _)| *other == name).map(|(_, style)| style)

@@ -18,6 +18,7 @@
 mod standard;
 mod material;
 mod materials;
+mod colors;
 
 mod environment;
 mod light;
@@ -29,10 +30,11 @@ mod reflections;
 mod scatter;
 pub mod tone;
 
+pub use colors::{Colors, linear_from_hex};
 pub use environment::{Environment, PANEL_CORE, PANEL_COUNT, Panel};
 pub use irradiance::irradiance_at;
 pub use light::{Lamp, Light, LightPreset, ToneMap};
-pub use material::{Iris, Material};
+pub use material::{Iris, Material, Tone};
 pub use materials::Materials;
 /// Why a text about looks could not be read, and where.
 pub use placed_toml::TomlError as LookError;

@@ -41,12 +41,33 @@ pub struct Material {
     /// Share of the ambient light that is left at the back of the part: mouths and eye sockets are dark
     /// inside.
     pub back_light: f32,
+    /// The tone of skin; read for skins only.
+    pub tone: Tone,
     /// Iris and pupil; read for eyeballs only.
     pub iris: Iris,
     /// What a file of an interchange format says of the surface; `None` for parts of faces as packs have
     /// them, whose textures lie over the material's own colour. No key of `materials.toml`.
     pub standard: Option<Standard>,
 }
+
+/// Which tone a skin has, and which one its texture is painted in. Where both are equal the texture is shown
+/// as it is. Colours are linear, those of bare skin that is neither blushed nor marked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tone {
+    /// What is shown instead of `painted`. Lips and the inside of the mouth, which are redder than skin,
+    /// follow less; what is not red at all, such as cloth, not at all.
+    pub color: [f32; 3],
+    /// The tone of bare skin in the texture.
+    pub painted: [f32; 3],
+}
+
+impl Tone {
+    /// Fair skin, as it is.
+    pub const DEFAULT: Self = Self { color: FAIR, painted: FAIR };
+}
+
+/// Linear colour of fair skin.
+const FAIR: [f32; 3] = [0.60, 0.36, 0.26];
 
 /// What makes an eye of a ball. The iris lies behind the cornea, in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +86,10 @@ pub struct Iris {
     pub limbal_width: f32,
     /// Darkness of that ring, 0 (none) to 1 (black).
     pub limbal_darkness: f32,
+    /// Linear colour of the iris on the whole, shown instead of `painted_color`.
+    pub color: [f32; 3],
+    /// The same in the texture. Where both are equal the texture is shown as it is.
+    pub painted_color: [f32; 3],
 }
 
 impl Iris {
@@ -78,6 +103,8 @@ impl Iris {
         radius: 0.8,
         limbal_width: 0.18,
         limbal_darkness: 0.6,
+        color: [0.15, 0.15, 0.13],
+        painted_color: [0.15, 0.15, 0.13],
     };
 }
 
@@ -102,6 +129,7 @@ impl Material {
             wetness: 0.0,
             film_roughness: 0.15,
             back_light: 1.0,
+            tone: Tone::DEFAULT,
             iris: Iris::DEFAULT,
             standard: None,
         };
@@ -109,7 +137,7 @@ impl Material {
             // Reflectance: E. d'Eon and D. Luebke, "Advanced Techniques for Realistic Real-Time Skin
             // Rendering", 2007.
             PartKind::Skin => Self {
-                color: [0.60, 0.36, 0.26],
+                color: FAIR,
                 reflectance: 0.028,
                 roughness_matte: 0.65,
                 roughness_glossy: 0.35,

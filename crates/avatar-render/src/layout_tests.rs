@@ -146,7 +146,10 @@ fn layouts() -> Vec<Layout> {
             pupil,
             painted_pupil,
             limbal_width,
-            limbal_darkness
+            limbal_darkness,
+            color,
+            uv_radius,
+            painted_color
         ),
         layout!(
             "Material",
@@ -183,6 +186,8 @@ fn layouts() -> Vec<Layout> {
             shading_shift,
             shading_toony,
             shadow_cutoff,
+            tone,
+            bare_green,
             iris
         ),
     ]

@@ -61,5 +61,5 @@ pub use performer::{Performer, PerformerError};
 /// The crate that moves controls.
 pub use pose_anim;
 pub use screen::{Screen, ScreenError};
-pub use upload::{UploadError, set_groom, set_hair, set_materials, upload, upload_with_hair};
+pub use upload::{UploadError, set_colors, set_groom, set_hair, set_materials, upload, upload_with_hair};
 pub use view::{BACKGROUND, Framing, NamedView, SAMPLES, View, portrait};

@@ -1,4 +1,4 @@
-use avatar_look::Alpha;
+use avatar_look::{Alpha, Colors};
 use avatar_pack::{Pack, PartImages, Textures};
 use avatar_render::avatar_groom::{Groom, Hair};
 use avatar_render::avatar_mesh::PartKind;
@@ -182,8 +182,21 @@ pub fn set_groom(
 /// # Errors
 /// A model with fewer parts than the pack has.
 pub fn set_materials(queue: &wgpu::Queue, pack: &Pack, model: &AvatarModel) -> Result<(), UploadError> {
-    for index in 0..pack.parts().len() {
-        model.set_material(queue, index, &pack.material(index))?;
+    set_colors(queue, pack, model, &Colors::default())
+}
+
+/// Gives the parts the materials that the pack has now, in these colours.
+///
+/// # Errors
+/// A model with fewer parts than the pack has.
+pub fn set_colors(
+    queue: &wgpu::Queue,
+    pack: &Pack,
+    model: &AvatarModel,
+    colors: &Colors,
+) -> Result<(), UploadError> {
+    for (index, part) in pack.parts().iter().enumerate() {
+        model.set_material(queue, index, &colors.over(part.kind, pack.material(index)))?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use crate::numbers::seed;
 use avatar_groom::{Hair, Style};
+use avatar_look::linear_from_hex;
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
@@ -16,6 +17,16 @@ pub(crate) struct HairArgs {
     /// Which random numbers [default: the pack's hair.toml, else 1]
     #[arg(long, value_parser = seed, allow_hyphen_values = true, value_name = "NUMBER")]
     hair_seed: Option<u64>,
+    /// Colour of scalp hair and brows: black, dark-brown, brown, light-brown, blond, red, gray, white or #RRGGBB
+    /// [default: the style's]
+    #[arg(long, value_parser = color, value_name = "COLOR")]
+    hair_color: Option<[f32; 3]>,
+}
+
+fn color(text: &str) -> Result<[f32; 3], String> {
+    let named = Style::COLORS.into_iter().find(|(name, _)| *name == text).map(|(_, color)| color);
+    let names = || Style::COLORS.map(|(name, _)| name).join(", ");
+    named.or_else(|| linear_from_hex(text)).ok_or_else(|| format!("expected {} or #RRGGBB", names()))
 }
 
 /// A place in [`Style::PRESETS`], or off; in the order in which the window goes through them.
@@ -65,7 +76,8 @@ impl HairName {
 }
 
 impl HairArgs {
-    pub(crate) const OFF: Self = Self { hair: Some(HairName::Off), hair_density: None, hair_seed: None };
+    pub(crate) const OFF: Self =
+        Self { hair: Some(HairName::Off), hair_density: None, hair_seed: None, hair_color: None };
 
     /// The hair, if there is to be some. A preset takes the place of the pack's whole style, tables included;
     /// number and seed stay the pack's unless they are given themselves.
@@ -78,6 +90,9 @@ impl HairArgs {
         }
         hair.density = self.hair_density.unwrap_or(hair.density);
         hair.seed = self.hair_seed.unwrap_or(hair.seed);
+        if let Some(color) = self.hair_color {
+            hair.style = hair.style.colored(color);
+        }
         Some(hair)
     }
 
@@ -107,7 +122,7 @@ impl HairArgs {
 mod tests {
     use super::*;
 
-    const NONE: HairArgs = HairArgs { hair: None, hair_density: None, hair_seed: None };
+    const NONE: HairArgs = HairArgs { hair: None, hair_density: None, hair_seed: None, hair_color: None };
 
     #[test]
     fn options_go_over_the_pack() {

@@ -1,6 +1,7 @@
 //! How the picture is to look, as the command line says it.
 
 use crate::hair_args::HairArgs;
+use avatar_look::Colors;
 use avatar_render::{HairDetail, Light, Quality, Shading, Style, ToneMap};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
@@ -22,8 +23,24 @@ pub(crate) struct LookArgs {
     /// Brighter (above 0) or darker, in stops
     #[arg(long, default_value = "0", allow_hyphen_values = true, value_parser = stops, value_name = "STOPS")]
     exposure: f32,
+    /// Tone of the skin: pale, fair, olive, tan, brown, dark or #RRGGBB [default: the pack's]
+    #[arg(long, value_parser = skin, value_name = "COLOR")]
+    skin: Option<[f32; 3]>,
+    /// Colour of the irises: brown, hazel, amber, green, blue, gray, violet or #RRGGBB [default: the pack's]
+    #[arg(long, value_parser = iris, value_name = "COLOR")]
+    iris: Option<[f32; 3]>,
     #[command(flatten)]
     pub(crate) hair: HairArgs,
+}
+
+fn skin(text: &str) -> Result<[f32; 3], String> {
+    let names = || Colors::SKINS.map(|(name, _)| name).join(", ");
+    Colors::skin(text).ok_or_else(|| format!("expected {} or #RRGGBB", names()))
+}
+
+fn iris(text: &str) -> Result<[f32; 3], String> {
+    let names = || Colors::IRISES.map(|(name, _)| name).join(", ");
+    Colors::iris(text).ok_or_else(|| format!("expected {} or #RRGGBB", names()))
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -92,6 +109,8 @@ impl Default for LookArgs {
             light: LightName::default(),
             tone_map: ToneMapName::Neutral,
             exposure: 0.0,
+            skin: None,
+            iris: None,
             hair: HairArgs::OFF,
         }
     }
@@ -101,6 +120,11 @@ impl LookArgs {
     /// The defaults, with this hair.
     pub(crate) fn with_hair(hair: HairArgs) -> Self {
         Self { hair, ..Self::default() }
+    }
+
+    /// The colours that go over those of the pack.
+    pub(crate) fn colors(&self) -> Colors {
+        Colors { skin: self.skin, iris: self.iris }
     }
 
     fn quality(&self, adapter: &wgpu::AdapterInfo) -> Quality {

@@ -9,7 +9,7 @@ use avatar_mesh::Deformed;
 use avatar_pack::{FaceState, Pack, Texture, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, RenderImageError, open_blocking};
 use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
-use avatar_stage::{View, set_groom, upload_with_hair};
+use avatar_stage::{View, set_colors, set_groom, upload_with_hair};
 use glam::Vec3;
 use image::RgbaImage;
 use std::sync::OnceLock;
@@ -102,6 +102,7 @@ impl Offscreen {
         let hair = look.hair.choose(pack.hair());
         let (device, queue) = (&gpu.device, &gpu.queue);
         let mut model = upload_with_hair(device, queue, pack, textures, None)?;
+        set_colors(queue, pack, &model, &look.colors())?;
         let groom = planted();
         set_groom(device, queue, pack, &mut model, hair.as_ref(), groom.as_ref().map(|(_, groom)| groom))?;
         let mut avatar = AvatarState::new(device, &model);

@@ -1,6 +1,7 @@
 //! What a `materials.toml` may hold, stated once for the reader and the writer.
 
 use crate::Material;
+use avatar_mesh::PartKind;
 use placed_toml::{Field, Slot};
 
 const fn one(name: &'static str, max: f32, slot: fn(&mut Material) -> &mut f32) -> Field<Material> {
@@ -32,11 +33,18 @@ pub(crate) const FIELDS: [Field<Material>; 17] = [
     one("back_light", 1.0, |m| &mut m.back_light),
 ];
 
+/// The table of [`TONE_FIELDS`]; skins only.
+const TONE: &str = "tone";
+
+/// The keys of a `tone` table.
+const TONE_FIELDS: [Field<Material>; 2] =
+    [three("color", |m| &mut m.tone.color), three("painted", |m| &mut m.tone.painted)];
+
 /// The table of [`IRIS_FIELDS`]; eyeballs only.
-pub(crate) const IRIS: &str = "iris";
+const IRIS: &str = "iris";
 
 /// The keys of an `iris` table.
-pub(crate) const IRIS_FIELDS: [Field<Material>; 7] = [
+const IRIS_FIELDS: [Field<Material>; 9] = [
     Field::one("refractive_index", 1.0, 3.0, |m| &mut m.iris.refractive_index),
     one("depth", 1.0, |m| &mut m.iris.depth),
     one("pupil", 1.0, |m| &mut m.iris.pupil),
@@ -44,12 +52,23 @@ pub(crate) const IRIS_FIELDS: [Field<Material>; 7] = [
     one("radius", 1.0, |m| &mut m.iris.radius),
     one("limbal_width", 1.0, |m| &mut m.iris.limbal_width),
     one("limbal_darkness", 1.0, |m| &mut m.iris.limbal_darkness),
+    three("color", |m| &mut m.iris.color),
+    three("painted_color", |m| &mut m.iris.painted_color),
 ];
+
+/// The table that parts of this kind have within their own, and its keys.
+pub(crate) fn own_table(kind: PartKind) -> Option<(&'static str, &'static [Field<Material>])> {
+    match kind {
+        PartKind::Skin => Some((TONE, &TONE_FIELDS)),
+        PartKind::Eyeball => Some((IRIS, &IRIS_FIELDS)),
+        PartKind::Surface | PartKind::Cornea => None,
+    }
+}
 
 /// The material with each number between the least and the largest that a file may hold; NaN becomes the
 /// least.
 pub(crate) fn in_range(mut material: Material) -> Material {
-    for field in FIELDS.iter().chain(&IRIS_FIELDS) {
+    for field in FIELDS.iter().chain(&TONE_FIELDS).chain(&IRIS_FIELDS) {
         let within = |value: &mut f32| *value = value.max(field.min).min(field.max);
         match field.slot {
             Slot::One(slot) => within(slot(&mut material)),

@@ -1,6 +1,6 @@
 //! The format of `materials.toml`.
 
-use super::fields::{FIELDS, IRIS, IRIS_FIELDS};
+use super::fields::{FIELDS, own_table};
 use super::{KINDS, kind_index};
 use crate::{LookError, Material, Materials};
 use avatar_mesh::{FACE_PARTS, PartKind};
@@ -40,14 +40,13 @@ fn kind_named(name: &str) -> Option<(usize, PartKind)> {
 }
 
 fn read_table(entry: &Entry<'_, '_>, kind: PartKind, material: &mut Material) -> Result<(), LookError> {
-    let has_iris = kind == PartKind::Eyeball;
+    let own = own_table(kind);
     // What else may stand in the table, for the error.
-    let others: &[&str] = if has_iris { &[IRIS] } else { &[] };
+    let others: Vec<&str> = own.iter().map(|(name, _)| *name).collect();
     for entry in entry.table()?.rest() {
-        if has_iris && entry.name() == IRIS {
-            read_fields(entry.table()?, &IRIS_FIELDS, material)?;
-        } else {
-            read_field(&entry, &FIELDS, others, material)?;
+        match own {
+            Some((name, fields)) if entry.name() == name => read_fields(entry.table()?, fields, material)?,
+            _ => read_field(&entry, &FIELDS, &others, material)?,
         }
     }
     Ok(())
@@ -77,7 +76,7 @@ fn write_table(out: &mut String, name: &str, kind: PartKind, material: &Material
         }
     };
     section(name.to_owned(), &FIELDS);
-    if kind == PartKind::Eyeball {
-        section(format!("{name}.{IRIS}"), &IRIS_FIELDS);
+    if let Some((own, fields)) = own_table(kind) {
+        section(format!("{name}.{own}"), fields);
     }
 }

@@ -83,11 +83,15 @@ impl EyeShape {
         if r <= 0.0 {
             return self.uv_center;
         }
+        let direction = (self.uv_from_x * from_axis.x + self.uv_from_y * from_axis.y) / r;
+        self.uv_center + direction * self.painted(r)
+    }
+
+    /// Distance in the texture from its middle, at this distance from the axis.
+    pub(crate) fn painted(&self, r: f32) -> f32 {
         let at = (r / self.profile_reach).sqrt().min(1.0) * (PROFILE_LEN - 1) as f32;
         let below = (at as usize).min(PROFILE_LEN - 2);
-        let painted =
-            self.profile[below] + (self.profile[below + 1] - self.profile[below]) * (at - below as f32);
-        self.uv_center + (self.uv_from_x * from_axis.x + self.uv_from_y * from_axis.y) / r * painted
+        self.profile[below] + (self.profile[below + 1] - self.profile[below]) * (at - below as f32)
     }
 }
 

@@ -12,6 +12,9 @@ use avatar_mesh::PartKind;
 /// for all skin: the width must not change from freckle to freckle.
 const SKIN_ALBEDO: f32 = 0.6;
 
+/// Colours that are divided by are at least this, the darkest that eight bits of sRGB tell from black.
+const LEAST_COLOR: f32 = 3e-4;
+
 /// Bit of `GpuMaterial::textures`.
 pub(crate) const COLOR_TEXTURE: u32 = 1;
 /// Bit of `GpuMaterial::textures`.
@@ -76,6 +79,10 @@ pub(crate) struct GpuIris {
     pub(crate) limbal_width: f32,
     pub(crate) limbal_darkness: f32,
     pub(crate) pad: [f32; 2],
+    pub(crate) color: [f32; 3],
+    pub(crate) uv_radius: f32,
+    pub(crate) painted_color: [f32; 3],
+    pub(crate) end: f32,
 }
 
 /// WGSL `Material`.
@@ -114,6 +121,8 @@ pub(crate) struct GpuMaterial {
     pub(crate) shading_shift: f32,
     pub(crate) shading_toony: f32,
     pub(crate) shadow_cutoff: f32,
+    pub(crate) tone: [f32; 3],
+    pub(crate) bare_green: f32,
     pub(crate) iris: GpuIris,
 }
 
@@ -153,6 +162,12 @@ impl GpuMaterial {
             Lighting::Unlit => UNLIT,
             Lighting::Cartoon(_) => CARTOON,
         };
+        let painted = material.tone.painted.map(|channel| channel.max(LEAST_COLOR));
+        let tone = match kind {
+            PartKind::Skin => std::array::from_fn(|k| material.tone.color[k].max(LEAST_COLOR) / painted[k]),
+            PartKind::Surface | PartKind::Eyeball | PartKind::Cornea => [1.0; 3],
+        };
+        let bare_green = painted[1] / painted[0];
         let from_file = if material.standard.is_some() { FROM_FILE } else { 0 };
         Self {
             color: [r, g, b],
@@ -187,6 +202,8 @@ impl GpuMaterial {
             shading_shift: cartoon.shading_shift,
             shading_toony: cartoon.shading_toony,
             shadow_cutoff,
+            tone,
+            bare_green,
             iris: eye.map_or_else(bytemuck::Zeroable::zeroed, |eye| GpuIris::new(&material.iris, eye)),
         }
     }
@@ -226,6 +243,14 @@ impl GpuIris {
             limbal_width: iris.limbal_width,
             limbal_darkness: iris.limbal_darkness,
             pad: [0.0; 2],
+            color: iris.color,
+            uv_radius: if iris.color == iris.painted_color {
+                0.0
+            } else {
+                eye.painted(iris.radius * eye.edge_radius)
+            },
+            painted_color: iris.painted_color.map(|channel| channel.max(LEAST_COLOR)),
+            end: 0.0,
         }
     }
 }

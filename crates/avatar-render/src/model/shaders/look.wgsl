@@ -20,6 +20,10 @@ struct Iris {
     painted_pupil: f32,
     limbal_width: f32,
     limbal_darkness: f32,
+    color: vec3f,
+    // Radius of the iris in the texture; 0 if its colour stays.
+    uv_radius: f32,
+    painted_color: vec3f,
 }
 
 // Lengths are in the world's units here.
@@ -64,6 +68,9 @@ struct Material {
     shading_toony: f32,
     // Below this opacity no shadow is cast.
     shadow_cutoff: f32,
+    // What the colour of bare skin is multiplied by, and its green as a share of its red in the texture.
+    tone: vec3f,
+    bare_green: f32,
     iris: Iris,
 }
 

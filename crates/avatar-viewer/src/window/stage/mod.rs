@@ -9,7 +9,7 @@ use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking, open_for_surface_blocking};
 use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, Targets};
-use avatar_stage::{Drafts, Framing, SAMPLES, View, upload_with_hair};
+use avatar_stage::{Drafts, Framing, SAMPLES, View, set_colors, upload_with_hair};
 use image::RgbaImage;
 use motion::Motion;
 use std::sync::Arc;
@@ -117,6 +117,7 @@ impl Stage {
         let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
         let hair = look.hair.choose(pack.hair());
         let model = upload_with_hair(device, &gpu.queue, pack, textures, hair.as_ref())?;
+        set_colors(&gpu.queue, pack, &model, &look.colors())?;
         let mut avatar = AvatarState::new(device, &model);
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         let style = hair.map(|hair| hair.style);
@@ -182,6 +183,7 @@ impl Stage {
     pub(super) fn set_avatar(&mut self, pack: &Pack, textures: &Textures, look: LookArgs) -> Result<()> {
         let hair = look.hair.choose(pack.hair());
         let model = upload_with_hair(&self.gpu.device, &self.gpu.queue, pack, textures, hair.as_ref())?;
+        set_colors(&self.gpu.queue, pack, &model, &look.colors())?;
         if let Some(error) = self.gpu.errors.take() {
             bail!("expected adapter {:?} to hold the avatar, found: {error}", self.gpu.info.name);
         }
@@ -287,7 +289,7 @@ impl Stage {
     /// A model with fewer parts than the pack has.
     pub(super) fn set_materials(&mut self, pack: &Pack) -> Result<()> {
         self.forget_kept();
-        Ok(avatar_stage::set_materials(&self.gpu.queue, pack, &self.model)?)
+        Ok(set_colors(&self.gpu.queue, pack, &self.model, &self.look.colors())?)
     }
 
     /// Plants this hair, or takes it away.
