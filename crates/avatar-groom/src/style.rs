@@ -201,8 +201,8 @@ impl Style {
         ("dark-brown", [0.055, 0.028, 0.016]),
         ("brown", [0.11, 0.052, 0.026]),
         ("light-brown", [0.22, 0.115, 0.055]),
-        ("blond", [0.50, 0.33, 0.155]),
-        ("red", [0.32, 0.075, 0.022]),
+        ("blond", [0.58, 0.345, 0.135]),
+        ("red", [0.27, 0.075, 0.028]),
         ("gray", [0.30, 0.295, 0.29]),
         ("white", [0.72, 0.70, 0.66]),
     ];
@@ -212,7 +212,7 @@ impl Style {
         // Pale hair is less transparent for its own colour: its roots differ less.
         let light = color[0].max(color[1]).max(color[2]).min(1.0);
         let root = color.map(|channel| channel * (0.32 + 0.4 * light));
-        let brow = color.map(|channel| channel * (0.75 - 0.25 * light));
+        let brow = color.map(|channel| channel * (0.75 - 0.35 * light));
         let over = |style: RegionStyle, root_color, tip_color| RegionStyle { root_color, tip_color, ..style };
         Self {
             scalp: over(self.scalp, root, color),

@@ -31,20 +31,20 @@ impl Colors {
     pub const IRISES: [(&str, [f32; 3]); 7] = [
         ("brown", [0.13, 0.055, 0.022]),
         ("hazel", [0.22, 0.14, 0.045]),
-        ("amber", [0.40, 0.17, 0.042]),
-        ("green", [0.13, 0.20, 0.10]),
-        ("blue", [0.13, 0.22, 0.38]),
-        ("gray", [0.24, 0.27, 0.29]),
+        ("amber", [0.31, 0.13, 0.034]),
+        ("green", [0.115, 0.165, 0.085]),
+        ("blue", [0.115, 0.19, 0.30]),
+        ("gray", [0.21, 0.235, 0.25]),
         ("violet", [0.20, 0.17, 0.34]),
     ];
 
-    /// The tone of bare skin with so much melanin: 0 (none) to 3. Light passes the melanin of the epidermis on
-    /// its way in and out, which absorbs as the wavelength to the power of −3.33 (S. Jacques, "Skin Optics",
-    /// 1998), here at 610, 545 and 480 nm; a little comes back from above it. Numbers out of range and NaN
-    /// count as the nearest one.
+    /// The tone of bare skin with so much melanin: 0 (none) to 3. Light passes the melanin of the epidermis
+    /// on its way in and out, which absorbs as the wavelength to the power of −3.33 (S. Jacques, "Skin
+    /// Optics", 1998), here at 600, 550 and 490 nm; a little comes back from above it. Numbers out of range
+    /// and NaN count as the nearest one.
     pub fn skin_with(melanin: f32) -> [f32; 3] {
         // Skin without melanin, the share that never reaches it, and absorption relative to red.
-        let (bare, above, absorption) = ([0.73, 0.445, 0.335], [0.035, 0.022, 0.016], [1.0, 1.455, 2.22]);
+        let (bare, above, absorption) = ([0.73, 0.44, 0.325], [0.038, 0.027, 0.021], [1.0, 1.336, 1.963]);
         let melanin = melanin.max(0.0).min(3.0);
         std::array::from_fn(|k| above[k] + (bare[k] - above[k]) * libm::expf(-melanin * absorption[k]))
     }

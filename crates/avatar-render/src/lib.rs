@@ -97,8 +97,8 @@ pub use avatar::state::AvatarState;
 /// The crate whose [`Groom`](avatar_groom::Groom)s [`AvatarModel::set_hair`] plants.
 pub use avatar_groom;
 pub use avatar_look::{
-    Alpha, Cartoon, Environment, Iris, Lamp, Light, Lighting, Material, Panel, SecondUvs, Standard, ToneMap,
-    Wrap, Wraps,
+    Alpha, Cartoon, Environment, Iris, Lamp, Light, Lighting, Material, Panel, SecondUvs, Standard, Tone,
+    ToneMap, Wrap, Wraps,
 };
 /// The crate whose meshes are drawn.
 pub use avatar_mesh;

@@ -17,7 +17,7 @@ pub(crate) struct HairArgs {
     /// Which random numbers [default: the pack's hair.toml, else 1]
     #[arg(long, value_parser = seed, allow_hyphen_values = true, value_name = "NUMBER")]
     hair_seed: Option<u64>,
-    /// Colour of scalp hair and brows: black, dark-brown, brown, light-brown, blond, red, gray, white or #RRGGBB
+    /// Colour of scalp and brows: black, dark-brown, brown, light-brown, blond, red, gray, white or #RRGGBB
     /// [default: the style's]
     #[arg(long, value_parser = color, value_name = "COLOR")]
     hair_color: Option<[f32; 3]>,

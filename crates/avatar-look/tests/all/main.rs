@@ -1,5 +1,6 @@
 //! Tests of avatar-look as its users see it, in one binary.
 
+mod colors;
 mod energy;
 mod environment;
 mod materials;

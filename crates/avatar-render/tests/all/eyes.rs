@@ -331,3 +331,28 @@ fn a_cornea_behind_the_skin_is_hidden_and_hides_nothing_itself() {
         assert!(closed.difference_share(&alone, 0.004) < 0.01, "{name}");
     }
 }
+
+/// An iris that is painted in one colour and shown in another looks as if it were painted in that other
+/// one; the white around it stays.
+#[test]
+fn the_iris_takes_the_color_that_it_is_to_have() {
+    let Some(_) = gpu() else { return };
+    // sRGB of textures; 188 of 255 is half of the light.
+    let linear = |value: f32| ((value + 0.055) / 1.055).powf(2.4);
+    let (gray, brown) = ([0.5, 0.5, 0.5], [0.45, 0.3, 0.2]);
+    let in_colors =
+        |inside: [f32; 3]| painting(move |at| if at.length() < IRIS_RADIUS { inside } else { [0.9; 3] });
+    let iris = Iris { color: brown.map(linear), painted_color: gray.map(linear), ..PLAIN_IRIS };
+    let recolored = eye(&in_colors(gray), iris, true);
+    let painted = eye(&in_colors(brown), PLAIN_IRIS, true);
+    for shading in [Shading::Plain, optics(true), Shading::Toon] {
+        let camera = camera(0.0);
+        let [a, b] =
+            [&recolored, &painted].map(|eye| light_of(shading, SIZE, &lit_scene(camera, room()), eye));
+        for radius in [0.0, 0.3, 0.6, 1.2, 1.5] {
+            let at = Vec3::new(radius, 0.0, FRONT_Z);
+            let error = (a.at(&camera, at) - b.at(&camera, at)).abs().max_element();
+            assert!(error < 3.0 / 255.0, "{shading:?} at {radius}: {error}");
+        }
+    }
+}

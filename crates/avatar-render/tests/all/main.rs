@@ -31,5 +31,6 @@ mod energy;
 mod terms;
 mod shadows;
 mod scattering;
+mod colors;
 mod eyes;
 mod labels;

@@ -54,6 +54,24 @@ fn options_go_over_the_file_and_the_file_over_nothing() {
 }
 
 #[test]
+fn hair_has_the_color_that_is_named() {
+    if !has_adapter() {
+        return;
+    }
+    let pack = hairy_pack();
+    let bob =
+        |color: &[&str]| draw(pack.path(), &[&["--hair", "bob", "--hair-density", "0.3"], color].concat());
+    let light = |png: &[u8]| {
+        let picture = image::load_from_memory(png).expect("a PNG").into_rgba8();
+        picture.pixels().map(|pixel| u64::from(pixel.0[0])).sum::<u64>()
+    };
+    let [black, red, white] = ["black", "red", "white"].map(|name| light(&bob(&["--hair-color", name])));
+    assert!(black < red && red < white, "{black} {red} {white}");
+    assert!(light(&bob(&["--hair-color", "#ffffff"])) > white);
+    assert!(draw(pack.path(), &["--hair-color", "white"]) == draw(pack.path(), &[]), "a colour is no hair");
+}
+
+#[test]
 fn strands_are_those_of_the_pack() {
     if !has_adapter() {
         return;

@@ -96,6 +96,13 @@ fn wrong_values_are_wrong_usage() {
             &["bright", "nan", "inf", "-inf", "10.01", "-11", ""],
             "expected a number from -10 to 10",
         ),
+        ("--skin", &["plaid", "#12345", ""], "expected pale, fair, olive, tan, brown, dark or #RRGGBB"),
+        ("--iris", &["red", "#12345g"], "expected brown, hazel, amber, green, blue, gray, violet or #RRGGBB"),
+        (
+            "--hair-color",
+            &["blonde", "123456"],
+            "expected black, dark-brown, brown, light-brown, blond, red, gray, white or #RRGGBB",
+        ),
     ];
     for (option, values, message) in cases {
         for value in values {
@@ -216,6 +223,27 @@ fn exposure_brightens_and_darkens() {
     }
     let extreme = |stops: &str| brightness(&head_in_light(pack.path(), "studio", &["--exposure", stops]));
     assert!(extreme("-10") < 3.0 && extreme("10") > 245.0);
+}
+
+/// Each option changes its own part only, and the colours that the pack has change nothing.
+#[test]
+fn skin_and_irises_take_the_colors_that_are_named() {
+    if !has_adapter() {
+        return;
+    }
+    let pack = built_in();
+    let with = |options: &[&str]| {
+        picture(pack.path(), &[&["--size", "160x120", "--quality", "plain"], options].concat())
+    };
+    let as_is = with(&[]);
+    let tone = |name: &str| {
+        brightness(&head_in_light(pack.path(), "studio", &["--quality", "plain", "--skin", name]))
+    };
+    let tones = ["pale", "fair", "olive", "tan", "brown", "dark"].map(tone);
+    assert!(tones.is_sorted_by(|light, dark| light > &(dark + 1.0)), "{tones:?}");
+    let [left, top, right, bottom] = changed(&as_is, &with(&["--iris", "blue"]), 0..80).expect("an eye");
+    assert!(right - left < 12 && bottom - top < 12, "{:?}", [left, top, right, bottom]);
+    assert!(with(&["--iris", "#6b4a2b"]) != with(&["--iris", "blue"]));
 }
 
 #[test]

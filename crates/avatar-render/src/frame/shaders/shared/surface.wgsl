@@ -72,8 +72,8 @@ fn relief_normal(position: vec3f, uv: vec2f, normal: vec3f) -> vec3f {
     return tilted(tangents, normal, tilt, height);
 }
 
-// Skin in another tone: more or less melanin above, the same blood below. Where blood lies near or there is no
-// skin above it, as on lips and in the mouth, the colour is redder than that of bare skin and changes less
+// Skin in another tone: more or less melanin above, the same blood below. Where blood lies near or there is
+// no skin above it, as on lips and in the mouth, the colour is redder than that of bare skin and changes less
 // (N. Tsumura et al., "Image-based skin color and texture analysis/synthesis by extracting hemoglobin and
 // melanin information in the skin", 2003). What is no redder than blue is no skin: cloth.
 fn toned(color: vec3f) -> vec3f {
@@ -81,7 +81,7 @@ fn toned(color: vec3f) -> vec3f {
         return color;
     }
     let red = max(color.r, 1e-4);
-    let bare = smoothstep(0.1, 0.85, color.g / (red * material.bare_green));
+    let bare = smoothstep(0.05, 0.65, color.g / (red * material.bare_green));
     let warm = smoothstep(0.05, 0.3, 1.0 - color.b / red);
     return min(color * pow(material.tone, vec3f(bare * warm)), vec3f(1.0));
 }
