@@ -92,7 +92,7 @@ pub fn lid_crease(offset_x: f64) -> f64 {
 pub fn brow(s: f64) -> (DVec2, f64) {
     let x = lerp(1.25, 5.75, s);
     let y = curve(&[(0.0, 2.22), (0.3, 2.50), (0.62, 2.84), (0.8, 2.74), (1.0, 2.22)], s);
-    (DVec2::new(x, y), curve(&[(0.0, 0.20), (0.15, 0.27), (0.6, 0.22), (1.0, 0.04)], s))
+    (DVec2::new(x, y), curve(&[(0.0, 0.26), (0.15, 0.36), (0.6, 0.30), (1.0, 0.06)], s))
 }
 
 /// How much of the jaw's motion the skin at `p` takes, before the neck is considered; `lower` says on which

@@ -3,10 +3,11 @@
 use glam::DVec2;
 
 use crate::{
+    form,
     math::curve,
     surface::{
         chart::Place,
-        half::{Half, Patch},
+        half::{Half, Node, Patch},
     },
 };
 
@@ -36,12 +37,25 @@ const LASHES: (f64, f64, f64, f64) = (0.595, 0.905, 0.035, 0.085);
 const SOCKET: (f64, f64, f64, f64) = (0.64, 0.905, 0.14, 0.085);
 const EAR: (f64, f64, f64, f64) = (0.79, 0.905, 0.20, 0.085);
 
+/// By how much the cloth lies lower in the picture than skin in its place would: between the two is room, so
+/// that none of the one's colour is drawn onto the other.
+const HEM_GAP: f64 = 0.006;
+
+/// Whether a triangle with these corners belongs to the top: a row of vertices lies on its neckline.
+#[must_use]
+pub fn is_cloth(corners: &[Node; 3]) -> bool {
+    corners.iter().all(|n| n.patch == Patch::Sheet && form::below_neckline(n.p) > -1e-3)
+}
+
 /// Texture coordinates of the three corners of a triangle of the left half.
 #[must_use]
 pub fn corners(half: &Half, triangle: &[usize; 3]) -> [DVec2; 3] {
     let nodes = triangle.map(|i| half.nodes[i]);
     match nodes.iter().find(|n| n.patch != Patch::Sheet) {
-        None => sheet(nodes.map(|n| n.place)),
+        None => {
+            let below = if is_cloth(&nodes) { HEM_GAP } else { 0.0 };
+            sheet(nodes.map(|n| n.place)).map(|uv| uv + DVec2::new(0.0, below))
+        }
         Some(swept) => {
             let (rect, closed) = match swept.patch {
                 Patch::Mouth => (MOUTH, false),

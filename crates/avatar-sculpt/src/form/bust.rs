@@ -2,7 +2,13 @@
 
 use glam::DVec3;
 
-use crate::sdf::{cone, ellipsoid, join};
+use crate::{
+    math::smooth,
+    sdf::{cone, ellipsoid, join},
+};
+
+/// Where the bust stands under the neck; its parts are written for an upright neck.
+const PLACE: DVec3 = DVec3::new(0.0, -0.2, -0.2);
 
 /// Above this height nothing of the bust can show.
 const TOP: f64 = -7.0;
@@ -12,7 +18,26 @@ pub(super) fn join_below(neck: f64, q: DVec3) -> f64 {
     if q.y > TOP {
         return neck;
     }
-    join(neck, distance(q), 2.4)
+    join(neck, distance(q - PLACE), 2.4)
+}
+
+/// How thick the cloth of the top is.
+const CLOTH: f64 = 0.14;
+/// How far below the neckline the cloth has its whole thickness.
+pub const HEM_EDGE: f64 = 0.13;
+
+/// How far a place lies below the neckline of the top, in head units; negative above.
+#[must_use]
+pub fn below_neckline(p: DVec3) -> f64 {
+    // A plane cut: low over the breastbone, over the shoulders beside the neck, high at the nape; in front it
+    // is rounder than a plane would be.
+    let plane = -16.35 - 0.50 * (p.z + 7.0) + 0.045 * p.x * p.x * smooth(-9.0, -2.0, p.z);
+    0.9 * (plane - p.y)
+}
+
+/// How far the cloth lies over the skin.
+pub(super) fn cloth(q: DVec3) -> f64 {
+    if q.y > TOP { 0.0 } else { CLOTH * smooth(0.0, HEM_EDGE, below_neckline(q)) }
 }
 
 fn distance(q: DVec3) -> f64 {

@@ -43,21 +43,25 @@ pub(super) fn add_eyes(d: f64, q: DVec3) -> f64 {
 pub(super) fn add_nose(d: f64, q: DVec3) -> f64 {
     let bridge = cone(q, DVec3::new(0.0, 1.5, 3.30), 0.54, DVec3::new(0.0, -1.0, 4.26), 0.42);
     let dorsum = cone(q, DVec3::new(0.0, -1.0, 4.26), 0.42, DVec3::new(0.0, -2.45, 5.13), 0.46);
-    let tip = ellipsoid_pitched(q, DVec3::new(0.0, -2.80, 5.36), DVec3::new(0.48, 0.50, 0.58), -0.30);
+    let tip = ellipsoid_pitched(q, DVec3::new(0.0, -2.92, 5.34), DVec3::new(0.54, 0.54, 0.58), -0.30);
     let x = soft_abs(q.x, 0.1);
     let w = DVec3::new(x, q.y, q.z);
-    let wing = ellipsoid_pitched(w, DVec3::new(0.72, -3.10, 4.30), DVec3::new(0.46, 0.46, 0.84), 0.25);
+    let wing = ellipsoid_pitched(w, DVec3::new(0.98, -3.08, 4.36), DVec3::new(0.48, 0.54, 0.78), 0.25);
     // From the tip to the wing: without it both would be balls of their own.
-    let lobule = cone(w, DVec3::new(0.18, -2.80, 5.32), 0.42, DVec3::new(0.66, -3.04, 4.62), 0.40);
-    let columella = cone(q, DVec3::new(0.0, -3.16, 5.22), 0.25, DVec3::new(0.0, -3.66, 4.2), 0.31);
+    let lobule = cone(w, DVec3::new(0.20, -2.84, 5.28), 0.42, DVec3::new(0.86, -2.98, 4.62), 0.38);
+    let columella = cone(q, DVec3::new(0.0, -3.24, 5.22), 0.27, DVec3::new(0.0, -3.76, 4.2), 0.31);
     let wall = cone(w, DVec3::new(0.32, 0.9, 2.95), 0.38, DVec3::new(0.36, -2.2, 4.16), 0.52);
     let ridge = join(join(join(bridge, dorsum, 0.6), wall, 0.9), join(tip, lobule, 0.5), 0.8);
     let lower = join(join(ridge, wing, 0.7), columella, 0.35);
-    let nostril = ellipsoid_pitched(w, DVec3::new(0.45, -3.70, 4.70), DVec3::new(0.23, 0.50, 0.40), -0.35);
     // Where the septum meets the lip, a rise instead of a pit.
     let spine = cone(q, DVec3::new(0.0, -3.60, 4.35), 0.26, DVec3::new(0.0, -4.2, 3.98), 0.20);
     let d = join(join(d, spine, 0.5), lower, 0.9);
-    carve(d, nostril, 0.28)
+    carve(d, nostril(w), 0.22)
+}
+
+/// Distance from the hollow of the left nostril.
+pub(super) fn nostril(q: DVec3) -> f64 {
+    ellipsoid_pitched(q, DVec3::new(0.58, -3.66, 4.72), DVec3::new(0.29, 0.54, 0.48), -0.35)
 }
 
 /// The pad of the chin.

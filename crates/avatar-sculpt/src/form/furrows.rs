@@ -39,7 +39,7 @@ fn corner(q: DVec3) -> f64 {
 
 /// The hollow under the lower lip.
 fn under_lip(q: DVec3) -> f64 {
-    0.12 * bell3(q, DVec3::new(0.0, -7.15, 4.0), DVec3::new(1.5, 0.45, 1.0))
+    0.18 * bell3(q, DVec3::new(0.0, -7.15, 4.0), DVec3::new(1.5, 0.45, 1.0))
 }
 
 /// The hollow of the temple.

@@ -14,6 +14,8 @@ mod skull;
 
 use glam::DVec3;
 
+pub use bust::{HEM_EDGE, below_neckline};
+
 use crate::sdf::join;
 
 /// Signed distance (to first order) from the skin; negative inside. Even in `x`.
@@ -30,7 +32,13 @@ pub fn distance(p: DVec3) -> f64 {
     d = features::add_nose(d, q);
     d = lips::add(d, q);
     d = join(d, features::chin(q), 0.9);
-    d + furrows::depth(q)
+    d + furrows::depth(q) - bust::cloth(q)
+}
+
+/// Distance from the hollow of a nostril; negative inside. For the left half, x ≥ 0.
+#[must_use]
+pub fn nostril(q: DVec3) -> f64 {
+    features::nostril(q)
 }
 
 /// Outward direction of the skin at `p`.

@@ -54,7 +54,7 @@ const WIDEST: [(f64, f64); 5] = [(-10.5, -0.6), (-8.0, -2.2), (-5.0, -3.6), (0.0
 pub(super) fn distance(q: DVec3) -> f64 {
     let cranium = ellipsoid(q, DVec3::new(0.0, 3.7, -5.0), DVec3::new(7.15, 8.55, 9.1));
     let crown = ellipsoid(q, DVec3::new(0.0, 4.7, -6.9), DVec3::new(6.95, 6.9, 7.2));
-    let head = join(join(cranium, crown, 1.5), face(q), 1.4);
+    let head = join(join(cranium, crown, 1.5), join(face(q), jaw_bone(q), 1.5), 1.4);
     join(head, bust::join_below(neck(q), q), 1.1)
 }
 
@@ -78,13 +78,22 @@ fn face(q: DVec3) -> f64 {
     if above > 0.0 { radial.max(0.0).hypot(above) } else { radial }
 }
 
+/// The edge of the jaw from the chin to its corner, and up to the ear: without it cheek and throat are one
+/// ball.
+fn jaw_bone(q: DVec3) -> f64 {
+    let edge = cone(q, DVec3::new(0.7, -8.4, 1.5), 0.7, DVec3::new(4.15, -6.5, -3.3), 0.8);
+    let branch = cone(q, DVec3::new(4.15, -6.5, -3.3), 0.8, DVec3::new(5.2, -2.6, -4.6), 0.8);
+    join(edge, branch, 0.8)
+}
+
 /// Neck with the muscles that run from behind the ear to the breastbone, and the start of the shoulders.
 fn neck(q: DVec3) -> f64 {
     // The column is a little deeper than wide.
     let narrow = DVec3::new(1.06, 1.0, 1.0);
-    let column = cone(q * narrow, DVec3::new(0.0, -4.0, -6.0), 3.75, DVec3::new(0.0, -17.0, -5.9), 3.55);
-    let strap = cone(q, DVec3::new(4.1, -5.2, -6.2), 0.6, DVec3::new(0.65, -15.9, -2.35), 0.5);
-    let nape = cone(q, DVec3::new(0.9, -6.5, -8.3), 1.9, DVec3::new(2.6, -16.5, -7.4), 2.3);
-    let base = ellipsoid(q, DVec3::new(0.0, -18.65, -6.0), DVec3::new(6.8, 4.0, 4.25));
+    // It leads down and back: upright, it would be a pillar under the head.
+    let column = cone(q * narrow, DVec3::new(0.0, -4.0, -5.3), 4.1, DVec3::new(0.0, -17.0, -6.3), 3.5);
+    let strap = cone(q, DVec3::new(4.4, -5.2, -6.0), 0.6, DVec3::new(0.65, -15.7, -2.55), 0.5);
+    let nape = cone(q, DVec3::new(0.9, -6.5, -8.1), 1.9, DVec3::new(2.4, -16.5, -7.6), 2.2);
+    let base = ellipsoid(q, DVec3::new(0.0, -18.4, -6.25), DVec3::new(6.8, 4.0, 4.3));
     join(join(join(column, nape, 1.8), base, 2.6), strap, 1.4)
 }

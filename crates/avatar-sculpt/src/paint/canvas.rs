@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::picture::Picture;
 use crate::{
+    layout,
     skin::Skin,
     surface::half::{Node, Patch},
 };
@@ -17,6 +18,8 @@ pub struct Site {
     pub normal: DVec3,
     /// The interpolated vertex of the left half.
     pub node: Node,
+    /// Whether it is the cloth of the top.
+    pub cloth: bool,
     /// Numbers of the left half's vertices around the place, and their shares.
     pub around: [(usize, f64); 3],
     /// Change of the place with the texture coordinates, across and down the picture.
@@ -90,6 +93,7 @@ impl<'a> Sites<'a> {
             p,
             normal: mix3(&|k| v[k].normal).normalize_or_zero(),
             node,
+            cloth: layout::is_cloth(&nodes),
             around: [(v[0].source, share[0]), (v[1].source, share[1]), (v[2].source, share[2])],
             per_uv: [(pa * b.y - pb * a.y) / area, (pb * a.x - pa * b.x) / area],
         })

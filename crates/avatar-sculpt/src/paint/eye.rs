@@ -32,6 +32,9 @@ pub const IRISES: [Iris; 4] = [
 /// Radius of the pupil as a share of the iris.
 const PUPIL: f64 = 0.37;
 
+/// From this share of the iris's radius on the ball is behind the lids, wherever it looks: 115° from its axis.
+const UNSEEN: f64 = 5.2;
+
 /// Light that the lids leave to the eyeball while it looks ahead, over the eyeball's picture.
 #[derive(Clone, Debug)]
 pub struct Shade {
@@ -83,6 +86,10 @@ pub fn picture(width: usize, iris: &Iris, shade: &Shade) -> Picture {
         let turn = atan2(-d.y, d.x);
         // The picture widens the middle; `s` is the true share of the iris's radius.
         let s = pow(r / edge, 1.0 / 0.6);
+        // The back of the ball is never seen: even, it takes no room in the file.
+        if s > UNSEEN {
+            return rgb(200, 150, 136);
+        }
         let open = shade.at(uv);
         // Not the whole depth of the shade: some of it the renderer adds for every eye.
         let dim = lerp(0.42, 1.0, smooth(0.05, 0.62, open));

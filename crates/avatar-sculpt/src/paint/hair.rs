@@ -1,6 +1,6 @@
 //! Where hair grows: the scalp with its hairline, and the brows.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::canvas::Site;
 use crate::{
@@ -57,15 +57,25 @@ pub fn brows(p: DVec3, strokes: bool) -> f64 {
     if !strokes || body <= 0.0 {
         return body;
     }
-    // Hairs lean outward: steep at the inner end, nearly along the brow at the tail.
-    let lean = lerp(0.55, 2.4, smooth(0.0, 0.6, s));
-    let across = DVec2::new(x - lean * (p.y - middle.y), p.y);
-    let column = (across.x * 24.0).floor();
-    let within = (across.x * 24.0).fract() - 0.5;
-    let chance = hash01((column + 900.0) as u64 * 2 + u64::from(p.x > 0.0));
-    let hair = smooth(0.62, 0.0, within.abs()) * (0.6 + 0.4 * chance);
-    let reach = smooth(1.2, 0.6, (off - 0.5 * (chance - 0.5)).abs());
-    body * (0.62 + 0.38 * hair) * reach
+    // Hairs lean outward: steep at the inner end, nearly along the brow at the tail. Those of the upper half
+    // lean less, so that both cross along the middle.
+    let steep = smooth(0.0, 0.6, s);
+    let lower = stroke(p, x - lerp(0.35, 2.2, steep) * (p.y - middle.y), off + 0.35, 0);
+    let upper = stroke(p, x - lerp(0.75, 3.0, steep) * (p.y - middle.y), off - 0.25, 1);
+    (body * lerp(0.34, 1.0, lower.max(upper))).min(1.0)
+}
+
+/// One of many hairs side by side: `across` runs over them, `along` is 0 at the middle of each and ±1 near
+/// its ends.
+fn stroke(p: DVec3, across: f64, along: f64, layer: u64) -> f64 {
+    const PER_UNIT: f64 = 19.0;
+    let at = across * PER_UNIT + 900.0;
+    let chance = |k: u64| hash01(((at as u64) * 4 + k) * 4 + layer * 2 + u64::from(p.x > 0.0));
+    let within = at.fract() - 0.5 + 0.3 * (chance(0) - 0.5);
+    let end = along - 0.5 * (chance(1) - 0.5);
+    smooth(0.46, 0.08, within.abs() + 0.14 * end.max(0.0))
+        * smooth(1.15, 0.7, end.abs())
+        * lerp(0.6, 1.0, chance(2))
 }
 
 /// Density of the lashes: a thin line on the outer edge of the lids, stronger above and toward the outer

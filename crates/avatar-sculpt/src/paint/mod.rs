@@ -88,7 +88,7 @@ pub fn all(
         ("SkinTex_Gloss.png".to_owned(), fine.paint(DVec3::splat(0.34), skin::gloss).png_grey()?),
         ("SkinTex_Thickness.png".to_owned(), coarse.paint(white, |s| skin::thickness(s, baked)).png_grey()?),
         ("HairMap.png".to_owned(), coarse.paint(black, hair::density_colour).png_grey()?),
-        ("TeethTex_Decal.png".to_owned(), teeth::picture(detail.other_pixels()).png()?),
+        ("TeethTex_Decal.png".to_owned(), teeth::picture(detail.other_pixels() / 2).png()?),
     ];
     let shade = eye::Shade::of(&baked.eyeball);
     for (i, iris) in eye::IRISES.iter().enumerate() {

@@ -10,6 +10,8 @@ use crate::{
 
 /// Distance between pores.
 const PORE_GRID: f64 = 0.085;
+/// Edge length of the picture that ribs of cloth must fit.
+const PIXELS: f64 = 2048.0;
 /// Half the way between two places whose difference is a slope.
 const STEP: f64 = 0.004;
 
@@ -21,10 +23,11 @@ struct Kinds {
     grooves: f64,
     stubble: f64,
     cloth: f64,
+    knit: f64,
 }
 
 fn kinds(site: &Site) -> Kinds {
-    let none = Kinds { pores: 0.0, grain: 0.0, grooves: 0.0, stubble: 0.0, cloth: 0.0 };
+    let none = Kinds { pores: 0.0, grain: 0.0, grooves: 0.0, stubble: 0.0, cloth: 0.0, knit: 0.0 };
     let node = &site.node;
     match node.patch {
         Patch::Mouth | Patch::Socket | Patch::Lash => return none,
@@ -32,8 +35,11 @@ fn kinds(site: &Site) -> Kinds {
         Patch::Sheet => {}
     }
     let q = node.p;
-    if top::below_neckline(q) > -0.1 {
-        return Kinds { cloth: 1.0, ..none };
+    if site.cloth {
+        // Where the picture is too coarse for the ribs they would turn into waves of their own.
+        let cycles = top::RIBS / (2.0 * std::f64::consts::PI * PIXELS);
+        let across = cycles * site.per_uv[0].x.abs().max(site.per_uv[1].x.abs());
+        return Kinds { cloth: 1.0, knit: smooth(0.32, 0.14, across), ..none };
     }
     let nose = bell3(q, DVec3::new(0.4, -2.8, 5.0), DVec3::new(1.1, 1.3, 1.4));
     let cheek = bell3(q, DVec3::new(2.6, -2.6, 3.2), DVec3::new(1.8, 1.5, 1.8));
@@ -50,7 +56,7 @@ fn kinds(site: &Site) -> Kinds {
         grain: (1.0 - lip) * lerp(1.0, 0.5, lid) * bald * smooth(-10.0, -4.0, q.z),
         grooves: lip * smooth(0.02, 0.25, node.lip),
         stubble,
-        cloth: 0.0,
+        ..none
     }
 }
 
@@ -83,14 +89,14 @@ fn height(kinds: Kinds, p: DVec3) -> f64 {
         // Grooves run across the lip and wander a little.
         let x = p.x + 0.10 * noise3(p * 1.7);
         let line = noise3(DVec3::new(x * 9.0, p.y * 0.9, 3.5));
-        h += 0.011 * kinds.grooves * (line - 0.5 * line * line);
+        h += 0.006 * kinds.grooves * (line - 0.5 * line * line);
     }
     if kinds.stubble > 0.0 {
         // Short hair lies down and back, in streaks.
         h += 0.02 * kinds.stubble * fbm(p * DVec3::new(9.0, 3.5, 5.0), 2);
     }
     if kinds.cloth > 0.0 {
-        h += kinds.cloth * top::height(p);
+        h += kinds.cloth * top::height(p, kinds.knit);
     }
     h
 }

@@ -6,7 +6,7 @@ use super::{Complexion, canvas::Site, hair, marks, relief, rgb, top};
 use crate::{
     anatomy::EYE,
     bake::Baked,
-    lids,
+    form, lids,
     math::{bell, bell3, fbm, hash01, lerp, pow, smooth},
     surface::half::Patch,
 };
@@ -15,9 +15,9 @@ use crate::{
 #[must_use]
 pub fn colour(site: &Site, complexion: &Complexion) -> DVec3 {
     match site.node.patch {
-        Patch::Mouth => rgb(96, 36, 40)
-            .lerp(rgb(128, 56, 56), smooth(0.1, 0.3, site.node.own.x))
-            .lerp(rgb(58, 16, 20), smooth(0.3, 0.8, site.node.own.x)),
+        Patch::Mouth => rgb(132, 56, 54)
+            .lerp(rgb(170, 84, 78), smooth(0.1, 0.3, site.node.own.x))
+            .lerp(rgb(128, 48, 46), smooth(0.4, 0.9, site.node.own.x)),
         Patch::Socket => lid_edge(site),
         Patch::Ear => ear(site),
         Patch::Lash => rgb(15, 11, 10),
@@ -37,14 +37,14 @@ fn complexion(p: DVec3) -> DVec3 {
         + 0.30 * bell3(q, DVec3::new(0.0, -8.9, 4.3), DVec3::new(1.3, 0.9, 1.5));
     // Blood lies in patches.
     let patches = 1.0 + 0.7 * fbm(p * 2.6 + DVec3::splat(3.0), 3);
-    c = c.lerp(rgb(203, 116, 101), (0.36 * blush.min(1.1) * patches).clamp(0.0, 1.0));
+    c = c.lerp(rgb(203, 116, 101), (0.29 * blush.min(1.1) * patches).clamp(0.0, 1.0));
     c = c.lerp(rgb(224, 184, 146), 0.5 * bell3(q, DVec3::new(0.0, 4.5, 4.0), DVec3::new(3.5, 2.2, 3.0)));
     let cool = 0.70 * bell3(q, DVec3::new(6.6, 1.8, -0.8), DVec3::new(1.3, 2.6, 2.6))
         + 0.30 * smooth(-9.0, -12.5, p.y)
         + 0.45 * bell3(q, DVec3::new(2.4, -6.6, 3.7), DVec3::new(1.4, 1.4, 1.4));
     c = c.lerp(rgb(176, 152, 128), 0.40 * cool.min(1.0));
     let under = bell3(q, EYE + DVec3::new(-0.5, -1.25, 1.6), DVec3::new(1.5, 0.55, 1.2));
-    c = c.lerp(rgb(164, 112, 112), 0.26 * under);
+    c = c.lerp(rgb(164, 112, 112), 0.16 * under);
     c = c.lerp(rgb(138, 140, 146), 0.13 * veins(q));
     let fine = fbm(p * 7.0, 2);
     c * (1.0 + 0.06 * mottle + 0.045 * fine) + DVec3::new(0.016, -0.005, -0.008) * fbm(p * 2.2, 2)
@@ -93,6 +93,9 @@ fn freckles(p: DVec3) -> f64 {
 /// The outer skin with everything drawn on it.
 fn sheet(site: &Site, own: &Complexion) -> DVec3 {
     let p = site.p;
+    if site.cloth {
+        return top::colour(p);
+    }
     let mut c = complexion(p) * (1.0 - 0.03 * relief::depth(site));
     c = c.lerp(rgb(150, 96, 70), 0.60 * own.freckles * freckles(p));
     c = c.lerp(rgb(112, 116, 92), 0.62 * own.marks * marks::at(p));
@@ -100,12 +103,10 @@ fn sheet(site: &Site, own: &Complexion) -> DVec3 {
     c = lips(site, c);
     c = c.lerp(rgb(62, 40, 36), 0.86 * hair::brows(p, true));
     let q = DVec3::new(p.x.abs(), p.y, p.z);
-    let nostril = bell3(q, DVec3::new(0.45, -3.50, 4.66), DVec3::new(0.25, 0.30, 0.42));
-    c = c.lerp(rgb(52, 22, 20), 0.95 * nostril.min(1.0));
+    c = c.lerp(rgb(52, 22, 20), 0.95 * smooth(0.02, -0.16, form::nostril(q)));
     // Hair cut to the skin: a shade of many dark points, not a cap.
     let shorn = hair::scalp(site) * (0.78 + 0.5 * fbm(p * DVec3::new(7.0, 4.0, 5.0), 3));
-    c = c.lerp(rgb(62, 44, 40), (0.82 * shorn).clamp(0.0, 0.9));
-    c.lerp(top::colour(p), top::at(p))
+    c.lerp(rgb(62, 44, 40), (0.82 * shorn).clamp(0.0, 0.9))
 }
 
 /// Shadow on the lids and the dark line of the lashes.
@@ -116,14 +117,16 @@ fn eyes(site: &Site, c: DVec3) -> DVec3 {
     }
     let rel = site.node.p - EYE;
     let s = lids::along(rel);
+    // Beyond the outer corner both lids are one skin again.
+    let before_end = smooth(1.08, 0.90, s);
     if site.node.lower {
         let line = smooth(0.05, 0.0, lid) * lerp(0.10, 0.55, smooth(0.1, 0.9, s));
         let shade = 0.20 * smooth(0.35, 0.05, lid) * smooth(0.2, 1.0, s);
-        return c.lerp(rgb(126, 84, 70), shade).lerp(rgb(52, 32, 30), line);
+        return c.lerp(rgb(126, 84, 70), shade * before_end).lerp(rgb(52, 32, 30), line * before_end);
     }
     let shade = 0.55 * smooth(0.62, 0.12, lid) * smooth(-0.1, 0.25, s);
     let line = smooth(lerp(0.05, 0.10, smooth(0.2, 1.0, s)), 0.01, lid) * smooth(-0.05, 0.2, s);
-    c.lerp(rgb(150, 100, 84), shade).lerp(rgb(44, 28, 26), 0.85 * line)
+    c.lerp(rgb(150, 100, 84), shade * before_end).lerp(rgb(44, 28, 26), 0.85 * line * before_end)
 }
 
 /// The edge of the lids and what lies behind it.
@@ -136,7 +139,8 @@ fn lid_edge(site: &Site) -> DVec3 {
         .lerp(rgb(40, 26, 24), dark * smooth(-0.22, -0.05, lid).max(if site.node.lower { 0.0 } else { 0.5 }));
     // The inner corner is moist and red.
     let edge = edge.lerp(rgb(206, 128, 118), 0.95 * smooth(0.15, 0.05, s));
-    edge.lerp(rgb(96, 42, 40), smooth(-0.24, -0.5, lid))
+    let deep = rgb(168, 98, 90).lerp(rgb(96, 42, 40), smooth(0.05, 0.25, s));
+    edge.lerp(deep, smooth(-0.24, -0.5, lid))
 }
 
 /// The red of the lips: fuller in the middle, deep at the line between them, soft at the border.
@@ -146,13 +150,14 @@ fn lips(site: &Site, c: DVec3) -> DVec3 {
         return c;
     }
     let p = site.p;
-    let red = rgb(182, 95, 88);
-    let light = rgb(212, 134, 120);
+    let red = rgb(184, 104, 95);
+    let light = rgb(210, 138, 122);
     let centre = if site.node.lower { bell(p.x, 1.1) * bell(lip - 0.5, 0.35) } else { 0.5 * bell(p.x, 1.3) };
     let lines = fbm(DVec3::new(p.x * 9.0, p.y * 1.5, p.z), 2);
-    let tone = red.lerp(light, 0.6 * centre) * (1.0 + 0.09 * lines) * (1.0 - 0.06 * relief::depth(site));
-    let tone = tone.lerp(rgb(92, 34, 38), 0.8 * smooth(0.13, 0.0, lip));
-    let border = smooth(1.12, 0.90, lip);
+    let tone = red.lerp(light, 0.6 * centre) * (1.0 + 0.05 * lines) * (1.0 - 0.06 * relief::depth(site));
+    let tone = tone.lerp(rgb(92, 34, 38), 0.8 * smooth(0.12, 0.0, lip));
+    // The red fades into the skin; it has no drawn edge. Toward the corners it is paler.
+    let border = smooth(1.20, 0.72, lip) * lerp(0.92, 0.7, smooth(1.1, 2.1, p.x.abs()));
     c.lerp(tone, border)
 }
 
@@ -169,8 +174,8 @@ fn ear(site: &Site) -> DVec3 {
 pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
     let open = site.mix(&baked.openness);
     let drawn = match site.node.patch {
-        // Bare darkness says less than a mouth that can be seen into.
-        Patch::Mouth => open.max(0.2),
+        // Bare darkness says less than a mouth that can be seen into; the throat stays dark.
+        Patch::Mouth => open.max(lerp(0.5, 0.2, smooth(0.58, 0.77, site.node.own.x))),
         Patch::Socket | Patch::Ear => open,
         Patch::Lash => 0.8,
         // The crease above the wing of the nose is finer than the mesh.
@@ -187,8 +192,8 @@ pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
 /// Thickness of the flesh: 0 thin, 1 thick. Neither cloth nor lashes let light through.
 #[must_use]
 pub fn thickness(site: &Site, baked: &Baked) -> DVec3 {
-    let cloth = if site.node.patch == Patch::Lash { 1.0 } else { top::at(site.p) };
-    DVec3::splat(lerp(site.mix(&baked.thickness), 1.0, cloth))
+    let opaque = site.cloth || site.node.patch == Patch::Lash;
+    DVec3::splat(if opaque { 1.0 } else { site.mix(&baked.thickness) })
 }
 
 /// Shade of the lashes on the lids' edges.
@@ -199,6 +204,9 @@ fn lash_shade(site: &Site) -> f64 {
 /// Gloss: wet or oily 1, dry 0.
 #[must_use]
 pub fn gloss(site: &Site) -> DVec3 {
+    if site.cloth {
+        return DVec3::ZERO;
+    }
     let p = site.p;
     let q = DVec3::new(p.x.abs(), p.y, p.z);
     let mut g = 0.30 + 0.05 * fbm(p * 6.0, 2);
@@ -225,5 +233,5 @@ pub fn gloss(site: &Site) -> DVec3 {
     // Cloth and short hair are rougher than any skin.
     let rough = 0.65 - 0.30 * g;
     let skin = (0.9 - rough) / 0.7 * (1.0 - hair::scalp(site).max(hair::brows(p, false)));
-    DVec3::splat(lerp(skin, 0.0, top::at(p)))
+    DVec3::splat(skin)
 }

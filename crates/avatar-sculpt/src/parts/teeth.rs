@@ -141,7 +141,7 @@ pub fn is_tongue(uv: DVec2) -> bool {
 fn tongue(part: &mut Part) {
     const ROWS: usize = 17;
     const COLUMNS: usize = 25;
-    let centre = DVec3::new(0.0, -6.42, 0.95);
+    let centre = DVec3::new(0.0, -6.15, 0.95);
     part.add_grid(ROWS, COLUMNS, |r, c| {
         let lat = PI * r as f64 / (ROWS - 1) as f64;
         let lon = if c == COLUMNS - 1 { 0.0 } else { 2.0 * PI * c as f64 / (COLUMNS - 1) as f64 };

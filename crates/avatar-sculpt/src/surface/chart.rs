@@ -181,6 +181,17 @@ pub fn flat(place: Place) -> DVec2 {
     DVec2::new(rho * across, -rho * cos(place.phi))
 }
 
+/// The place at turn `phi` that lies `below` the neckline of the top.
+#[must_use]
+pub fn neckline_place(phi: f64, below: f64) -> Place {
+    let (mut low, mut high) = (SLIDE_FROM - SLIDE_END / SLIDE_RATE, SLIDE_FROM);
+    for _ in 0..40 {
+        let mid = 0.5 * (low + high);
+        if form::below_neckline(point(Place { phi, t: mid })) < below { high = mid } else { low = mid }
+    }
+    Place { phi, t: high }
+}
+
 /// The place on the bust's lower edge at turn `phi`.
 #[must_use]
 pub fn edge_place(phi: f64, height: f64) -> Place {

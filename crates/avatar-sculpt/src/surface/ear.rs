@@ -52,7 +52,7 @@ fn knots(beta: f64, root: DVec3, front_x: f64) -> Vec<DVec3> {
     let lobe = bell(beta - 4.75, 0.55);
     let front = bell(beta - PI, 0.75);
     let groove = (1.0 - lobe) * (1.0 - 0.9 * front);
-    let lift = (0.12 + 0.90 * back + 0.25 * smooth(0.2, 1.0, sin(beta))) * (1.0 - 0.45 * lobe) + 0.10 * lobe;
+    let lift = (0.12 + 1.05 * back + 0.40 * smooth(0.2, 1.0, sin(beta))) * (1.0 - 0.45 * lobe) - 0.25 * lobe;
     let tragus = bell(beta - 3.45, 0.30);
     let at = |share: f64, height: f64| {
         let own = middle + (edge - middle) * share;

@@ -13,7 +13,8 @@ use crate::{
         BUST_EDGE_Y, EYE, MOUTH_HALF_WIDTH, MOUTH_Y, lid_margin, lower_lip, mouth_depth, mouth_line,
         upper_lip,
     },
-    math::{cos, lerp, sin, smooth},
+    form::HEM_EDGE,
+    math::{cos, curve, lerp, sin, smooth},
 };
 
 const PI: f64 = std::f64::consts::PI;
@@ -161,6 +162,27 @@ pub fn edge(half: &mut Half, loops: &mut Loops) {
         let place = chart::edge_place(PI * (i as f64 / COUNT as f64), BUST_EDGE_Y);
         let p = chart::point(place);
         loops.edge.push(half.add(Node::sheet(DVec3::new(p.x, BUST_EDGE_Y, p.z))));
+    }
+}
+
+/// Adds the neckline of the top, from the front to the back: a row on the skin, and two that rise to the cloth.
+pub fn neckline(half: &mut Half) {
+    const COUNT: usize = 62;
+    const FINE: usize = 400;
+    // Even steps along the line: where it runs over the shoulder, even turns would leave wide gaps.
+    let turn = |i: usize| PI * (i as f64 / FINE as f64);
+    let line: Vec<DVec3> = (0..=FINE).map(|i| chart::point(chart::neckline_place(turn(i), 0.0))).collect();
+    let mut run = vec![(0.0, 0.0)];
+    for (i, pair) in line.windows(2).enumerate() {
+        run.push((run[i].0 + (pair[1] - pair[0]).length(), turn(i + 1)));
+    }
+    let whole = run[FINE].0;
+    for below in [0.0, 0.5 * HEM_EDGE, HEM_EDGE] {
+        for i in 0..=COUNT {
+            let phi = curve(&run, whole * (i as f64 / COUNT as f64));
+            let place = chart::neckline_place(phi, below);
+            half.add(Node { place, ..Node::sheet(chart::point(place)) });
+        }
     }
 }
 

@@ -15,7 +15,7 @@ const PI: f64 = std::f64::consts::PI;
 #[must_use]
 pub fn spacing(p: DVec3) -> f64 {
     let face = smooth(-4.5, 1.0, p.z) * smooth(-11.5, -10.0, p.y) * smooth(7.0, 4.0, p.y);
-    let h = lerp(0.82, 0.30, face);
+    let h = lerp(0.88, 0.30, face);
     let nose = bell3(p, DVec3::new(0.5, -3.3, 5.0), DVec3::new(1.6, 1.3, 1.7));
     let bridge = bell3(p, DVec3::new(0.4, -0.8, 4.2), DVec3::new(1.3, 2.4, 1.7));
     let nose = nose.max(0.75 * bridge);
@@ -24,6 +24,9 @@ pub fn spacing(p: DVec3) -> f64 {
     let ear = bell3(p, DVec3::new(7.0, -1.5, -5.3), DVec3::new(2.0, 3.0, 2.0));
     let throat = smooth(-5.0, -8.0, p.y) * smooth(-13.0, -11.5, p.y) * smooth(-9.0, -6.5, p.z);
     let h = h.min(lerp(h, 0.31, throat));
+    // The corner of the jaw is an outline that one sees.
+    let jaw = bell3(p, DVec3::new(4.6, -7.0, -2.8), DVec3::new(1.4, 2.0, 2.2));
+    let h = h.min(lerp(h, 0.40, jaw));
     let h = lerp(h, 0.62, smooth(-11.0, -13.0, p.y));
     let below = smooth(-17.5, -20.5, p.y).max(smooth(6.5, 10.0, p.x) * smooth(-11.0, -13.0, p.y));
     let h = lerp(h, 0.86, below);

@@ -18,6 +18,7 @@ pub fn build() -> (Half, Loops) {
     rings::mouth(&mut half, &mut loops);
     rings::ear(&mut half, &mut loops);
     rings::edge(&mut half, &mut loops);
+    rings::neckline(&mut half);
     rings::crown(&mut half);
     let free = scatter::fill(&mut half, &loops);
     for _ in 0..5 {
