@@ -42,7 +42,7 @@
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and
 //! an index buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally
 //! `controls.toml`, `shapes.toml` with `shapes.raw` ([`FurtherShapes`]), `poses.toml`, `clips.toml`,
-//! `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an
+//! `identity.toml` ([`Identity`]), `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an
 //! archive, a web server or bytes in the program.
 //!
 //! ```
@@ -62,12 +62,14 @@ mod source;
 pub mod files;
 mod sliders;
 mod shapes;
+mod identity;
 mod look_rule;
 mod unique;
 mod motion;
 mod error;
 mod pack;
 mod load;
+mod person;
 mod textures;
 mod pictures;
 mod face;
@@ -86,12 +88,14 @@ pub use error::{ContentsError, PackError, PackProblem, Warning};
 pub use export::{export, portable_pictures};
 pub use face::{FaceError, FaceState};
 pub use gaze::{Gaze, gaze_values};
+pub use identity::{Axis, EyeChange, EyeRegion, Identity, LocalMap};
 pub use import::{Import, ImportFailure, ImportReport, Role, ShapeSet, leave_helpers_out};
 pub use levels::Level;
 pub use load::{load_clips, load_hair, load_materials, load_poses};
 pub use look_rule::LookRule;
 pub use motion::{MotionAt, MotionError, MotionSampler, SceneMotion};
 pub use pack::{Pack, PackContents, PaletteBone, Part};
+pub use person::IdentityError;
 pub use pick::Hit;
 pub use raw::{RawError, RawFiles, raw_files};
 pub use reach::Reach;

@@ -1,5 +1,5 @@
 use crate::look_rule::LookRule;
-use crate::{ContentsError, ControlSlider, FurtherShapes, SceneMotion, Sliders, Warning};
+use crate::{ContentsError, ControlSlider, FurtherShapes, Identity, SceneMotion, Sliders, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
 use avatar_mesh::{Bounds, Mesh, PartKind};
@@ -39,6 +39,8 @@ pub struct PackContents {
     /// What `shapes.toml` says; `None` without that file. [`Pack::load`] makes shapes, sliders and controls
     /// of it.
     pub further_shapes: Option<FurtherShapes>,
+    /// What `identity.toml` says; `None` without that file, and in a pack that is another person already.
+    pub identity: Option<Identity>,
     /// The controls: of joints, and of sliders, or shapes where there are no sliders.
     pub controls: ControlTable,
     /// The poses, as values of the controls.
@@ -162,6 +164,11 @@ impl Pack {
     /// What `shapes.toml` says about shapes and mixtures; `None` without that file.
     pub fn further_shapes(&self) -> Option<&FurtherShapes> {
         self.contents.further_shapes.as_ref()
+    }
+
+    /// The axes that make other people of the face, from `identity.toml`; `None` without that file.
+    pub fn identity(&self) -> Option<&Identity> {
+        self.contents.identity.as_ref()
     }
 
     /// The controls, from `controls.toml` or the default table.

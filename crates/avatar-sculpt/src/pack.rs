@@ -19,6 +19,9 @@ const CONTROLS: &str = include_str!("controls.toml");
 /// As are the materials.
 const MATERIALS: &str = include_str!("materials.toml");
 
+/// As are the axes that make other people of her.
+const IDENTITY: &str = include_str!("identity.toml");
+
 /// Files by name, in a fixed order.
 #[derive(Clone, Debug, Default)]
 pub struct Pack {
@@ -36,6 +39,7 @@ pub fn geometry(sculpture: &Sculpture) -> Result<Pack> {
         ("Transformations.xml".to_owned(), rig::transformations_xml()?.into_bytes()),
         ("controls.toml".to_owned(), CONTROLS.as_bytes().to_vec()),
         ("materials.toml".to_owned(), MATERIALS.as_bytes().to_vec()),
+        ("identity.toml".to_owned(), IDENTITY.as_bytes().to_vec()),
     ];
     let mut add = |stem: &str, mesh: &Mesh| {
         files.push((format!("{stem}_VB.raw"), write_vertices(mesh)));

@@ -1,5 +1,6 @@
 use crate::face_args::FaceArgs;
 use crate::hair_args::HairArgs;
+use crate::identity_args::IdentityArg;
 use crate::lod_args::LodArgs;
 use crate::look_args::LookArgs;
 use crate::numbers::{count, positive};
@@ -77,6 +78,10 @@ pub(crate) struct PackArg {
     /// sequence, animations of an MD5 mesh; may be repeated
     #[arg(long, value_name = "FILE", requires = "pack")]
     pub(crate) with: Vec<PathBuf>,
+    /// Make another person of the avatar: this axis of its identity to a value from -1 to 1 (`info` lists the
+    /// axes), or all axes as a number draws them; may be repeated, the later one counts
+    #[arg(long, value_name = "AXIS=VALUE|seed:NUMBER", allow_hyphen_values = true)]
+    pub(crate) identity: Vec<IdentityArg>,
 }
 
 #[derive(Debug, Args)]

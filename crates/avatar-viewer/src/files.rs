@@ -1,4 +1,6 @@
+use crate::cli::PackArg;
 use crate::config;
+use crate::identity_args::{self, IdentityArg};
 use crate::reading::{self, MAX_FILE_BYTES, Unread, not_a_file};
 use crate::standard;
 use crate::store::{self, Store};
@@ -14,18 +16,24 @@ use std::fmt::Display;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+/// An avatar's files, and which person is made of it.
+#[derive(Debug)]
+pub(crate) struct Files {
+    pub(crate) place: Place,
+    identity: Vec<IdentityArg>,
+}
+
 /// Where a pack comes from: a folder, or this program.
 #[derive(Debug)]
-pub(crate) enum Files {
+pub(crate) enum Place {
     BuiltIn,
     Folder(PathBuf),
     /// A file of an interchange format with the further files that belong to it, as an avatar.
     File(PathBuf, Vec<PathBuf>, Box<Import>),
 }
 
-impl Files {
-    /// The folder, if there is one of that name; without a name the built-in avatar.
-    pub(crate) fn open(pack: Option<&Path>, further: &[PathBuf]) -> Result<Self> {
+impl Place {
+    fn open(pack: Option<&Path>, further: &[PathBuf]) -> Result<Self> {
         let Some(path) = pack else { return Ok(Self::BuiltIn) };
         match std::fs::metadata(path) {
             Ok(metadata) if !metadata.is_dir() && not_a_file(&metadata).is_some() => {
@@ -58,31 +66,43 @@ impl Files {
                 .with_context(|| format!("{}: expected the folder or file of an avatar", path.display())),
         }
     }
+}
+
+impl Files {
+    /// The folder, if there is one of that name; without a name the built-in avatar.
+    pub(crate) fn open(pack: Option<&Path>, further: &[PathBuf]) -> Result<Self> {
+        Ok(Self { place: Place::open(pack, further)?, identity: Vec::new() })
+    }
+
+    /// As [`Files::open`], with what the command line says.
+    pub(crate) fn of_args(args: &PackArg) -> Result<Self> {
+        Ok(Self { identity: args.identity.clone(), ..Self::open(args.pack.as_deref(), &args.with)? })
+    }
 
     /// Where poses and clips are kept that a user makes: those of a pack in its folder, those of a file
     /// beside it, those of the built-in avatar among the user's settings.
     pub(crate) fn store(&self) -> Store {
         let paths = [store::POSES, store::CLIPS].map(|which| self.path_of(store::NAMES[which]));
-        Store::new(paths, !matches!(self, Self::BuiltIn))
+        Store::new(paths, !matches!(self.place, Place::BuiltIn))
     }
 
     fn path_of(&self, name: &str) -> Option<PathBuf> {
-        match self {
-            Self::Folder(folder) => Some(folder.join(name)),
-            Self::File(path, ..) => {
+        match &self.place {
+            Place::Folder(folder) => Some(folder.join(name)),
+            Place::File(path, ..) => {
                 let mut beside = path.file_name()?.to_owned();
                 beside.push(format!(".{name}"));
                 Some(path.with_file_name(beside))
             }
-            Self::BuiltIn => Some(config::folder()?.join("marsienne").join(name)),
+            Place::BuiltIn => Some(config::folder()?.join("marsienne").join(name)),
         }
     }
 
     /// A short name for titles.
     pub(crate) fn name(&self) -> String {
-        match self {
-            Self::BuiltIn => "marsienne".to_owned(),
-            Self::Folder(path) | Self::File(path, ..) => {
+        match &self.place {
+            Place::BuiltIn => "marsienne".to_owned(),
+            Place::Folder(path) | Place::File(path, ..) => {
                 path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
             }
         }
@@ -106,10 +126,10 @@ impl Files {
 
     /// The pack with its warnings, which are not told here.
     pub(crate) fn read_pack(&self) -> Result<Pack> {
-        let mut pack = match self {
-            Self::Folder(_) => return Ok(Pack::load(self)?),
-            Self::BuiltIn => Pack::load(self)?,
-            Self::File(.., import) => import.pack.clone(),
+        let mut pack = match &self.place {
+            Place::Folder(_) => return self.person(Pack::load(self)?),
+            Place::BuiltIn => Pack::load(self)?,
+            Place::File(.., import) => import.pack.clone(),
         };
         // Such an avatar has no folder of its own: what its user has made is elsewhere.
         let store = self.store();
@@ -121,13 +141,17 @@ impl Files {
             let clips = ClipSet::from_toml(&text, pack.controls());
             pack.set_clips(clips.map_err(|error| store.placed(store::CLIPS, &error))?)?;
         }
-        Ok(pack)
+        self.person(pack)
+    }
+
+    fn person(&self, pack: Pack) -> Result<Pack> {
+        identity_args::person(pack, &self.identity)
     }
 
     /// The poses that the avatar has where its user made none.
     pub(crate) fn usual_poses(&self, controls: &ControlTable) -> Result<PoseSet> {
-        match self {
-            Self::File(.., import) => Ok(import.pack.poses().clone()),
+        match &self.place {
+            Place::File(.., import) => Ok(import.pack.poses().clone()),
             _ => Ok(load_poses(self, controls)?),
         }
     }
@@ -136,24 +160,24 @@ impl Files {
     /// tells of it itself.
     pub(crate) fn load_pack_in_any_case(&self) -> Result<Pack> {
         self.load_pack().or_else(|error| {
-            let pack = match self {
-                Self::File(.., import) => Ok(import.pack.clone()),
+            let pack = match &self.place {
+                Place::File(.., import) => Ok(import.pack.clone()),
                 _ => Pack::load(&WithoutBooks(self)),
             };
-            match pack {
-                Ok(pack) => {
+            match pack.map(|pack| self.person(pack)) {
+                Ok(Ok(pack)) => {
                     standard::warn(format_args!("{error:#}: poses and clips of its own are left out"));
                     Ok(pack)
                 }
-                Err(_) => Err(error),
+                _ => Err(error),
             }
         })
     }
 
     /// The pictures with their warnings, which are not told here.
     pub(crate) fn read_textures(&self, wanted: &[Texture]) -> Textures {
-        match self {
-            Self::File(.., import) => import.textures.clone(),
+        match &self.place {
+            Place::File(.., import) => import.textures.clone(),
             _ => Textures::load_by(self, wanted, threads::all),
         }
     }
@@ -161,7 +185,7 @@ impl Files {
     /// The scene of a file of an interchange format, which is read again: an avatar keeps what moves of it,
     /// not its meshes and pictures as the file has them.
     pub(crate) fn read_scene(&self) -> Result<Option<Scene>> {
-        let Self::File(path, further, _) = self else { return Ok(None) };
+        let Place::File(path, further, _) = &self.place else { return Ok(None) };
         let mut scene = match read(path, further)? {
             FileScene::Vrm(model) => model.scene,
             FileScene::Other(scene) => *scene,
@@ -172,13 +196,13 @@ impl Files {
 
     /// Whether it says more than a scene can hold.
     pub(crate) fn is_vrm(&self) -> bool {
-        matches!(self, Self::File(path, ..) if Format::of_name(&path.to_string_lossy()) == Some(Format::Vrm))
+        matches!(&self.place, Place::File(path, ..) if Format::of_name(&path.to_string_lossy()) == Some(Format::Vrm))
     }
 
     /// What became of a file of an interchange format.
     pub(crate) fn report(&self) -> Option<&ImportReport> {
-        match self {
-            Self::File(.., import) => Some(&import.report),
+        match &self.place {
+            Place::File(.., import) => Some(&import.report),
             _ => None,
         }
     }
@@ -304,11 +328,11 @@ impl Source for WithoutBooks<'_> {
 
 impl Source for Files {
     fn read(&self, name: &str) -> Result<Option<Cow<'_, [u8]>>, SourceError> {
-        let folder = match self {
-            Self::BuiltIn => return DefaultFace.read(name),
+        let folder = match &self.place {
+            Place::BuiltIn => return DefaultFace.read(name),
             // A file of an interchange format holds all there is.
-            Self::File(..) => return Ok(None),
-            Self::Folder(folder) => folder,
+            Place::File(..) => return Ok(None),
+            Place::Folder(folder) => folder,
         };
         let is_text = Path::new(name).extension().is_some_and(|ending| ending == "toml");
         let read = match is_text {
@@ -323,10 +347,10 @@ impl Source for Files {
     }
 
     fn locate(&self, name: &str) -> String {
-        match self {
-            Self::BuiltIn => DefaultFace.locate(name),
-            Self::Folder(folder) => folder.join(name).display().to_string(),
-            Self::File(path, ..) => path.display().to_string(),
+        match &self.place {
+            Place::BuiltIn => DefaultFace.locate(name),
+            Place::Folder(folder) => folder.join(name).display().to_string(),
+            Place::File(path, ..) => path.display().to_string(),
         }
     }
 }

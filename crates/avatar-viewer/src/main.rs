@@ -21,6 +21,7 @@ mod reading;
 mod adapter;
 mod clips;
 mod face_args;
+mod identity_args;
 mod picture_args;
 mod cli;
 mod command_line;

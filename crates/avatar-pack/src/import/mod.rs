@@ -143,6 +143,7 @@ impl Import {
             shapes: shapes.names,
             sliders: sliders.sliders,
             further_shapes: None,
+            identity: None,
             controls,
             poses,
             clips: pose_anim::ClipSet::default(),

@@ -8,7 +8,7 @@ const SHOULDERS: f32 = 1.15;
 
 /// The box around the vertices in which any bone beside the neck's has a share; `None` where that is about
 /// the whole skin, whose box is `all`.
-pub(super) fn head(skin: &Mesh, all: Bounds) -> Option<Bounds> {
+pub(crate) fn head(skin: &Mesh, all: Bounds) -> Option<Bounds> {
     let skinning = skin.skinning.as_ref()?;
     let neck = FACE_BONES.iter().position(|bone| *bone == "NeckJoint")? as u16;
     let mut head = Bounds { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };

@@ -3,8 +3,12 @@
 mod bust;
 mod further;
 
+pub(crate) use bust::head as head_of;
+
 use crate::files;
-use crate::{ContentsError, Pack, PackContents, PackError, PackProblem, PaletteBone, Part, Source, Warning};
+use crate::{
+    ContentsError, Identity, Pack, PackContents, PackError, PackProblem, PaletteBone, Part, Source, Warning,
+};
 use avatar_groom::Hair;
 use avatar_look::Materials;
 use avatar_mesh::{FACE_BONES, FACE_PARTS, Follows, MeshError, PartKind, PartSpec, Winding, raw};
@@ -39,6 +43,7 @@ impl Pack {
             shapes: further.names,
             sliders: further.sliders,
             further_shapes: further.list,
+            identity: load_identity(source)?,
             controls,
             poses,
             clips,
@@ -187,6 +192,12 @@ pub fn load_hair(source: &impl Source) -> Result<Option<Hair>, PackError> {
     let file = files::HAIR;
     let hair = read_text(source, file)?.map(|text| Hair::from_toml(&text)).transpose();
     hair.map_err(|error| at(source, file, PackProblem::Hair(error)))
+}
+
+fn load_identity(source: &impl Source) -> Result<Option<Identity>, PackError> {
+    let file = files::IDENTITY;
+    let identity = read_text(source, file)?.map(|text| Identity::from_toml(&text)).transpose();
+    identity.map_err(|error| at(source, file, PackProblem::Toml(error)))
 }
 
 fn load_controls(source: &impl Source) -> Result<ControlTable, PackError> {

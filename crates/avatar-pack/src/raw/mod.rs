@@ -115,6 +115,9 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     if let Some(hair) = pack.hair() {
         files.push((files::HAIR.to_owned(), hair.to_toml().into_bytes()));
     }
+    if let Some(identity) = pack.identity() {
+        files.push((files::IDENTITY.to_owned(), identity.to_toml().into_bytes()));
+    }
     further(shapes.list, &meshes.further, &mut files);
     for (spec, mesh) in FACE_PARTS.iter().zip(&meshes.meshes) {
         files.push((files::vertices(spec), write_vertices(mesh)));

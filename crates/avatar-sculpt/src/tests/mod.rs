@@ -2,6 +2,7 @@
 
 mod eyes;
 mod files;
+mod identity;
 mod load;
 mod mixtures;
 mod pictures;

@@ -14,6 +14,9 @@ struct Report<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     further_shapes: Vec<String>,
     controls: Vec<ControlReport>,
+    /// Axes that make other people of the face.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    identity: Vec<AxisReport>,
     poses: Vec<PoseReport>,
     clips: Vec<ClipReport>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -41,6 +44,14 @@ struct ControlReport {
     default: f32,
     #[serde(skip_serializing_if = "Option::is_none")]
     group: Option<String>,
+}
+
+/// An axis of the identity, from -1 to 1, and what the face is called at both ends.
+#[derive(Serialize)]
+struct AxisReport {
+    name: String,
+    less: String,
+    more: String,
 }
 
 #[derive(Serialize)]
@@ -139,6 +150,11 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
         default: control.default,
         group: control.group.clone(),
     });
+    let axes = pack.identity().into_iter().flat_map(|identity| &identity.axes).map(|axis| AxisReport {
+        name: axis.name.clone(),
+        less: axis.less.clone(),
+        more: axis.more.clone(),
+    });
     let poses = pack.poses().iter().map(|pose| PoseReport { name: pose.name.clone(), key: pose.key.clone() });
     let clips = pack.motion().into_iter().flat_map(|motion| {
         let clip =
@@ -155,6 +171,7 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
         joints: pack.rig().names().to_vec(),
         further_shapes: further.map(|shape| shape.name.clone()).collect(),
         controls: controls.collect(),
+        identity: axes.collect(),
         poses: poses.collect(),
         clips: clips.chain(of_controls).collect(),
         levels: Vec::new(),
@@ -192,6 +209,13 @@ fn text(report: &Report<'_>) -> String {
         let (min, max, default) = (control.min, control.max, control.default);
         let group = control.group.as_ref().map(|group| format!("  {group}")).unwrap_or_default();
         let _ = writeln!(out, "{:<wide$} {min:>7} {max:>7} {default:>8}{group}", control.name);
+    }
+    if !report.identity.is_empty() {
+        let wide = width("identity", report.identity.iter().map(|axis| axis.name.as_str()));
+        let _ = writeln!(out, "\n{:<wide$} -1 … 1", "identity");
+        for axis in &report.identity {
+            let _ = writeln!(out, "{:<wide$} {} … {}", axis.name, axis.less, axis.more);
+        }
     }
     let wide = width("pose", report.poses.iter().map(|pose| pose.name.as_str()));
     let _ = writeln!(out, "\n{:<wide$} key", "pose");

@@ -43,5 +43,5 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
 }
 
 fn open(pack: &PackArg) -> Result<Files> {
-    Files::open(pack.pack.as_deref(), &pack.with)
+    Files::of_args(pack)
 }

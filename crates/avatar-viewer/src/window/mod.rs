@@ -57,7 +57,7 @@ use winit::window::WindowId;
 
 /// Opens the window and runs until it is closed.
 pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
-    let files = Files::open(args.pack.pack.as_deref(), &args.pack.with)?;
+    let files = Files::of_args(&args.pack)?;
     let pack = files.load_pack_in_any_case()?;
     let textures = files.load_textures(&Texture::DRAWN);
     let start = args.face.resolve(&pack, matches)?;

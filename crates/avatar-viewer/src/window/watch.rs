@@ -1,4 +1,4 @@
-use crate::files::Files;
+use crate::files::{Files, Place};
 use crate::standard;
 use crate::store::Store;
 use avatar_pack::files;
@@ -40,8 +40,8 @@ impl Watched {
     pub(super) const ALL: [Self; 4] = [Self::Materials, Self::Hair, Self::Poses, Self::Clips];
 
     fn path(self, files: &Files, store: &Store) -> Option<PathBuf> {
-        let in_folder = |name: &str| match files {
-            Files::Folder(folder) => Some(folder.join(name)),
+        let in_folder = |name: &str| match &files.place {
+            Place::Folder(folder) => Some(folder.join(name)),
             _ => None,
         };
         match self {

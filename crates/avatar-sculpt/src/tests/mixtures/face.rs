@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::OnceLock};
 
 use glam::{DMat3, DVec3};
 
-use super::super::{eye, hit, mesh, sculpture, skin};
+use super::super::{Mesh, eye, hit, mesh, sculpture, skin};
 use crate::{
     anatomy::{EYE_REACH, JAW},
     arkit::{self, Weight},
@@ -30,7 +30,7 @@ pub(super) struct Face {
 }
 
 /// A closed piece of a row of teeth.
-struct Piece {
+pub(in crate::tests) struct Piece {
     triangles: Vec<[DVec3; 3]>,
     low: DVec3,
     high: DVec3,
@@ -62,14 +62,13 @@ pub(super) fn face() -> &'static Face {
             triangles: m.triangles.iter().map(|t| t.map(|i| joined[i])).collect(),
             lids: [around(1.0), around(-1.0)],
             lips: (0..m.p.len()).filter(near_mouth).collect(),
-            rows: [pieces("UpperJaw"), pieces("LowerJaw")],
+            rows: ["UpperJaw", "LowerJaw"].map(|stem| pieces(&mesh(stem))),
         }
     })
 }
 
 /// The closed pieces of a row, without the tongue.
-fn pieces(stem: &str) -> Vec<Piece> {
-    let m = mesh(stem);
+pub(in crate::tests) fn pieces(m: &Mesh) -> Vec<Piece> {
     let welded = weld(&m.p);
     // Pieces hang together through shared places.
     let mut root: Vec<usize> = (0..m.p.len()).collect();
@@ -100,7 +99,7 @@ fn pieces(stem: &str) -> Vec<Piece> {
 }
 
 impl Piece {
-    fn contains(&self, p: DVec3) -> bool {
+    pub(in crate::tests) fn contains(&self, p: DVec3) -> bool {
         if p.cmplt(self.low).any() || p.cmpgt(self.high).any() {
             return false;
         }
@@ -224,7 +223,7 @@ pub(super) fn faults(face: &Face, weights: &Weights) -> Faults {
 
 /// Distance from a point to a triangle that it sees from within a convex neighbourhood: to its plane where
 /// the foot lies inside, else to its nearest edge.
-pub(super) fn distance(from: DVec3, t: [DVec3; 3]) -> f64 {
+pub(in crate::tests) fn distance(from: DVec3, t: [DVec3; 3]) -> f64 {
     let n = (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero();
     let height = (t[0] - from).dot(n);
     let foot = from + n * height;

@@ -1,6 +1,6 @@
 //! Single shapes and mixtures of the 52: no triangle flips, lids stay off the eyes, lips off the teeth.
 
-mod face;
+pub(super) mod face;
 
 use std::{collections::BTreeSet, fs};
 
