@@ -1,7 +1,7 @@
 use crate::history::History;
 use crate::{BookError, arrange, pose_table};
 use pose_anim::{ControlTable, DEFAULT_POSES_TOML, Pose, PoseSet};
-use toml_edit::Table;
+use toml_edit::{Item, Table};
 
 const ENTRY: &str = "pose";
 
@@ -30,7 +30,12 @@ impl PoseBook {
     /// Poses that no text can say: a name twice, a value beyond its control's range.
     pub fn of_set(poses: &PoseSet, controls: &ControlTable) -> Result<Self, BookError> {
         if PoseSet::from_toml(DEFAULT_POSES_TOML, controls).is_ok_and(|usual| usual == *poses) {
-            return Self::read(DEFAULT_POSES_TOML, controls);
+            // Without those that the face cannot take: their names and keys are free.
+            let is_there = |entry: &Table| {
+                entry.get("name").and_then(Item::as_str).is_some_and(|name| poses.get(name).is_some())
+            };
+            let text = arrange::edited(DEFAULT_POSES_TOML, ENTRY, |entries| entries.retain(is_there));
+            return Self::read(&text, controls);
         }
         Self::read(&poses.to_toml(controls), controls)
     }
@@ -73,7 +78,7 @@ impl PoseBook {
     /// No such pose, or a name that another one has.
     pub fn rename(&mut self, index: usize, name: &str) -> Result<(), BookError> {
         let edit = format!("rename {} to {name}", self.pose(index)?.name);
-        self.edit(edit, |entries| pose_table::set_name(&mut entries[index], name))
+        self.edit_entry(index, edit, |entry| pose_table::set_name(entry, name))
     }
 
     /// Gives a pose another name, key and duration, in one edit.
@@ -88,10 +93,10 @@ impl PoseBook {
         duration_secs: Option<f64>,
     ) -> Result<(), BookError> {
         let edit = format!("change {}", self.pose(index)?.name);
-        self.edit(edit, |entries| {
-            pose_table::set_name(&mut entries[index], name);
-            pose_table::set_key(&mut entries[index], key);
-            pose_table::set_duration(&mut entries[index], duration_secs);
+        self.edit_entry(index, edit, |entry| {
+            pose_table::set_name(entry, name);
+            pose_table::set_key(entry, key);
+            pose_table::set_duration(entry, duration_secs);
         })
     }
 
@@ -102,7 +107,7 @@ impl PoseBook {
     pub fn set_values(&mut self, index: usize, values: &[(usize, f32)]) -> Result<(), BookError> {
         let edit = format!("set the face of {}", self.pose(index)?.name);
         let controls = self.controls.clone();
-        self.edit(edit, |entries| pose_table::set_values(&mut entries[index], values, &controls))
+        self.edit_entry(index, edit, |entry| pose_table::set_values(entry, values, &controls))
     }
 
     /// Puts a pose where another one is, which moves on.
@@ -111,10 +116,12 @@ impl PoseBook {
     /// No such pose.
     pub fn move_to(&mut self, from: usize, to: usize) -> Result<(), BookError> {
         let edit = format!("move {}", self.pose(from)?.name);
-        self.pose(to)?;
+        let (from, to) = (self.pose(from)?.name.clone(), self.pose(to)?.name.clone());
         self.edit(edit, |entries| {
-            let entry = entries.remove(from);
-            entries.insert(to, entry);
+            if let (Some(from), Some(to)) = (place(entries, &from), place(entries, &to)) {
+                let entry = entries.remove(from);
+                entries.insert(to, entry);
+            }
         })
     }
 
@@ -123,9 +130,11 @@ impl PoseBook {
     /// # Errors
     /// No such pose.
     pub fn remove(&mut self, index: usize) -> Result<(), BookError> {
-        let edit = format!("delete {}", self.pose(index)?.name);
-        self.edit(edit, |entries| {
-            entries.remove(index);
+        let name = self.pose(index)?.name.clone();
+        self.edit(format!("delete {name}"), |entries| {
+            if let Some(at) = place(entries, &name) {
+                entries.remove(at);
+            }
         })
     }
 
@@ -165,6 +174,21 @@ impl PoseBook {
         }
     }
 
+    /// Changes the entry of a pose.
+    fn edit_entry(
+        &mut self,
+        index: usize,
+        edit: String,
+        change: impl FnOnce(&mut Table),
+    ) -> Result<(), BookError> {
+        let name = self.pose(index)?.name.clone();
+        self.edit(edit, |entries| {
+            if let Some(at) = place(entries, &name) {
+                change(&mut entries[at]);
+            }
+        })
+    }
+
     fn edit(&mut self, edit: String, change: impl FnOnce(&mut Vec<Table>)) -> Result<(), BookError> {
         let text = arrange::edited(&self.history.text, ENTRY, change);
         match PoseSet::from_toml(&text, &self.controls) {
@@ -178,4 +202,10 @@ impl PoseBook {
             }
         }
     }
+}
+
+/// Which entry of the text a pose is. Names are unique, and the text may have poses that the face cannot
+/// take.
+fn place(entries: &[Table], name: &str) -> Option<usize> {
+    entries.iter().position(|entry| entry.get("name").and_then(Item::as_str) == Some(name))
 }

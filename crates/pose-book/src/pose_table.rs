@@ -70,6 +70,8 @@ pub(crate) fn set_values(table: &mut Table, values: &[(usize, f32)], controls: &
             }
         }
     }
+    // They would count instead.
+    table.remove("shapes");
     if named.len() < controls.len() {
         // It would say those that are to go on as they are.
         table.remove("others");

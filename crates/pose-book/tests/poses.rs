@@ -137,7 +137,15 @@ fn a_text_from_elsewhere_takes_the_place_and_the_same_one_does_not() {
 fn the_usual_poses_keep_their_comments_and_others_get_a_text_that_says_the_same() {
     let controls = controls();
     let usual = PoseSet::default_face(&controls);
-    assert_eq!(PoseBook::of_set(&usual, &controls).expect("a book").text(), DEFAULT_POSES_TOML);
+    let mut book = PoseBook::of_set(&usual, &controls).expect("a book");
+    assert_eq!(*book.poses(), usual);
+    // The text as it is, but for the poses that this face cannot take; their names and keys are free.
+    let start = DEFAULT_POSES_TOML.find("[[pose]]\nname = \"kiss\"").expect("a pose of shapes");
+    assert!(book.text().starts_with(&DEFAULT_POSES_TOML[..start]));
+    assert!(!book.text().contains("kiss") && book.text().contains("\"oh\""));
+    let mut kiss = Pose::new("kiss", vec![(0, 1.0)]);
+    kiss.key = Some("m".to_owned());
+    book.add(&kiss).expect("added");
     let mut set = PoseSet::default();
     let bezier = Easing::Bezier([0.3, -2.0, 0.1, 1.5]);
     set.poses.push(
@@ -150,6 +158,34 @@ fn the_usual_poses_keep_their_comments_and_others_get_a_text_that_says_the_same(
     );
     let book = PoseBook::of_set(&set, &controls).expect("a book");
     assert_eq!(*book.poses(), set);
+}
+
+/// A text may have poses that the face cannot take: edits meet those that they are about.
+#[test]
+fn poses_that_the_face_cannot_take_stay_where_they_are() {
+    let pose = |name: &str, table: &str| format!("[[pose]]\nname = \"{name}\"\n[pose.{table}]\nsmile = 1\n");
+    let wings = "[[pose]]\nname = \"wings\"\n[pose.shapes]\nwings = 1\n";
+    let text = [
+        wings.to_owned(),
+        pose("a", "controls"),
+        wings.replace("\"wings\"", "\"more\""),
+        pose("b", "shapes"),
+    ];
+    let mut book = PoseBook::read(&text.join("\n"), &controls()).expect("a book");
+    let names = |book: &PoseBook| -> Vec<String> {
+        let lines = book.text().lines().filter_map(|line| line.strip_prefix("name = "));
+        lines.map(|name| name.trim_matches('"').to_owned()).collect()
+    };
+    book.rename(0, "c").expect("renamed");
+    assert_eq!(names(&book), ["wings", "c", "more", "b"]);
+    book.move_to(1, 0).expect("moved");
+    assert_eq!(names(&book), ["wings", "b", "c", "more"]);
+    // What is set takes the place of both tables.
+    book.set_values(0, &[(index("frown"), 0.5)]).expect("set");
+    assert_eq!(book.poses().poses[0].values, [(index("frown"), 0.5)]);
+    assert!(book.text().contains("[pose.controls]\nfrown = 0.5"), "{}", book.text());
+    book.remove(0).expect("removed");
+    assert_eq!(names(&book), ["wings", "c", "more"]);
 }
 
 /// A pose that says what all others do no longer says it once it is set to some controls.

@@ -1,7 +1,7 @@
 //! The poses that an imported face begins with.
 
 use super::shape_sets::ShapeSet;
-use pose_anim::{ControlTable, Drive, Pose, PoseSet, face};
+use pose_anim::{Control, ControlTable, Drive, Pace, Pose, PoseSet, face};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::OnceLock;
 
@@ -51,8 +51,15 @@ fn lines() -> impl Iterator<Item = &'static str> {
 /// one pose for each shape. `neutral` puts everything to rest. `known` says what the names of shapes mean.
 pub(super) fn poses(controls: &ControlTable, known: &HashMap<String, (ShapeSet, &'static str)>) -> PoseSet {
     let translation = Translation::new(controls, known);
+    let plain = PoseSet::default_face(&translation.nine_joints);
     let mut set = PoseSet::default_face(&translation.face);
-    set.poses.retain_mut(|pose| translation.apply(pose));
+    set.poses.retain_mut(|pose| {
+        if !translation.has_shapes(pose) {
+            let Some(plain) = plain.get(&pose.name) else { return false };
+            pose.clone_from(plain);
+        }
+        translation.apply(pose)
+    });
     let rest = Pose::from_values("neutral", &controls.defaults());
     match set.poses.iter_mut().find(|pose| pose.name == rest.name) {
         Some(neutral) => neutral.values = rest.values,
@@ -70,8 +77,10 @@ pub(super) fn poses(controls: &ControlTable, known: &HashMap<String, (ShapeSet, 
     set
 }
 
-/// From poses of the nine-joint face to those of another.
+/// From poses of the nine-joint face, and of one that has the shapes of ARKit as well, to those of another.
 struct Translation<'a> {
+    nine_joints: ControlTable,
+    /// The same controls, and behind them one for each shape of ARKit that has a name of its own.
     face: ControlTable,
     controls: &'a ControlTable,
     /// The controls of each shape that is known by its name: several, where nodes have it that differ.
@@ -88,7 +97,24 @@ impl<'a> Translation<'a> {
                 by_shape.entry(*name).or_default().push(index);
             }
         }
-        Self { face: ControlTable::default_face(), controls, by_shape }
+        let nine_joints = ControlTable::default_face();
+        let shapes = ShapeSet::ArKit.names().iter().map(|name| {
+            let drives = Drive::Shape { shape: (*name).to_owned() };
+            let pace = Pace::named(name, &drives);
+            Control { name: (*name).to_owned(), drives, min: 0.0, max: 1.0, default: 0.0, pace, group: None }
+        });
+        // No name is in both, which a test holds.
+        let all = nine_joints.controls().iter().cloned().chain(shapes).collect();
+        let face = ControlTable::new(all).unwrap_or_else(|_| nine_joints.clone());
+        Self { nine_joints, face, controls, by_shape }
+    }
+
+    /// Whether the face has all shapes of ARKit that a pose moves.
+    fn has_shapes(&self, pose: &Pose) -> bool {
+        let further =
+            pose.values.iter().filter(|(index, value)| *index >= self.nine_joints.len() && *value != 0.0);
+        let mut names = further.filter_map(|(index, _)| self.face.controls().get(*index));
+        names.all(|control| self.by_shape.contains_key(control.name.as_str()))
     }
 
     /// Says a pose in the controls of the other face; `false` where that cannot show it: where it lacks a
@@ -154,6 +180,14 @@ impl<'a> Translation<'a> {
     /// Shows a move by the control of its name, or by shapes that mean the same; `false` where the face has
     /// neither.
     fn show(&self, one: &Move<'_>, values: &mut BTreeMap<usize, f32>) -> bool {
+        // What joints of the nine-joint face do, the face may do by this shape as well.
+        if let Some(shapes) = self.by_shape.get(one.name) {
+            for shape in shapes {
+                let sum = values.entry(*shape).or_insert(0.0);
+                *sum = sum.max(one.value);
+            }
+            return true;
+        }
         if let Some(here) = self.controls.index(one.name) {
             let range = &self.controls.controls()[here];
             values.insert(here, one.value.max(range.min).min(range.max));
@@ -213,6 +247,12 @@ fn follows_gaze(lid: f32, eye_up: f32) -> bool {
 mod tests {
     use super::super::spellings;
     use super::*;
+
+    #[test]
+    fn all_shapes_of_arkit_stand_behind_the_controls_of_the_nine_joint_face() {
+        let translation = Translation::new(&ControlTable::default(), &HashMap::new()).face;
+        assert_eq!(translation.len(), 15 + 52);
+    }
 
     #[test]
     fn every_line_of_the_stand_ins_is_read_and_names_what_there_is() {

@@ -57,28 +57,32 @@ fn value(pack: &Pack, pose: &str, control: &str) -> f32 {
 #[test]
 fn the_default_poses_are_there_for_shapes_of_arkit() {
     let pack = face(ShapeSet::ArKit.names()).pack;
-    // The numbers of the default poses by the ranges of the controls: 0.85; 15 of 20 degrees; 26 of 30; 45 of
-    // 45.
+    // The numbers of the default poses; where joints would do it, by the ranges of the controls: 13 of 20
+    // degrees, 26 of 30, 45 of 45.
     for (pose, control, expected) in [
-        ("smile", "mouthSmileLeft", 0.85),
-        ("smile", "mouthSmileRight", 0.85),
+        ("smile", "mouthSmileLeft", 0.95),
+        ("smile", "mouthSmileRight", 0.95),
         ("smile", "mouthFrownLeft", 0.0),
-        ("laugh", "jawOpen", 0.75),
+        ("laugh", "jawOpen", 0.65),
         ("surprise", "eyeWideLeft", 1.0),
         ("surprise", "eyeBlinkLeft", 0.0),
+        ("surprise", "browInnerUp", 1.0),
         ("wink-left", "eyeBlinkLeft", 1.0),
-        // Closed already.
-        ("wink-left", "eyeSquintLeft", 0.0),
-        ("wink-left", "mouthSmileRight", 0.5),
+        ("wink-left", "eyeSquintLeft", 0.5),
+        // The lower lid by 4 of 25 degrees, where 2 of 45 close the upper one.
+        ("wink-left", "eyeSquintRight", 4.0 / 25.0 * (43.0 / 45.0)),
+        ("wink-left", "mouthSmileRight", 0.55),
         ("look-left", "eyeLookOutLeft", 26.0 / 30.0),
         ("look-left", "eyeLookInRight", 26.0 / 30.0),
         ("look-left", "eyeLookInLeft", 0.0),
         ("look-left", "eyeLookOutRight", 0.0),
-        ("cross-eyed", "eyeLookInLeft", 20.0 / 30.0),
-        ("cross-eyed", "eyeLookInRight", 20.0 / 30.0),
+        ("cross-eyed", "eyeLookInLeft", 26.0 / 30.0),
+        ("cross-eyed", "eyeLookInRight", 26.0 / 30.0),
         ("look-up", "eyeLookUpRight", 21.0 / 25.0),
-        ("disgust", "jawLeft", 0.5),
-        ("disgust", "jawRight", 0.0),
+        ("anger", "browDownLeft", 1.0),
+        ("disgust", "noseSneerRight", 1.0),
+        ("blow", "cheekPuff", 1.0),
+        ("tongue-out", "tongueOut", 1.0),
     ] {
         let found = value(&pack, pose, control);
         assert!((found - expected).abs() < 1e-6, "{pose}, {control}: expected {expected}, found {found}");

@@ -34,24 +34,45 @@ pub(crate) fn by_control<T>(
     read: &dyn Fn(&Entry<'_, '_>, &Control) -> Result<T, TomlError>,
 ) -> Result<(), TomlError> {
     for entry in entry.table()?.rest() {
-        let key = entry.name();
-        let name = if prefix.is_empty() { key.to_owned() } else { format!("{prefix}.{key}") };
-        let is_group = |table: Table<'_, '_>| {
-            let group = format!("{name}.");
-            !table.entries().is_empty() && controls.names().any(|control| control.starts_with(&group))
-        };
+        let name = full_name(prefix, entry.name());
         if let Some(index) = controls.index(&name) {
             if out.iter().any(|(other, _)| *other == index) {
                 return Err(entry.error("each control once", format!("{} again", quote(&name))));
             }
             out.push((index, read(&entry, &controls.controls()[index])?));
-        } else if entry.as_table().is_some_and(is_group) {
+        } else if is_group(&entry, &name, controls) {
             by_control(&entry, &name, controls, out, read)?;
         } else {
             return Err(entry.unknown_name(&name, "one of the controls", controls.names()));
         }
     }
     Ok(())
+}
+
+/// Whether all that [`by_control`] would read are controls of the face.
+pub(crate) fn has_all(entry: &Entry<'_, '_>, controls: &ControlTable) -> Result<bool, TomlError> {
+    fn within(entry: &Entry<'_, '_>, prefix: &str, controls: &ControlTable) -> Result<bool, TomlError> {
+        let mut all = true;
+        for entry in entry.table()?.rest() {
+            let name = full_name(prefix, entry.name());
+            if controls.index(&name).is_none() {
+                all &= is_group(&entry, &name, controls) && within(&entry, &name, controls)?;
+            }
+        }
+        Ok(all)
+    }
+    within(entry, "", controls)
+}
+
+fn full_name(prefix: &str, key: &str) -> String {
+    if prefix.is_empty() { key.to_owned() } else { format!("{prefix}.{key}") }
+}
+
+/// Whether an entry is a table of controls whose names begin with its own.
+fn is_group(entry: &Entry<'_, '_>, name: &str, controls: &ControlTable) -> bool {
+    let group = format!("{name}.");
+    let has_entries = |table: Table<'_, '_>| !table.entries().is_empty();
+    entry.as_table().is_some_and(has_entries) && controls.names().any(|control| control.starts_with(&group))
 }
 
 /// The name of a transition function, or the four numbers of a Bézier curve.

@@ -1,6 +1,6 @@
 //! The format of `poses.toml`.
 
-use super::entries::{by_control, key, transition, value};
+use super::entries::{by_control, has_all, key, transition, value};
 use crate::{Control, ControlTable, Pose, PoseSet, Timing};
 use placed_toml::{Document, Entry, Table, TomlError, quote};
 use std::collections::HashSet;
@@ -14,14 +14,17 @@ const DURATION: &str = "a number of seconds from 0.001 to 3600";
 /// The poses of the nine-joint face as a text, to be copied beside a face and changed.
 pub const DEFAULT_POSES_TOML: &str = include_str!("../../assets/poses.toml");
 
-/// The controls and poses of the nine-joint face, read once, when first needed: these texts take longer to
-/// read than the meshes of a face. The text is part of the crate and a test reads it, so the error cannot
-/// happen.
-static DEFAULT_FACE: LazyLock<(ControlTable, PoseSet)> = LazyLock::new(|| {
-    let controls = ControlTable::default_face();
-    let poses = read(DEFAULT_POSES_TOML, &controls).unwrap_or_default();
-    (controls, poses)
-});
+/// The default poses by the names of controls, read once, when first needed: the text takes longer to read
+/// than the meshes of a face. It is part of the crate and a test reads it, so the error cannot happen.
+static DEFAULT_POSES: LazyLock<Vec<Said>> = LazyLock::new(|| said(DEFAULT_POSES_TOML).unwrap_or_default());
+
+/// A default pose as its text says it, for faces that may lack some of its controls.
+struct Said {
+    /// What does not depend on the face: name and key. A test holds that the default poses have no more.
+    pose: Pose,
+    controls: Option<Vec<(String, f32)>>,
+    shapes: Vec<(String, f32)>,
+}
 
 impl PoseSet {
     /// Reads a `poses.toml`; its format is described at the top of [`DEFAULT_POSES_TOML`].
@@ -33,27 +36,69 @@ impl PoseSet {
         read(text, controls)
     }
 
-    /// The poses of the nine-joint face: [`DEFAULT_POSES_TOML`]. For a face with other controls: without
-    /// those that it lacks, within its ranges, and with all that these poses do not know at their defaults.
+    /// The poses of [`DEFAULT_POSES_TOML`] for any face: without the controls that it lacks, within its
+    /// ranges, and with all that a pose does not say at their defaults. A face that has all of a pose's
+    /// `shapes` gets them; poses that are made of `shapes` alone are left out where one is missing.
     pub fn default_face(controls: &ControlTable) -> Self {
-        let (face, poses) = &*DEFAULT_FACE;
-        let mut set = poses.clone();
-        let names = face.controls().iter().map(|control| controls.index(&control.name));
-        let of_face: Vec<Option<usize>> = names.collect();
-        for pose in &mut set.poses {
-            let values = pose.values.iter().filter_map(|(index, value)| {
-                let here = of_face[*index]?;
+        let of_face = |values: &[(String, f32)]| -> Vec<(usize, f32)> {
+            let known = values.iter().filter_map(|(name, value)| {
+                let here = controls.index(name)?;
                 let control = &controls.controls()[here];
                 Some((here, value.max(control.min).min(control.max)))
             });
-            pose.values = values.collect();
-            rest_others(pose, controls);
-            let timings = pose.timings.iter();
-            let timings = timings.filter_map(|(index, timing)| Some((of_face[*index]?, *timing)));
-            pose.timings = timings.collect();
-        }
-        set
+            known.collect()
+        };
+        let poses = DEFAULT_POSES.iter().filter_map(|said| {
+            let shapes = of_face(&said.shapes);
+            let has_all = shapes.len() == said.shapes.len();
+            if said.controls.is_none() && !has_all {
+                return None;
+            }
+            let mut pose = said.pose.clone();
+            pose.values = of_face(said.controls.as_deref().unwrap_or_default());
+            if has_all {
+                put_over(&mut pose.values, shapes);
+            }
+            rest_others(&mut pose, controls);
+            Some(pose)
+        });
+        Self { poses: poses.collect() }
     }
+}
+
+/// Reads the default poses without a face.
+fn said(source: &str) -> Result<Vec<Said>, TomlError> {
+    let document = Document::parse(source)?;
+    let mut poses = Vec::new();
+    for mut table in document.root().take_tables("pose")? {
+        let mut pose = Pose::new(table.require("name", "the name of a pose")?.string("a name")?, Vec::new());
+        pose.key = table.take("key").map(|entry| entry.string("a key").map(str::to_owned)).transpose()?;
+        let controls = table.take("controls").map(|entry| numbers(&entry)).transpose()?;
+        let shapes = table.take("shapes").map(|entry| numbers(&entry)).transpose()?.unwrap_or_default();
+        poses.push(Said { pose, controls, shapes });
+    }
+    Ok(poses)
+}
+
+/// All entries of a table by their names, also those of tables in it: `head.turn` is `"head.turn"`.
+fn numbers(entry: &Entry<'_, '_>) -> Result<Vec<(String, f32)>, TomlError> {
+    let mut out = Vec::new();
+    for entry in entry.table()?.rest() {
+        let name = entry.name();
+        if entry.as_table().is_some() {
+            out.extend(numbers(&entry)?.into_iter().map(|(rest, value)| (format!("{name}.{rest}"), value)));
+        } else {
+            out.push((name.to_owned(), entry.number("a number")?));
+        }
+    }
+    Ok(out)
+}
+
+/// Values of which the latter ones count.
+fn put_over(values: &mut Vec<(usize, f32)>, over: Vec<(usize, f32)>) {
+    let said: HashSet<usize> = over.iter().map(|(control, _)| *control).collect();
+    values.retain(|(control, _)| !said.contains(control));
+    values.extend(over);
 }
 
 fn read(source: &str, controls: &ControlTable) -> Result<PoseSet, TomlError> {
@@ -61,11 +106,16 @@ fn read(source: &str, controls: &ControlTable) -> Result<PoseSet, TomlError> {
     let mut root = document.root();
     let mut set = PoseSet::default();
     let mut room = MOST_OTHERS;
+    // Poses that this face cannot take are read as well: a text is right or wrong for all faces alike.
+    let mut is_shown = Vec::new();
     for table in root.take_tables("pose")? {
-        let pose = pose(table, controls, &set, &mut room)?;
+        let (pose, is_for_face) = pose(table, controls, &set, &mut room)?;
         set.poses.push(pose);
+        is_shown.push(is_for_face);
     }
     root.finish(&["pose"])?;
+    let mut is_shown = is_shown.into_iter();
+    set.poses.retain(|_| is_shown.next().unwrap_or(true));
     Ok(set)
 }
 
@@ -76,13 +126,13 @@ fn rest_others(pose: &mut Pose, controls: &ControlTable) {
     pose.values.extend(others.map(|(index, control)| (index, control.default)));
 }
 
-/// Reads a pose; `room` is how many values `others` may still add.
+/// Reads a pose, and whether the face can take it; `room` is how many values `others` may still add.
 fn pose(
     mut table: Table<'_, '_>,
     controls: &ControlTable,
     before: &PoseSet,
     room: &mut usize,
-) -> Result<Pose, TomlError> {
+) -> Result<(Pose, bool), TomlError> {
     let entry = table.require("name", "the name of a pose")?;
     let name = entry.string("the name of a pose")?;
     if before.get(name).is_some() {
@@ -96,8 +146,19 @@ fn pose(
     if let Some(entry) = table.take("duration") {
         pose.duration_secs = Some(duration(&entry)?);
     }
-    if let Some(entry) = table.take("controls") {
-        by_control(&entry, "", controls, &mut pose.values, &value)?;
+    let mut is_for_face = true;
+    let base = table.take("controls");
+    if let Some(entry) = &base {
+        by_control(entry, "", controls, &mut pose.values, &value)?;
+    }
+    if let Some(entry) = table.take("shapes") {
+        if has_all(&entry, controls)? {
+            let mut shapes = Vec::new();
+            by_control(&entry, "", controls, &mut shapes, &value)?;
+            put_over(&mut pose.values, shapes);
+        } else {
+            is_for_face = base.is_some();
+        }
     }
     if let Some(entry) = table.take("others") {
         let word = entry.string("\"default\"")?;
@@ -116,8 +177,8 @@ fn pose(
     if let Some(entry) = table.take("timing") {
         by_control(&entry, "", controls, &mut pose.timings, &timing)?;
     }
-    table.finish(&["name", "key", "duration", "transition", "controls", "others", "timing"])?;
-    Ok(pose)
+    table.finish(&["name", "key", "duration", "transition", "controls", "shapes", "others", "timing"])?;
+    Ok((pose, is_for_face))
 }
 
 fn duration(entry: &Entry<'_, '_>) -> Result<f64, TomlError> {
