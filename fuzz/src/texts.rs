@@ -5,7 +5,7 @@ use crate::packed::{files, text_and_bytes};
 use avatar_groom::Hair;
 use avatar_look::Materials;
 use avatar_pack::{MemorySource, Pack, Textures, raw_files};
-use pose_anim::{ClipSet, ControlTable, PoseSet};
+use pose_anim::{ClipSet, ControlTable, PoseSet, Recording};
 use pose_book::{ClipBook, PoseBook};
 use rig_core::{RawRig, Rig};
 
@@ -73,10 +73,18 @@ pub fn poses(data: &[u8]) {
     }
 }
 
-/// `clips.toml` for the default controls, and its edits.
+/// `clips.toml` for the default controls, and its edits; and the text as a recording.
 pub fn clips(data: &[u8]) {
     let Some(text) = text(data) else { return };
     let controls = ControlTable::default_face();
+    match within_memory(data.len(), "the reader", || Recording::from_csv("recording", text, &controls)) {
+        Ok(Recording { clip, .. }) => {
+            let set = ClipSet { clips: vec![clip] };
+            let written = set.to_toml(&controls);
+            assert!(ClipSet::from_toml(&written, &controls).is_ok(), "written as {written}");
+        }
+        Err(error) => drop(error.to_string()),
+    }
     match within_memory(data.len(), "the reader", || ClipSet::from_toml(text, &controls)) {
         Ok(clips) => {
             let written = clips.to_toml(&controls);

@@ -117,7 +117,7 @@ pub(crate) struct RecordArgs {
     /// wink-left"
     #[arg(long, allow_hyphen_values = true)]
     pub(crate) script: Option<String>,
-    /// Clip of the avatar's file or clips.toml, as `info` lists them
+    /// Clip of the avatar's file or clips.toml, as `info` lists them; or a face tracker's recording, FILE.csv
     #[arg(long, value_name = "NAME")]
     pub(crate) clip: Option<String>,
     /// Frames per second, up to 240 (GIF: 50): 30, 12.5 or 30000/1001

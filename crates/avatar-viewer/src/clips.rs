@@ -1,9 +1,12 @@
-//! Clips by their names: those of a file of an interchange format, and those of a pack's `clips.toml`.
+//! Clips by their names: those of a file of an interchange format, those of a pack's `clips.toml`, and
+//! recordings, whose names are those of files.
 
 use crate::usage::{unknown, usage};
-use anyhow::Result;
+use crate::{reading, standard};
+use anyhow::{Result, anyhow, bail};
 use avatar_pack::{MotionAt, Pack, SceneMotion};
-use pose_anim::{Clip, Wrap};
+use pose_anim::{Clip, Recording, Wrap};
+use std::path::Path;
 
 /// A clip that exists.
 #[derive(Clone, Debug)]
@@ -20,13 +23,35 @@ pub(crate) fn find(pack: &Pack, name: &str) -> Result<FoundClip> {
         return Ok(FoundClip::Controls(clip.clone()));
     }
     let of_file = pack.motion().map(SceneMotion::clips).unwrap_or_default();
+    let is_recording = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     match of_file.iter().any(|clip| clip == name) {
         true => Ok(FoundClip::File(name.to_owned())),
+        false if is_recording => Ok(FoundClip::Controls(recording(pack, Path::new(name))?)),
         false => {
             let of_controls = pack.clips().clips.iter().map(|clip| clip.name.as_str());
             Err(unknown("clip", name, of_file.iter().map(String::as_str).chain(of_controls)))
         }
     }
+}
+
+/// Reads the recording of a face tracker, and says what of it the face cannot show.
+fn recording(pack: &Pack, path: &Path) -> Result<Clip> {
+    let Some(text) = reading::text(path)? else {
+        bail!("{}: expected a recording of a face, found nothing of that name", path.display())
+    };
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let recording = Recording::from_csv(&name, &text, pack.controls());
+    let recording = recording.map_err(|error| anyhow!("{}: {error}", path.display()))?;
+    let over = &recording.passed_over;
+    if !over.is_empty() {
+        standard::warn(format_args!(
+            "{}: the face has no control for {} of its columns, which are passed over: {}",
+            path.display(),
+            over.len(),
+            over.join(", ")
+        ));
+    }
+    Ok(recording.clip)
 }
 
 impl FoundClip {

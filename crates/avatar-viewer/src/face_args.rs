@@ -23,8 +23,8 @@ pub(crate) struct FaceArgs {
     /// repeated
     #[arg(long, value_name = "JOINT=AXIS:DEG[,AXIS:DEG...]", allow_hyphen_values = true)]
     rotate: Vec<Rotation>,
-    /// Clip of the avatar's file or clips.toml to start from, as `info` lists them; what --set and --rotate
-    /// concern is theirs
+    /// Clip of the avatar's file or clips.toml to start from, as `info` lists them, or a face tracker's
+    /// recording, FILE.csv; what --set and --rotate concern is theirs
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
     /// Seconds from the clip's beginning

@@ -74,7 +74,7 @@
 //!
 //! - Poses add up: [`PoseSet::mix`] reads `smile:0.5 wink-left`, [`Pose::mixed`] is the same in code.
 //! - A [`Clip`] is a set of keyframe tracks, to be edited, reduced and played through a [`Player`]
-//!   ([`Player::play`]).
+//!   ([`Player::play`]). A [`Recording`] is one that a face tracker wrote.
 //! - [`Layers`] put further players over a base, with masks and weights: blinking, breathing, speech.
 //! - A [`JointPlayer`] moves a whole joint, for rigs without controls.
 //! - An [`Easing`] is a transition function: of a pose, or from key to key.
@@ -118,6 +118,7 @@ mod quadratic;
 mod range;
 mod clip;
 mod text;
+mod recording;
 mod quintic;
 mod brake;
 mod channel;
@@ -140,4 +141,5 @@ pub use placed_toml::TomlError;
 pub use player::Player;
 pub use player_crowd::PlayerCrowd;
 pub use pose::{Pose, PoseSet, Timing};
+pub use recording::{Recording, RecordingError};
 pub use text::{DEFAULT_CONTROLS_TOML, DEFAULT_POSES_TOML};

@@ -16,6 +16,7 @@ mod pictures;
 mod looks;
 mod poses;
 mod raw;
+mod recording;
 mod reach;
 mod sliders;
 mod vrm;

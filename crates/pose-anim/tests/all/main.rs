@@ -5,6 +5,7 @@ mod default_poses;
 mod toml_errors;
 mod easing;
 mod player;
+mod recording;
 mod targets;
 mod clips;
 mod clip_ends;
