@@ -19,6 +19,7 @@ mod standard;
 mod material;
 mod materials;
 mod colors;
+mod wrinkle;
 
 mod environment;
 mod light;
@@ -42,3 +43,4 @@ pub use reflections::{CUBE_FACES, cube_direction};
 pub use scatter::scatter_table;
 pub use split_sum::{directional_albedo, split_sum};
 pub use standard::{Alpha, Cartoon, Lighting, SOLID, SecondUvs, Standard, Wrap, Wraps};
+pub use wrinkle::Wrinkle;

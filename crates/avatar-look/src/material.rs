@@ -34,6 +34,8 @@ pub struct Material {
     pub pore_strength: f32,
     /// How often that relief repeats over the height of the skin.
     pub pore_density: f32,
+    /// Depth of wrinkles that shapes bring in, where the texture of wrinkles is white.
+    pub wrinkle_depth: f32,
     /// A clear wet film on top, 0 (dry) to 1: eyeballs, corneas, teeth, tongue.
     pub wetness: f32,
     /// Perceptual roughness of that film.
@@ -126,6 +128,7 @@ impl Material {
             thickness: 0.1,
             pore_strength: 0.0,
             pore_density: 0.0,
+            wrinkle_depth: 0.0,
             wetness: 0.0,
             film_roughness: 0.15,
             back_light: 1.0,
@@ -151,6 +154,7 @@ impl Material {
                 thickness: 0.09,
                 pore_strength: 0.08,
                 pore_density: 50.0,
+                wrinkle_depth: 0.003,
                 ..matte
             },
             PartKind::Surface => Self {

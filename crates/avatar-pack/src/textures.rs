@@ -21,6 +21,8 @@ pub enum Texture {
     SkinNormal,
     /// How thick the skin is, linear: black thin, white thick. The original has none.
     SkinThickness,
+    /// How deep wrinkles are that shapes bring in, linear: white deep. The original has none.
+    SkinWrinkles,
     /// Colour of an eyeball, sRGB; there are four irises.
     Eye(u8),
     /// Colour of teeth, gums and tongue, sRGB.
@@ -31,12 +33,13 @@ pub enum Texture {
 
 impl Texture {
     /// All textures that a pack may have.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::SkinColor,
         Self::SkinOcclusion,
         Self::SkinGloss,
         Self::SkinNormal,
         Self::SkinThickness,
+        Self::SkinWrinkles,
         Self::Eye(0),
         Self::Eye(1),
         Self::Eye(2),
@@ -46,12 +49,13 @@ impl Texture {
     ];
 
     /// Those that a face is drawn with, and that its hair is planted by: eyeballs have the first iris.
-    pub const DRAWN: [Self; 8] = [
+    pub const DRAWN: [Self; 9] = [
         Self::SkinColor,
         Self::SkinOcclusion,
         Self::SkinGloss,
         Self::SkinNormal,
         Self::SkinThickness,
+        Self::SkinWrinkles,
         Self::Eye(0),
         Self::Teeth,
         Self::HairDensity,
@@ -65,6 +69,7 @@ impl Texture {
             Self::SkinGloss => "SkinTex_Gloss".to_owned(),
             Self::SkinNormal => "SkinTex_Normal".to_owned(),
             Self::SkinThickness => "SkinTex_Thickness".to_owned(),
+            Self::SkinWrinkles => "SkinTex_Wrinkles".to_owned(),
             Self::Eye(iris) => format!("EyeTex_Decal{iris:02}"),
             Self::Teeth => "TeethTex_Decal".to_owned(),
             Self::HairDensity => "HairMap".to_owned(),
@@ -90,6 +95,8 @@ pub struct PartImages<'a> {
     pub normal: Option<&'a RgbaImage>,
     /// How thick it is, linear.
     pub thickness: Option<&'a RgbaImage>,
+    /// How deep wrinkles are, linear.
+    pub wrinkles: Option<&'a RgbaImage>,
     /// Roughness in green and metalness in blue, linear.
     pub metallic_roughness: Option<&'a RgbaImage>,
     /// Light that it gives off, sRGB.
@@ -212,6 +219,7 @@ impl Textures {
                 gloss: self.get(Texture::SkinGloss),
                 normal: self.get(Texture::SkinNormal),
                 thickness: self.get(Texture::SkinThickness),
+                wrinkles: self.get(Texture::SkinWrinkles),
                 ..PartImages::default()
             },
             PartKind::Surface => PartImages { color: self.get(Texture::Teeth), ..PartImages::default() },

@@ -40,7 +40,17 @@ macro_rules! layout {
 fn layouts() -> Vec<Layout> {
     let (position, normal) = (offset_of!(GpuShapeOffset, position), offset_of!(GpuShapeOffset, normal));
     vec![
-        layout!("Part", GpuPart, vertex_count, first_weight, shape_count, rigid_bone, has_vertex_bones),
+        layout!(
+            "Part",
+            GpuPart,
+            vertex_count,
+            first_weight,
+            shape_count,
+            rigid_bone,
+            has_vertex_bones,
+            has_wrinkles,
+            wrinkles
+        ),
         layout!("Vertex", GpuVertex, position, u, normal, v),
         layout!("VertexBones", GpuVertexBones, indices, weights),
         Layout {
@@ -65,7 +75,7 @@ fn layouts() -> Vec<Layout> {
             shape_stride,
             rigid_bone
         ),
-        layout!("DeformedVertex", GpuDeformedVertex, position, is_mirrored, normal),
+        layout!("DeformedVertex", GpuDeformedVertex, position, is_mirrored, normal, wrinkled),
         layout!("Lamp", GpuLamp, direction_world, radiance),
         layout!(
             "HairRegion",
@@ -188,6 +198,7 @@ fn layouts() -> Vec<Layout> {
             shadow_cutoff,
             tone,
             bare_green,
+            wrinkle_depth,
             iris
         ),
     ]

@@ -98,7 +98,7 @@ pub use avatar::state::AvatarState;
 pub use avatar_groom;
 pub use avatar_look::{
     Alpha, Cartoon, Environment, Iris, Lamp, Light, Lighting, Material, Panel, SecondUvs, Standard, Tone,
-    ToneMap, Wrap, Wraps,
+    ToneMap, Wrap, Wraps, Wrinkle,
 };
 /// The crate whose meshes are drawn.
 pub use avatar_mesh;
@@ -118,7 +118,7 @@ pub use gpu::readback::ReadbackError;
 pub use hair::detail::HairDetail;
 pub use hair::error::HairError;
 pub use hair::grower::Grower;
-pub use model::desc::{PartBones, PartDesc, PartTextures};
+pub use model::desc::{PartBones, PartDesc, PartTextures, Wrinkles};
 pub use model::error::{ModelError, NoSuchPart, PartProblem};
 pub use view::camera::Camera;
 pub use view::config::RendererConfig;

@@ -3,7 +3,7 @@ use avatar_pack::{Pack, PartImages, Textures};
 use avatar_render::avatar_groom::{Groom, Hair};
 use avatar_render::avatar_mesh::PartKind;
 use avatar_render::{
-    AvatarModel, HairError, Image, ModelError, NoSuchPart, PartBones, PartDesc, PartTextures, wgpu,
+    AvatarModel, HairError, Image, ModelError, NoSuchPart, PartBones, PartDesc, PartTextures, Wrinkles, wgpu,
 };
 use image::RgbaImage;
 
@@ -59,23 +59,32 @@ pub fn upload_with_hair(
 ) -> Result<AvatarModel, UploadError> {
     // Several parts may share a picture, which is copied once; twice where some of them ignore its alpha.
     let mut images = Images::default();
-    let of_parts: Vec<[Option<usize>; 8]> = (pack.parts().iter().enumerate())
+    let places = pack.wrinkles();
+    let of_parts: Vec<[Option<usize>; 9]> = (pack.parts().iter().enumerate())
         .map(|(index, part)| {
             let pictures = textures.of_part(index, part.kind);
             let is_opaque = pack.material(index).standard.is_some_and(|look| look.alpha == Alpha::Opaque);
             let color = pictures.color.map(|picture| images.take(picture, is_opaque));
             let PartImages {
-                occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade, ..
+                occlusion,
+                gloss,
+                normal,
+                thickness,
+                wrinkles,
+                metallic_roughness,
+                emissive,
+                shade,
+                ..
             } = pictures;
-            let others = [occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade];
-            let [occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade] =
+            let others = [occlusion, gloss, normal, thickness, wrinkles, metallic_roughness, emissive, shade];
+            let [occlusion, gloss, normal, thickness, wrinkles, metallic_roughness, emissive, shade] =
                 others.map(|picture| picture.map(|picture| images.take(picture, false)));
-            [color, occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade]
+            [color, occlusion, gloss, normal, thickness, wrinkles, metallic_roughness, emissive, shade]
         })
         .collect();
     let parts: Vec<PartDesc<'_>> = (pack.parts().iter().zip(&of_parts).enumerate())
         .map(|(index, (part, pictures))| {
-            let [color, occlusion, gloss, normal, thickness, metallic_roughness, emissive, shade] =
+            let [color, occlusion, gloss, normal, thickness, wrinkles, metallic_roughness, emissive, shade] =
                 pictures.map(|place| place.and_then(|place| images.copies.get(place)));
             PartDesc {
                 label: &part.name,
@@ -89,6 +98,7 @@ pub fn upload_with_hair(
                     gloss,
                     normal,
                     thickness,
+                    wrinkles: wrinkles.map(|depths| Wrinkles { depths, places: &places }),
                     metallic_roughness,
                     emissive,
                     shade,

@@ -13,7 +13,7 @@ const fn three(name: &'static str, slot: fn(&mut Material) -> &mut [f32; 3]) -> 
 }
 
 /// The keys of all tables, in the order in which they are written.
-pub(crate) const FIELDS: [Field<Material>; 17] = [
+pub(crate) const FIELDS: [Field<Material>; 18] = [
     three("color", |m| &mut m.color),
     one("opacity", 1.0, |m| &mut m.opacity),
     one("reflectance", 1.0, |m| &mut m.reflectance),
@@ -28,6 +28,7 @@ pub(crate) const FIELDS: [Field<Material>; 17] = [
     one("thickness", 1.0, |m| &mut m.thickness),
     one("pore_strength", 10.0, |m| &mut m.pore_strength),
     one("pore_density", 10_000.0, |m| &mut m.pore_density),
+    one("wrinkle_depth", 1.0, |m| &mut m.wrinkle_depth),
     one("wetness", 1.0, |m| &mut m.wetness),
     one("film_roughness", 1.0, |m| &mut m.film_roughness),
     one("back_light", 1.0, |m| &mut m.back_light),

@@ -5,3 +5,4 @@ mod energy;
 mod environment;
 mod materials;
 mod tone;
+mod wrinkles;

@@ -52,7 +52,7 @@ impl<'a> Places<'a> {
             free.zip(moving.drain(..)).for_each(|(slot, name)| *slot = Some(name));
         }
         let further = moving.iter().zip(0..).map(|(name, place)| (*name, place)).collect();
-        let list = FurtherShapes { shapes: further_shapes(pack, &moving), mixtures: Vec::new() };
+        let list = FurtherShapes { shapes: further_shapes(pack, &moving), ..FurtherShapes::default() };
         Self { names, list, further, mixtures: HashSet::new() }
     }
 

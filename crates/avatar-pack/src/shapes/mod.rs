@@ -2,6 +2,7 @@
 
 mod controls;
 mod text;
+mod wrinkles;
 mod write;
 
 /// What `shapes.toml` says: blend shapes beside the two of the raw format, and mixtures of controls.
@@ -14,6 +15,8 @@ pub struct FurtherShapes {
     pub shapes: Vec<FurtherShape>,
     /// The mixtures.
     pub mixtures: Vec<Mixture>,
+    /// Where shapes wrinkle the skin.
+    pub wrinkles: Vec<WrinklePlace>,
 }
 
 /// A blend shape beside the two of the raw format.
@@ -65,6 +68,17 @@ pub struct Mixture {
     pub side: Option<Side>,
     /// The controls, shapes and earlier mixtures that it moves, and how far each from its default at the
     /// mixture's value 1: in degrees, units of the rig or weights.
+    pub of: Vec<(String, f32)>,
+}
+
+/// A place at which shapes wrinkle the skin; the picture `SkinTex_Wrinkles` says how the wrinkles run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrinklePlace {
+    /// Its middle, in the units of the rig at bind pose.
+    pub center: [f32; 3],
+    /// How far it reaches; above 0.
+    pub radius: f32,
+    /// Shapes, the raw format's two among them, and how strongly each wrinkles the place at weight 1.
     pub of: Vec<(String, f32)>,
 }
 

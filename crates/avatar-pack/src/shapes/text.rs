@@ -1,7 +1,7 @@
 //! The format of `shapes.toml`.
 
 use super::controls::{Resolved, resolve};
-use super::{FurtherShape, FurtherShapes, Mixture, ShapeWeight, Side};
+use super::{FurtherShape, FurtherShapes, Mixture, ShapeWeight, Side, wrinkles};
 use avatar_mesh::{FACE_PARTS, FACE_SHAPES};
 use placed_toml::{Document, Entry, LARGEST, Table, TomlError, quote};
 use pose_anim::{ControlTable, Drive};
@@ -23,7 +23,8 @@ impl FurtherShapes {
         let document = Document::parse(text)?;
         let mut root = document.root();
         let (shapes, mixtures) = (root.take_tables("shape")?, root.take_tables("mixture")?);
-        root.finish(&["shape", "mixture"])?;
+        let tables = root.take_tables("wrinkle")?;
+        root.finish(&["shape", "mixture", "wrinkle"])?;
         let mut reader = Reader::new(controls);
         let mut read = Self::default();
         let mut inputs = Vec::new();
@@ -40,6 +41,12 @@ impl FurtherShapes {
             reader.later.remove(&mixture.name);
             read.mixtures.push(mixture);
         }
+        let named =
+            |name: &str| FACE_SHAPES.contains(&name) || read.shapes.iter().any(|one| one.name == name);
+        let names = || FACE_SHAPES.into_iter().chain(read.shapes.iter().map(|one| one.name.as_str()));
+        let place = |(number, table)| wrinkles::read(number, table, named, || names().collect());
+        let places = tables.into_iter().enumerate().map(place).collect::<Result<_, _>>()?;
+        read.wrinkles = places;
         Ok(read)
     }
 }

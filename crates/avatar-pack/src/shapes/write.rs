@@ -28,6 +28,15 @@ impl FurtherShapes {
                 mixture.of.iter().map(|(name, way)| format!("{} = {way:?}", string(name))).collect();
             line(&mut out, format_args!("of = {{ {} }}", of.join(", ")));
         }
+        for place in &self.wrinkles {
+            let of: Vec<_> =
+                place.of.iter().map(|(name, gain)| format!("{} = {gain:?}", string(name))).collect();
+            let (center, radius, of) = (place.center, place.radius, of.join(", "));
+            line(
+                &mut out,
+                format_args!("\n[[wrinkle]]\ncenter = {center:?}\nradius = {radius:?}\nof = {{ {of} }}"),
+            );
+        }
         out
     }
 }

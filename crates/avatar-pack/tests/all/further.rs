@@ -37,6 +37,10 @@ of = { browInnerUp = 0.5, "jaw.open" = 4 }
 [[mixture]]
 name = "loud"
 of = { oh = 2, "jaw.open" = 1 }
+[[wrinkle]]
+center = [0, 4.5, 2]
+radius = 3.25
+of = { browInnerUp = 1, SSmile = 0.5 }
 "#;
 
 /// What the shapes of [`TOML`] move: their part, a vertex, its position and its normal.
@@ -95,6 +99,11 @@ fn shapes_and_mixtures_are_controls_behind_those_of_the_face() {
     let list = pack.further_shapes().expect("a list");
     assert_eq!(list.mixtures[0].side, Some(Side::Left));
     assert_eq!(list.shapes[2].weight, ShapeWeight::Follows { input: "browInnerUp".to_owned(), at: 0.5 });
+    let shape = |name: &str| pack.shapes().iter().position(|shape| shape == name).expect("a shape");
+    let [wrinkle] = &pack.wrinkles()[..] else { panic!("one place of wrinkles") };
+    assert_eq!((wrinkle.center, wrinkle.radius), (Vec3::new(0.0, 4.5, 2.0), 3.25));
+    assert_eq!(wrinkle.shapes, [(shape("browInnerUp"), 1.0), (shape("SSmile"), 0.5)]);
+    assert_eq!(plain.wrinkles(), []);
     let skin = pack.part("skin").expect("a skin");
     assert_eq!(skin.bytes, plain.part("skin").expect("a skin").bytes + 4 * 32);
 }
@@ -197,7 +206,7 @@ fn mistakes_are_told_with_their_places() {
     for (text, expected) in [
         (
             "[[shapes]]\nname = 'a'\n",
-            r#"one of the keys shape, mixture, found "shapes"; did you mean "shape"?"#,
+            r#"one of the keys shape, mixture, wrinkle, found "shapes"; did you mean "shape"?"#,
         ),
         ("[[shape]]\n", "line 1, column 1: shape.name: expected the name of a shape, found none"),
         (
@@ -244,6 +253,27 @@ fn mistakes_are_told_with_their_places() {
         (
             "[[mixture]]\nname = 'm'\nof = { smile = nan }\n",
             "mixture.of.smile: expected a finite number up to 1e9, found nan",
+        ),
+        ("[[wrinkle]]\n", "line 1, column 1: wrinkle.center: expected an array of three numbers"),
+        (
+            "[[wrinkle]]\ncenter = [0, 1]\nradius = 1\nof = {}\n",
+            "line 2, column 10: wrinkle.center: expected an array of three numbers up to 1e9, found an array of 2",
+        ),
+        (
+            "[[wrinkle]]\ncenter = [0, 1, 2]\nradius = 0\nof = {}\n",
+            "line 3, column 10: wrinkle.radius: expected a number above 0 and up to 1e9, found 0",
+        ),
+        (
+            "[[wrinkle]]\ncenter = [0, 1, 2]\nradius = 1\nof = { SSmlie = 1 }\n",
+            r#"line 4, column 8: wrinkle.of.SSmlie: expected a shape, of SSmile, Frown, found "SSmlie"; did you mean "SSmile"?"#,
+        ),
+        (
+            "[[wrinkle]]\ncenter = [0, 1, 2]\nradius = 1\nof = { SSmile = -1 }\n",
+            "line 4, column 17: wrinkle.of.SSmile: expected a number from 0 to 10, found -1",
+        ),
+        (
+            &"[[wrinkle]]\ncenter = [0, 1, 2]\nradius = 1\nof = {}\n".repeat(17),
+            "line 66, column 10: wrinkle.center: expected at most 16 tables wrinkle, found another one",
         ),
     ] {
         let found = told(text);

@@ -51,10 +51,12 @@ impl AvatarModel {
             .map(|desc| desc.first_weight.saturating_add(desc.mesh.shapes.len()))
             .max()
             .unwrap_or(0);
-        let parts: Result<Vec<_>, _> = parts
-            .iter()
-            .map(|desc| {
-                ModelPart::new(device, queue, &layouts, &mut textures, desc, parts, palette_len, height)
+        let wrinkled = parts.iter().position(|desc| desc.textures.wrinkles.is_some());
+        let parts: Result<Vec<_>, _> = (parts.iter().enumerate())
+            .map(|(index, desc)| {
+                let mut desc = *desc;
+                desc.textures.wrinkles = desc.textures.wrinkles.filter(|_| wrinkled == Some(index));
+                ModelPart::new(device, queue, &layouts, &mut textures, &desc, parts, palette_len, height)
                     .map_err(|problem| ModelError::Part { label: desc.label.to_owned(), problem })
             })
             .collect();

@@ -3,14 +3,18 @@
 
 use crate::deform::crowd_chunk::{Chunk, CrowdBuffers, GpuCrowdChunk, bytes_of};
 use crate::deform::crowd_error::CrowdError;
-use crate::deform::pose::{StateError, are_active, are_set, avatar_layout, bounds, is_somewhere, widened};
+use crate::deform::pose::{
+    StateError, are_active, are_set, avatar_layout, bounds, is_somewhere, widened, wrinkles_of,
+};
 use crate::gpu::buffers::written_buffer;
 use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
 use crate::model::part::ModelPart;
+use avatar_look::Wrinkle;
 use avatar_mesh::{Bounds, mirrors, turns_evenly};
 use glam::{Affine3A, Vec3};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// What the last frame of a crowd did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,8 +49,9 @@ pub(crate) struct CrowdPose {
     bone_count: usize,
     shape_count: usize,
     bones: Vec<GpuBone>,
-    /// [`GpuActiveShape::head`] and room for all shapes, of each avatar.
+    /// [`GpuActiveShape::head_of`] and room for all shapes and wrinkles, of each avatar.
     shapes: Vec<GpuActiveShape>,
+    wrinkles: Arc<[Wrinkle]>,
     places: Vec<Place>,
     /// Avatars whose bones and shapes the GPU does not know yet.
     unwritten: Range<usize>,
@@ -84,7 +89,7 @@ impl CrowdPose {
         let limits = device.limits();
         let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let bone_bytes = (bone_count * size_of::<GpuBone>()).max(1);
-        let shape_stride = 1 + shape_count;
+        let shape_stride = stride(shape_count);
         let most = |bytes: usize| (binding / bytes as u64) as usize;
         let limit = most(bone_bytes).min(most(shape_stride * size_of::<GpuActiveShape>()));
         if count > limit {
@@ -134,6 +139,7 @@ impl CrowdPose {
             shape_count,
             bones,
             shapes: vec![GpuActiveShape::head(0); shape_stride * count],
+            wrinkles: wrinkles_of(parts),
             places: vec![place; count],
             unwritten: 0..count,
             uneven: 0,
@@ -177,7 +183,7 @@ impl CrowdPose {
             return Err(StateError::WeightCount { expected: shape_count, found: weights.len() }.into());
         }
         let own_bones = &mut self.bones[avatar * bone_count..][..bone_count];
-        let own_shapes = &mut self.shapes[avatar * (1 + shape_count)..][..1 + shape_count];
+        let own_shapes = &mut self.shapes[avatar * stride(shape_count)..][..stride(shape_count)];
         if are_set(own_bones, bones) && are_active(own_shapes, weights) {
             return Ok(());
         }
@@ -191,7 +197,12 @@ impl CrowdPose {
             active += 1;
             own_shapes[active] = GpuActiveShape { index: shape as u32, weight };
         }
-        own_shapes[0] = GpuActiveShape::head(active);
+        let mut places = 0;
+        for place in GpuActiveShape::wrinkled(&self.wrinkles, weights) {
+            places += 1;
+            own_shapes[active + places] = place;
+        }
+        own_shapes[0] = GpuActiveShape::head_of(active, places);
         let is_usual = weights.iter().all(|weight| (0.0..=1.0).contains(weight));
         place.bounds = match is_usual {
             true => around(&self.boxes, self.excess, own_bones),
@@ -283,7 +294,7 @@ impl CrowdPose {
         }
         let unwritten = std::mem::take(&mut self.unwritten);
         write(queue, &self.buffers.bones, &self.bones, &unwritten, self.bone_count);
-        write(queue, &self.buffers.shapes, &self.shapes, &unwritten, 1 + self.shape_count);
+        write(queue, &self.buffers.shapes, &self.shapes, &unwritten, stride(self.shape_count));
         let all = 0..self.places.len();
         write(queue, &self.buffers.drawn, &self.drawn, &all, 1);
         write(queue, &self.buffers.blended, &self.blended, &all, 1);
@@ -292,6 +303,11 @@ impl CrowdPose {
             write(queue, &self.buffers.moved, &self.moved, &all, 1);
         }
     }
+}
+
+/// Elements of shapes and wrinkles of each avatar.
+fn stride(shape_count: usize) -> usize {
+    1 + shape_count + Wrinkle::MOST
 }
 
 /// Writes the values of some avatars, each of which has so many.

@@ -8,11 +8,12 @@ use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
 use crate::model::geometry::Geometry;
 use crate::model::part::ModelPart;
+use avatar_look::Wrinkle;
 use avatar_mesh::Bounds;
 use bytemuck::Zeroable;
 use glam::{Affine3A, Vec3};
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use wgpu::util::DeviceExt;
 
 /// WGSL of a pose.
@@ -44,9 +45,11 @@ pub enum StateError {
 #[derive(Debug)]
 pub(crate) struct Pose {
     bones: Vec<GpuBone>,
-    /// Those whose weight is not 0, by rising index, behind [`GpuActiveShape::head`].
+    /// Those whose weight is not 0, by rising index, behind [`GpuActiveShape::head_of`]; then places of
+    /// wrinkles.
     active_shapes: Vec<GpuActiveShape>,
     shape_count: usize,
+    wrinkles: Arc<[Wrinkle]>,
     /// Also a vertex buffer of eyeballs, whose shader turns the view back to bind pose.
     pub(crate) bone_buffer: wgpu::Buffer,
     shape_buffer: wgpu::Buffer,
@@ -91,7 +94,7 @@ impl Pose {
         });
         let output_layout = deformed_layout(device);
         // Zeros: no active shapes.
-        let bytes = ((1 + shape_count) * size_of::<GpuActiveShape>()) as u64;
+        let bytes = ((1 + shape_count + Wrinkle::MOST) * size_of::<GpuActiveShape>()) as u64;
         let shape_buffer =
             written_buffer(device, "avatar: active shapes", bytes, wgpu::BufferUsages::STORAGE);
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -110,6 +113,7 @@ impl Pose {
             bones,
             active_shapes: active_shapes(shape_count),
             shape_count,
+            wrinkles: wrinkles_of(parts),
             bone_buffer,
             shape_buffer,
             bind_group,
@@ -142,7 +146,7 @@ impl Pose {
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
         self.turns.iter_mut().zip(bones).for_each(|(turn, bone)| *turn = Turn::of(bone));
         self.parts.iter_mut().for_each(|part| part.set_turns(&self.device, &self.turns));
-        set_active(&mut self.active_shapes, weights);
+        set_active(&mut self.active_shapes, weights, &self.wrinkles);
         if !self.bones.is_empty() {
             queue.write_buffer(&self.bone_buffer, 0, bytemuck::cast_slice(&self.bones));
         }
@@ -178,18 +182,26 @@ impl Pose {
 
 /// Room for the active shapes of an avatar, all at rest.
 fn active_shapes(shape_count: usize) -> Vec<GpuActiveShape> {
-    let mut active = Vec::with_capacity(1 + shape_count);
+    let mut active = Vec::with_capacity(1 + shape_count + Wrinkle::MOST);
     active.push(GpuActiveShape::head(0));
     active
 }
 
-/// Lists the shapes whose weight is not 0 behind their number.
-fn set_active(active: &mut Vec<GpuActiveShape>, weights: &[f32]) {
+/// The wrinkles of a model.
+pub(crate) fn wrinkles_of(parts: &[ModelPart]) -> Arc<[Wrinkle]> {
+    let first = parts.iter().find(|part| !part.wrinkles.is_empty());
+    first.map_or_else(Default::default, |part| part.wrinkles.clone())
+}
+
+/// Lists the shapes whose weight is not 0 behind their number, and places of wrinkles behind them.
+fn set_active(active: &mut Vec<GpuActiveShape>, weights: &[f32], wrinkles: &[Wrinkle]) {
     active.truncate(1);
     let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
     active.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
-    let count = active.len().saturating_sub(1);
-    active.iter_mut().take(1).for_each(|head| *head = GpuActiveShape::head(count));
+    let shapes = active.len().saturating_sub(1);
+    active.extend(GpuActiveShape::wrinkled(wrinkles, weights));
+    let places = active.len().saturating_sub(1 + shapes);
+    active.iter_mut().take(1).for_each(|head| *head = GpuActiveShape::head_of(shapes, places));
 }
 
 /// Whether these bones are written already, bit for bit.
@@ -209,7 +221,8 @@ pub(crate) fn are_active(active: &[GpuActiveShape], weights: &[f32]) -> bool {
 
 /// A box around all parts with these bones and active shapes; see [`Pose::bounds`].
 pub(crate) fn bounds(parts: &[ModelPart], bones: &[GpuBone], active: &[GpuActiveShape]) -> Option<Bounds> {
-    let active = active.get(1..).unwrap_or_default();
+    let count = active.first().map_or(0, |head| head.index as usize);
+    let active = active.get(1..1 + count).unwrap_or_default();
     // Ascending by index.
     let weight = |shape: usize| {
         let found = active.binary_search_by_key(&shape, |active| active.index as usize);

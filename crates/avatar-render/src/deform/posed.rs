@@ -14,7 +14,7 @@ pub(crate) struct GpuDeformedVertex {
     pub(crate) position: [f32; 3],
     pub(crate) is_mirrored: u32,
     pub(crate) normal: [f32; 3],
-    pub(crate) pad: f32,
+    pub(crate) wrinkled: f32,
 }
 
 /// Layout of group 0 of the deform pass: where its results go.

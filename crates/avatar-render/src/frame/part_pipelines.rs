@@ -205,11 +205,12 @@ const fn bind_attributes() -> [wgpu::VertexAttribute; 2] {
     ]
 }
 
-const fn posed_attributes() -> [wgpu::VertexAttribute; 2] {
-    use wgpu::VertexFormat::Float32x3;
+const fn posed_attributes() -> [wgpu::VertexAttribute; 3] {
+    use wgpu::VertexFormat::{Float32, Float32x3};
     [
         attribute(Float32x3, offset_of!(GpuDeformedVertex, position), 2),
         attribute(Float32x3, offset_of!(GpuDeformedVertex, normal), 3),
+        attribute(Float32, offset_of!(GpuDeformedVertex, wrinkled), 10),
     ]
 }
 
@@ -250,7 +251,7 @@ fn part_buffers<'a>(
 }
 
 static BIND: [wgpu::VertexAttribute; 2] = bind_attributes();
-static POSED: [wgpu::VertexAttribute; 2] = posed_attributes();
+static POSED: [wgpu::VertexAttribute; 3] = posed_attributes();
 static CURVATURE: [wgpu::VertexAttribute; 1] = curvature_attributes();
 static EXTRA: [wgpu::VertexAttribute; 2] = [
     attribute(wgpu::VertexFormat::Float32x2, offset_of!(GpuExtra, uv_1), 8),

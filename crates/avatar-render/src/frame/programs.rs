@@ -12,6 +12,7 @@ macro_rules! module {
 }
 
 const VERTEX: Module = module!("shared/vertex");
+const GROOVE: Module = module!("shared/groove");
 const SURFACE: Module = module!("shared/surface");
 const MATTE: Module = module!("shared/matte");
 const SKIN_DIFFUSE: Module = module!("shared/skin_diffuse");
@@ -28,7 +29,7 @@ macro_rules! surface_program {
             label: $label,
             entry: $vertex,
             fragment: Some($fragment),
-            modules: &[FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, SURFACE, BRDF, OUTPUT, $($module,)* module!($file)],
+            modules: &[FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, GROOVE, SURFACE, BRDF, OUTPUT, $($module,)* module!($file)],
         }
     };
 }
@@ -172,7 +173,7 @@ macro_rules! standard_programs {
 macro_rules! standards {
     ([$($light:expr),*]) => {{
         const MODULES: &[Module] = &[
-            FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, SURFACE, BRDF, OUTPUT, $($light,)*
+            FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, GROOVE, SURFACE, BRDF, OUTPUT, $($light,)*
             SAMPLED, STANDARD_VERTEX, STANDARD_SURFACE, STANDARD_PICTURE,
         ];
         const VERTICES: &[Module] = &[FRAME, LOOK, VERTEX, OUTPUT, SAMPLED, STANDARD_VERTEX, STANDARD_OUTLINE];

@@ -1,7 +1,7 @@
 //! Parts as callers describe them.
 
 use crate::gpu::image::Image;
-use avatar_look::Wraps;
+use avatar_look::{Wraps, Wrinkle};
 use avatar_mesh::{Mesh, PartKind};
 
 /// A part to be drawn.
@@ -31,6 +31,15 @@ pub enum PartBones {
     Rigid(usize),
 }
 
+/// The wrinkles of a part.
+#[derive(Clone, Copy, Debug)]
+pub struct Wrinkles<'a> {
+    /// How deep each groove is: its red, linear.
+    pub depths: &'a Image,
+    /// Where which shapes bring them in; the first [`Wrinkle::MOST`] count.
+    pub places: &'a [Wrinkle],
+}
+
 /// The pictures of a part; each may have its own size. Without one, the default of the part's kind shows.
 /// The last three are read where the material has [`Material::standard`](avatar_look::Material::standard).
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,4 +65,6 @@ pub struct PartTextures<'a> {
     /// What lies beyond their edges. Gloss and thickness, which files do not have, take the fields of those
     /// in whose place they are.
     pub wraps: Wraps,
+    /// Wrinkles that shapes bring in. One part of a model may have some: the first that does.
+    pub wrinkles: Option<Wrinkles<'a>>,
 }

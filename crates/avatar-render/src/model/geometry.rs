@@ -8,6 +8,7 @@ use crate::model::error::{PartProblem, fits};
 use crate::model::extras::extras;
 use crate::model::places::Places;
 use crate::model::shape_blocks::{SHAPE_BLOCK, ShapeBlocks};
+use avatar_look::Wrinkle;
 use avatar_mesh::{Bounds, DeformBounds, Mesh, Offsets, Skinning, Winding};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -23,6 +24,10 @@ pub(crate) struct GpuPart {
     pub(crate) shape_count: u32,
     pub(crate) rigid_bone: u32,
     pub(crate) has_vertex_bones: u32,
+    pub(crate) has_wrinkles: u32,
+    pub(crate) pad: [u32; 2],
+    /// Middle, and 1 / reach.
+    pub(crate) wrinkles: [[f32; 4]; Wrinkle::MOST],
 }
 
 /// WGSL `Vertex`.
@@ -112,8 +117,9 @@ impl Geometry {
         let mesh = welded.as_ref().unwrap_or(mesh);
         if !mesh.shapes.is_empty() {
             let weights = first_weight.saturating_add(mesh.shapes.len());
-            // One stands before them.
-            let room = binding(&limits).saturating_sub(size_of::<GpuActiveShape>() as u64);
+            // One stands before them, and places of wrinkles behind.
+            let others = (1 + Wrinkle::MOST) * size_of::<GpuActiveShape>();
+            let room = binding(&limits).saturating_sub(others as u64);
             fits("weights", weights, size_of::<GpuActiveShape>(), room)?;
         }
         let shapes = ShapeBlocks::new(mesh, binding(&limits))?;
@@ -122,6 +128,7 @@ impl Geometry {
             PartBones::Rigid(bone) => bone,
             PartBones::PerVertex => 0,
         };
+        let wrinkles = desc.textures.wrinkles;
         let bounds = mesh.bounds();
         let depth = bounds.map_or(0.0, |bounds| bounds.size().z);
         let head = GpuPart {
@@ -130,6 +137,9 @@ impl Geometry {
             shape_count: shapes.shape_count,
             rigid_bone: rigid_bone as u32,
             has_vertex_bones: skinning.is_some().into(),
+            has_wrinkles: wrinkles.is_some().into(),
+            pad: [0; 2],
+            wrinkles: places_of(wrinkles.map_or(&[][..], |wrinkles| wrinkles.places)),
         };
         let part = buffer(device, &[head], label, "part", wgpu::BufferUsages::UNIFORM);
         let vertices = storage_and_vertices(device, &vertices(mesh), label, "vertices");
@@ -187,6 +197,15 @@ impl Geometry {
             center_bone,
         })
     }
+}
+
+/// Places of wrinkles as the shader reads them.
+fn places_of(wrinkles: &[Wrinkle]) -> [[f32; 4]; Wrinkle::MOST] {
+    let mut places = [[0.0; 4]; Wrinkle::MOST];
+    for (place, wrinkle) in places.iter_mut().zip(wrinkles) {
+        *place = wrinkle.center.extend(wrinkle.radius.max(f32::MIN_POSITIVE).recip()).to_array();
+    }
+    places
 }
 
 fn vertices(mesh: &Mesh) -> Vec<GpuVertex> {

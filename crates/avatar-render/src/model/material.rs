@@ -39,6 +39,9 @@ pub(crate) const UNLIT: u32 = 512;
 /// Bit of `GpuMaterial::textures`: drawn as a cartoon.
 pub(crate) const CARTOON: u32 = 1024;
 
+/// Bit of `GpuMaterial::textures`.
+pub(crate) const WRINKLE_TEXTURE: u32 = 2048;
+
 /// WGSL of the material and textures of a part.
 pub(crate) const LOOK: Module = Module { text: include_str!("shaders/look.wgsl"), constants };
 
@@ -55,6 +58,7 @@ fn constants() -> Vec<Constant> {
         ("FROM_FILE", Value::Count(FROM_FILE)),
         ("UNLIT", Value::Count(UNLIT)),
         ("CARTOON", Value::Count(CARTOON)),
+        ("WRINKLE_TEXTURE", Value::Count(WRINKLE_TEXTURE)),
         ("PROFILE_ROWS", Value::Count(PROFILE_LEN as u32 / 4)),
         ("PATH_PER_DISTANCE", Value::Float(1.0 / diffusion_distance(1.0, SKIN_ALBEDO))),
     ]
@@ -123,6 +127,8 @@ pub(crate) struct GpuMaterial {
     pub(crate) shadow_cutoff: f32,
     pub(crate) tone: [f32; 3],
     pub(crate) bare_green: f32,
+    pub(crate) wrinkle_depth: f32,
+    pub(crate) pad: [f32; 3],
     pub(crate) iris: GpuIris,
 }
 
@@ -204,6 +210,8 @@ impl GpuMaterial {
             shadow_cutoff,
             tone,
             bare_green,
+            wrinkle_depth: material.wrinkle_depth * height,
+            pad: [0.0; 3],
             iris: eye.map_or_else(bytemuck::Zeroable::zeroed, |eye| GpuIris::new(&material.iris, eye)),
         }
     }

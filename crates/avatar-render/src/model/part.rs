@@ -10,10 +10,11 @@ use crate::model::finish::{Finish, FinishCell};
 use crate::model::geometry::Geometry;
 use crate::model::material::{
     COLOR_TEXTURE, EMISSIVE_TEXTURE, GLOSS_TEXTURE, GpuMaterial, METALLIC_ROUGHNESS_TEXTURE, NORMAL_TEXTURE,
-    OCCLUSION_TEXTURE, SHADE_TEXTURE, THICKNESS_TEXTURE,
+    OCCLUSION_TEXTURE, SHADE_TEXTURE, THICKNESS_TEXTURE, WRINKLE_TEXTURE,
 };
-use avatar_look::{Material, Wrap};
+use avatar_look::{Material, Wrap, Wrinkle};
 use avatar_mesh::{Bounds, PartKind};
+use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
 /// A part on the GPU.
@@ -28,6 +29,8 @@ pub(crate) struct ModelPart {
     material: wgpu::Buffer,
     textures: u32,
     eye: Option<EyeShape>,
+    /// Where which shapes wrinkle it.
+    pub(crate) wrinkles: Arc<[Wrinkle]>,
 }
 
 /// The cornea that moves with an eyeball.
@@ -95,6 +98,7 @@ pub(crate) fn look_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
             sampler(8),
             sampler(9),
             sampler(10),
+            texture(11),
         ],
     })
 }
@@ -152,6 +156,7 @@ impl ModelPart {
             gloss,
             view(NORMAL_TEXTURE, "normal", desc.textures.normal, TextureUse::Normal)?,
             thickness,
+            view(WRINKLE_TEXTURE, "wrinkles", pictures.wrinkles.map(|own| own.depths), TextureUse::Value)?,
         ];
         let gpu_material =
             GpuMaterial::new(&Material::of(desc.kind), desc.kind, &geometry, eye.as_ref(), height, textures);
@@ -184,10 +189,13 @@ impl ModelPart {
                 sampler(8, 2),
                 sampler(9, 3),
                 sampler(10, 4),
+                texture_binding(11, &views[5]),
             ],
         });
         let (label, kind, finish) = (label.to_owned(), desc.kind, FinishCell::default());
-        Ok(Self { label, kind, geometry, look, finish, material, textures, eye })
+        let places = pictures.wrinkles.map_or(&[][..], |wrinkles| wrinkles.places);
+        let wrinkles = places.iter().take(Wrinkle::MOST).cloned().collect();
+        Ok(Self { label, kind, geometry, look, finish, material, textures, eye, wrinkles })
     }
 
     /// Whether it is blended over what is behind.

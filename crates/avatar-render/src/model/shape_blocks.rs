@@ -3,6 +3,7 @@
 
 use crate::gpu::program::{Constant, Module, Value};
 use crate::model::error::{PartProblem, fits};
+use avatar_look::Wrinkle;
 use avatar_mesh::{Mesh, Offsets, Shape};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -18,7 +19,11 @@ pub(crate) const RESTING_BLOCK: u32 = u32::MAX;
 pub(crate) const PART: Module = Module { text: include_str!("shaders/part.wgsl"), constants };
 
 fn constants() -> Vec<Constant> {
-    vec![("SHAPE_BLOCK", Value::Count(SHAPE_BLOCK)), ("RESTING_BLOCK", Value::Count(RESTING_BLOCK))]
+    vec![
+        ("SHAPE_BLOCK", Value::Count(SHAPE_BLOCK)),
+        ("RESTING_BLOCK", Value::Count(RESTING_BLOCK)),
+        ("MOST_WRINKLES", Value::Count(Wrinkle::MOST as u32)),
+    ]
 }
 
 /// WGSL `ShapeOffset`; the arrays are three scalars each there.

@@ -33,4 +33,5 @@ mod shadows;
 mod scattering;
 mod colors;
 mod eyes;
+mod wrinkles;
 mod labels;

@@ -10,6 +10,9 @@ use super::{Moved, Weight};
 /// Other names of what bones do, and the sounds of speech: text that people read and edit.
 const MIXTURES: &str = include_str!("mixtures.toml");
 
+/// Which shapes wrinkle the skin: text that people read and edit.
+const WRINKLES: &str = include_str!("wrinkles.toml");
+
 /// The parts of the raw format that shapes move, by the stems of their files.
 const PARTS: [(&str, &str); 2] = [("MarsienneSkin", "skin"), ("LowerJaw", "lower-jaw")];
 
@@ -40,6 +43,7 @@ pub fn toml(moved: &[Moved]) -> String {
     }
     text.push('\n');
     text.push_str(MIXTURES);
+    text.push_str(WRINKLES);
     text
 }
 

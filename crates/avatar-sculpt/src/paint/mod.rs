@@ -10,6 +10,7 @@ pub mod relief;
 pub mod skin;
 pub mod teeth;
 pub mod top;
+pub mod wrinkles;
 
 use anyhow::Result;
 use glam::DVec3;
@@ -86,6 +87,7 @@ pub fn all(
         ("SkinTex_Normal.png".to_owned(), fine.paint(level, relief::normal).png()?),
         ("SkinTex_AO.png".to_owned(), fine.paint(white, |s| skin::occlusion(s, baked)).png_grey()?),
         ("SkinTex_Gloss.png".to_owned(), fine.paint(DVec3::splat(0.34), skin::gloss).png_grey()?),
+        ("SkinTex_Wrinkles.png".to_owned(), coarse.paint(black, wrinkles::depth).png_grey()?),
         ("SkinTex_Thickness.png".to_owned(), coarse.paint(white, |s| skin::thickness(s, baked)).png_grey()?),
         ("HairMap.png".to_owned(), coarse.paint(black, hair::density_colour).png_grey()?),
         ("TeethTex_Decal.png".to_owned(), teeth::picture(detail.other_pixels() / 2).png()?),

@@ -59,6 +59,7 @@ fn the_committed_pack_is_complete_and_small() {
         ("SkinTex_AO", 2048),
         ("SkinTex_Gloss", 2048),
         ("SkinTex_Thickness", 1024),
+        ("SkinTex_Wrinkles", 1024),
         ("HairMap", 1024),
         ("EyeTex_Decal00", 1024),
         ("EyeTex_Decal01", 1024),

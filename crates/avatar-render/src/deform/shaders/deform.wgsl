@@ -13,6 +13,21 @@ struct Deformed {
     is_mirrored: bool,
 }
 
+// How strongly the skin is wrinkled at a place at bind pose, 0 to 1. The twin on the CPU is
+// avatar_look::Wrinkle.
+fn wrinkled(position: vec3f) -> f32 {
+    let first = first_shape + 1u + active_shapes[first_shape].index;
+    let count = select(0u, u32(active_shapes[first_shape].weight), part.has_wrinkles != 0u);
+    var sum = 0.0;
+    for (var i = 0u; i < count; i++) {
+        let active_place = active_shapes[first + i];
+        let place = part.wrinkles[active_place.index];
+        let near = saturate(1.5 * (1.0 - distance(position, place.xyz) * place.w));
+        sum += active_place.weight * near * near * (3.0 - 2.0 * near);
+    }
+    return min(sum, 1.0);
+}
+
 fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     var blended = bind;
     let block_count = (part.vertex_count + SHAPE_BLOCK - 1u) / SHAPE_BLOCK;

@@ -18,4 +18,5 @@ fn deform_crowd_main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocat
     let place = (avatar - chunk.first_avatar) * part.vertex_count + vertex;
     deformed[place].position = posed.position_world;
     deformed[place].normal = posed.normal_world;
+    deformed[place].wrinkled = wrinkled(vertices[vertex].position);
 }

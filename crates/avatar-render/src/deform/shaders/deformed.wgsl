@@ -5,4 +5,6 @@ struct DeformedVertex {
     // 1 where bones mirror the vertex, else 0; not written where no bone of the part does.
     is_mirrored: u32,
     normal: vec3f,
+    // How strongly the skin is wrinkled, 0 to 1.
+    wrinkled: f32,
 }

@@ -71,6 +71,7 @@ struct Material {
     // What the colour of bare skin is multiplied by, and its green as a share of its red in the texture.
     tone: vec3f,
     bare_green: f32,
+    wrinkle_depth: f32,
     iris: Iris,
 }
 
@@ -80,6 +81,8 @@ struct Material {
 @group(2) @binding(3) var gloss_texture: texture_2d<f32>;
 @group(2) @binding(4) var normal_texture: texture_2d<f32>;
 @group(2) @binding(5) var thickness_texture: texture_2d<f32>;
+// How deep wrinkles are.
+@group(2) @binding(11) var wrinkle_texture: texture_2d<f32>;
 // Of each texture, what lies beyond its edges.
 @group(2) @binding(6) var color_sampler: sampler;
 @group(2) @binding(7) var occlusion_sampler: sampler;

@@ -9,6 +9,9 @@ struct Part {
     // The bone of a part that is rigid; not read where vertices have bones of their own.
     rigid_bone: u32,
     has_vertex_bones: u32,
+    has_wrinkles: u32,
+    // Of each place of wrinkles the middle at bind pose, and 1 / its reach.
+    wrinkles: array<vec4f, MOST_WRINKLES>,
 }
 
 struct Vertex {

@@ -10,5 +10,5 @@ struct CrowdIn {
 
 fn of_one(in: CrowdIn) -> VertexIn {
     let posed = posed_vertex(in.vertex, in.instance);
-    return VertexIn(in.bind_position_u, in.bind_normal_v, posed.position, posed.normal, in.curvature);
+    return VertexIn(in.bind_position_u, in.bind_normal_v, posed.position, posed.normal, in.curvature, posed.wrinkled);
 }

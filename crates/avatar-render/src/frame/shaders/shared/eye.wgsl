@@ -36,7 +36,8 @@ fn eye_vertex_main(in: VertexIn, bone: BoneIn) -> EyeOut {
 }
 
 fn vertex_of(in: EyeOut) -> VertexOut {
-    return VertexOut(in.position_clip, in.position_world, in.normal_world, in.uv, in.depth, in.curvature);
+    return VertexOut(
+        in.position_clip, in.position_world, in.normal_world, in.uv, in.depth, in.curvature, 0.0);
 }
 
 struct IrisView {

@@ -117,9 +117,11 @@ fn surface_at(in: VertexOut, uv: vec2f, is_front: bool) -> Surface {
     surface.view = normalize(frame.eye_world - in.position_world);
     // Parts are drawn from both sides where a back may show (the mouth, the rim of the neck).
     surface.smooth_normal = normalize(in.normal_world) * select(-1.0, 1.0, is_front);
-    surface.normal = relief_normal(in.position_world, uv, surface.smooth_normal);
+    let relief = relief_normal(in.position_world, uv, surface.smooth_normal);
+    let groove = groove_at(in.position_world, uv, surface.smooth_normal, relief, in.wrinkled);
+    surface.normal = groove.normal;
     let color = part_color(uv);
-    surface.color = color.rgb;
+    surface.color = color.rgb * mix(vec3f(1.0), GROOVE_COLOR, groove.depth);
     surface.opacity = color.a;
     surface.occlusion = 1.0;
     if (material.textures & OCCLUSION_TEXTURE) != 0u {
@@ -128,6 +130,7 @@ fn surface_at(in: VertexOut, uv: vec2f, is_front: bool) -> Surface {
             surface.occlusion = mix(1.0, surface.occlusion, material.occlusion_strength);
         }
     }
+    surface.occlusion *= 1.0 - GROOVE_SHADE * groove.depth;
     var gloss = 0.5;
     if (material.textures & GLOSS_TEXTURE) != 0u {
         gloss = textureSample(gloss_texture, gloss_sampler, uv).r;

@@ -7,6 +7,7 @@ struct VertexIn {
     @location(3) normal_world: vec3f,
     // 1 / radius of the surface at bind pose.
     @location(4) curvature: f32,
+    @location(10) wrinkled: f32,
 }
 
 struct VertexOut {
@@ -18,6 +19,8 @@ struct VertexOut {
     // Where the vertex lies in its part at bind pose: 0 at the front of the face, 1 at the back.
     @location(3) depth: f32,
     @location(4) curvature: f32,
+    // How strongly the skin is wrinkled, 0 to 1.
+    @location(5) wrinkled: f32,
 }
 
 fn vertex_out(in: VertexIn) -> VertexOut {
@@ -30,6 +33,7 @@ fn vertex_out(in: VertexIn) -> VertexOut {
     out.uv = vec2f(in.bind_position_u.w, in.bind_normal_v.w);
     out.depth = (material.front_z - in.bind_position_u.z) * material.per_depth;
     out.curvature = in.curvature;
+    out.wrinkled = in.wrinkled;
     return out;
 }
 
