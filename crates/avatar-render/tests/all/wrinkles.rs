@@ -118,11 +118,13 @@ fn wrinkles_are_there_only_where_and_when_their_shapes_bring_them_in() {
     let light = key_light(Vec3::new(0.0, 1.0, 1.0).normalize_or_zero());
     for (_, shading) in shadings() {
         let plain = shown(&mut without, [0.0, 0.0], &light, shading);
-        let mut at_rest = |weights| shown(&mut with, weights, &light, shading).light == plain.light;
-        assert!(at_rest([0.0, 0.0]), "{shading:?}: nothing at rest");
-        assert!(at_rest([1.0, 0.0]), "{shading:?}: another shape wrinkles nothing");
-        let half = shown(&mut with, [0.0, 0.5], &light, shading);
-        assert!(at_rest([0.0, 0.0]) && half.light != plain.light, "{shading:?}: they come and go");
+        // At rest, with another shape, with their own, and at rest again.
+        for (weights, is_smooth) in
+            [([0.0; 2], true), ([1.0, 0.0], true), ([0.0, 0.5], false), ([0.0; 2], true)]
+        {
+            let found = shown(&mut with, weights, &light, shading);
+            assert_eq!(found.light == plain.light, is_smooth, "{shading:?}, {weights:?}");
+        }
     }
     let shading = Shading::Natural(Terms::NONE);
     let plain = shown(&mut without, [0.0, 0.0], &light, shading);
