@@ -15,20 +15,20 @@ pub(super) fn puff(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
     let around = dome((m.u / 1.3).powi(2) + (m.fade_height(spot) / 1.3).powi(2)) * m.front;
     // Air presses outward; the closed lips are held together at their corners.
-    DVec3::new(0.62, 0.0, 0.98) * cheek + DVec3::new(-0.12 * smooth(0.0, 2.2, p.x), 0.0, 0.34) * around
+    DVec3::new(0.78, 0.0, 1.10) * cheek + DVec3::new(-0.12 * smooth(0.0, 2.2, p.x), 0.0, 0.34) * around
 }
 
 /// The cheek rises toward the lower lid.
 pub(super) fn squint(spot: &Spot) -> DVec3 {
     let p = spot.p();
-    let d2 = ((p - DVec3::new(4.6, -2.6, 1.9)) / DVec3::new(1.9, 1.6, 2.8)).length_squared();
+    let d2 = ((p - DVec3::new(4.5, -2.8, 1.9)) / DVec3::new(1.9, 1.5, 2.8)).length_squared();
     let w = (0.75 * dome(d2) + 0.25 * dome(0.4 * d2)) * spot.on_face();
     // Toward the nose less moves.
     let beside = smooth(0.6, 2.8, p.x);
     let rel = p - EYE;
     let under = dome(((rel.x - 0.4) / 1.7).powi(2) + ((rel.y + 1.2) / 0.8).powi(2)) * spot.on_face();
     let lower = if spot.on_lower_lid() { 1.0 } else { 0.0 };
-    DVec3::new(0.18, 0.64, 0.12) * w * beside + spot.about_eye(0.07 * under * lower)
+    DVec3::new(0.16, 0.86, 0.24) * w * beside + spot.about_eye(0.09 * under * lower)
 }
 
 /// The wing of the nose and the fold beside it rise, the skin at the root of the nose comes down.
@@ -42,9 +42,9 @@ pub(super) fn sneer(spot: &Spot) -> DVec3 {
     let (s, h) = spot.brow();
     let along = curve(&[(-0.4, 0.5), (0.0, 1.0), (0.3, 0.85), (0.6, 0.4), (1.0, 0.0)], s);
     let brow = along * dome((h / 1.15).powi(2)) * on_face;
-    DVec3::new(0.08, 0.46, 0.0) * wing
-        + DVec3::new(-0.03, 0.20, 0.02) * beside
-        + DVec3::new(-0.12, 0.12, 0.02) * cheek
-        + DVec3::new(0.03, 0.36, -0.02) * lip
-        + DVec3::new(-0.28, -0.44, 0.10) * brow
+    DVec3::new(0.10, 0.52, 0.0) * wing
+        + DVec3::new(-0.04, 0.30, 0.10) * beside
+        + DVec3::new(-0.12, 0.10, 0.02) * cheek
+        + DVec3::new(0.03, 0.30, -0.02) * lip
+        + DVec3::new(-0.32, -0.54, 0.12) * brow
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::spot::Spot;
-use crate::{anatomy::EYE, math::smooth, surface::half::Patch};
+use crate::{anatomy::EYE, math::smooth, parts::teeth, surface::half::Patch};
 
 /// Takes the part of a displacement toward the eye away where the lids lie on it.
 ///
@@ -14,7 +14,22 @@ pub(super) fn of_eye(spot: &Spot, d: DVec3) -> DVec3 {
     }
     let rel = spot.p() - EYE;
     let r = rel.length();
-    let near = smooth(2.9, 2.2, r);
+    let near = smooth(3.3, 2.2, r);
     let outward = rel / r.max(1e-9);
     d - outward * (d.dot(outward).min(0.0) * near)
+}
+
+/// Takes the part of a displacement toward the gums away on the inner side of the lips, which lies close to
+/// them.
+///
+/// The rows of teeth bulge forward everywhere: whoever slides along them or leaves them stays outside, whatever
+/// is added up.
+pub(super) fn of_teeth(spot: &Spot, d: DVec3) -> DVec3 {
+    if !spot.in_mouth() {
+        return d;
+    }
+    // The lips' edges are free: they lie well before the teeth.
+    let inside = smooth(0.12, 0.32, spot.node.own.x);
+    let outward = teeth::outward(spot.p());
+    d - outward * (d.dot(outward).min(0.0) * inside)
 }

@@ -8,7 +8,7 @@ use crate::math::smooth;
 /// The corner goes up, out and back, and the cheek above it rises.
 pub(super) fn smile(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
-    let widths = [1.55, 1.35, 1.5, 1.5];
+    let widths = [1.55, 1.35, 1.75, 1.5];
     let across = m.bent(spot, &[(0.0, 0.0), (0.5, 0.42), (1.0, 1.0)], widths);
     let up = m.bent(spot, &[(0.0, 0.04), (0.3, 0.13), (0.6, 0.42), (1.0, 1.0)], widths);
     let back = m.bent(spot, &[(0.0, 0.22), (0.5, 0.5), (1.0, 1.0)], widths);

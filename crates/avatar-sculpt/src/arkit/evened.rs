@@ -4,16 +4,16 @@
 //! the mouth's width apart: the smallest triangles fold long before anything else does. Evened out among
 //! neighbours, the same difference is spread over a few more rows.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
-use super::{jaw, moved::Whole, spot::dome};
+use super::{moved::Whole, spot::dome};
 use crate::{
     anatomy::mouth_line,
     skin::{Skin, Vertex},
 };
 
 /// How far it reaches, as the width of a bell.
-const REACH: f64 = 0.42;
+const REACH: f64 = 0.48;
 const ROUNDS: usize = 8;
 
 /// How much each joined vertex is evened out.
@@ -62,18 +62,17 @@ impl Corners {
         offsets.iter_mut().zip(&whole.number).for_each(|(d, n)| *d = joined[*n]);
     }
 
-    /// Offsets that even out the corners of the fully opened mouth themselves: vertices move toward the middle
-    /// of their neighbours where the open jaw has taken them.
-    pub(super) fn opened(&self, whole: &Whole, skin: &Skin) -> Vec<DVec3> {
-        let bones = jaw::bones(skin);
+    /// Offsets that even out the corners of a mouth that the jaw's bone has moved: vertices move toward the
+    /// middle of their neighbours where the bone has taken them.
+    pub(super) fn turned(&self, whole: &Whole, skin: &Skin, bones: &[(DMat3, DVec3)]) -> Vec<DVec3> {
         let mut places = whole.places.clone();
-        for ((v, n), (turn, shift)) in skin.vertices.iter().zip(&whole.number).zip(&bones) {
+        for ((v, n), (turn, shift)) in skin.vertices.iter().zip(&whole.number).zip(bones) {
             places[*n] = *turn * v.p + *shift;
         }
         self.even(whole, &mut places);
-        let offset = |((v, n), (turn, shift)): ((&Vertex, &usize), &(glam::DMat3, DVec3))| {
+        let offset = |((v, n), (turn, shift)): ((&Vertex, &usize), &(DMat3, DVec3))| {
             if self.near[*n] == 0.0 { DVec3::ZERO } else { turn.inverse() * (places[*n] - *shift) - v.p }
         };
-        skin.vertices.iter().zip(&whole.number).zip(&bones).map(offset).collect()
+        skin.vertices.iter().zip(&whole.number).zip(bones).map(offset).collect()
     }
 }

@@ -37,8 +37,11 @@ pub fn toml(moved: &[Moved]) -> String {
         }
         let _ = match parts[0].weight {
             Weight::Control => Ok(()),
-            Weight::Follows(input) => writeln!(text, "follows = \"{input}\"\nat = 1.0"),
-            Weight::Product([a, b]) => writeln!(text, "product = [\"{a}\", \"{b}\"]"),
+            Weight::Follows(input, at) => writeln!(text, "follows = \"{input}\"\nat = {at:?}"),
+            // Both shapes of a pair have got the weight of their side.
+            Weight::Product([a, b]) | Weight::OfSide([a, _], b) => {
+                writeln!(text, "product = [\"{a}\", \"{b}\"]")
+            }
         };
     }
     text.push('\n');
@@ -49,7 +52,14 @@ pub fn toml(moved: &[Moved]) -> String {
 
 /// Where a shape is listed.
 fn group(name: &str) -> &'static str {
-    let groups = [("brow", "brows"), ("eye", "eyes"), ("cheek", "cheeks"), ("nose", "nose"), ("jaw", "jaw")];
+    let groups = [
+        ("brow", "brows"),
+        ("eye", "eyes"),
+        ("lid", "eyes"),
+        ("cheek", "cheeks"),
+        ("nose", "nose"),
+        ("jaw", "jaw"),
+    ];
     groups.into_iter().find(|(start, _)| name.starts_with(start)).map_or("mouth", |(_, group)| group)
 }
 

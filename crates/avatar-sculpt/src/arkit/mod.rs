@@ -13,15 +13,17 @@ mod corners;
 mod evened;
 mod file;
 mod jaw;
+mod lid_arc;
 mod lips;
 mod mouth;
 mod moved;
+mod opened;
 mod spot;
 
 use glam::DVec3;
 
 pub use file::{raw, toml};
-pub use jaw::FORWARD;
+pub use jaw::{FORWARD, TONGUE_DROP};
 pub use moved::{Moved, moved};
 pub use spot::Spot;
 
@@ -46,7 +48,7 @@ pub enum Kind {
 }
 
 /// What the skin does, by the name without its side.
-pub const FIELDS: [(&str, Kind); 24] = [
+pub const FIELDS: [(&str, Kind); 25] = [
     ("browDown", Kind::Sided(brows::down, 0.9)),
     ("browInnerUp", Kind::Both(brows::inner_up)),
     ("browOuterUp", Kind::Sided(brows::outer_up, 0.3)),
@@ -71,21 +73,40 @@ pub const FIELDS: [(&str, Kind); 24] = [
     ("mouthStretch", Kind::Sided(corners::stretch, 1.1)),
     ("mouthUpperUp", Kind::Sided(lips::upper_up, 1.0)),
     ("noseSneer", Kind::Sided(cheeks::sneer, 0.8)),
+    ("tongueOut", Kind::WithJaw(jaw::tongue_room)),
 ];
 
 /// What is added where linear motion fails, by name: the field, and what its weight is ([`Weight`]).
-pub const CORRECTIVES: [(&str, Kind, Weight); 1] =
-    [("jawOpen_mouthClose", Kind::OpenJaw(mouth::close_opened), Weight::Product(["mouthClose", "jaw.open"]))];
+pub const CORRECTIVES: [(&str, Kind, Weight); 4] = [
+    ("jawOpen_mouthClose", Kind::OpenJaw(mouth::close_opened), Weight::Product(["mouthClose", "jaw.open"])),
+    ("jawOpen_mouthFunnel", Kind::Both(opened::funnel), Weight::Product(["mouthFunnel", "jaw.open"])),
+    ("jawOpen_mouthPucker", Kind::Both(opened::pucker), Weight::Product(["mouthPucker", "jaw.open"])),
+    (
+        "jawOpen_mouthSmile",
+        Kind::Sided(opened::smile, 1.2),
+        Weight::OfSide(["mouthSmileLeft", "mouthSmileRight"], "jaw.open"),
+    ),
+];
 
 /// Where the weight of a shape comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Weight {
     /// It has a control of its own.
     Control,
-    /// It follows a control of a bone, evenly from its default to its end.
-    Follows(&'static str),
+    /// It follows a control of a bone, which counts 0 at its default and 1 at its end, and stands alone at this
+    /// value.
+    Follows(&'static str, f64),
     /// It is the product of the values of two controls, of which that of a bone counts 1 at its end.
     Product([&'static str; 2]),
+    /// For a shape with sides: the product of the first control of its own side, left or right, and the second.
+    OfSide([&'static str; 2], &'static str),
+}
+
+impl Weight {
+    /// The weight of the left (0) or right (1) one of two shapes.
+    fn of_side(self, side: usize) -> Self {
+        if let Self::OfSide(own, other) = self { Self::Product([own[side], other]) } else { self }
+    }
 }
 
 /// What lids, eyes and jaw do by turning bones.

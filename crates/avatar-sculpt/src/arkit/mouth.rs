@@ -19,7 +19,7 @@ fn around(spot: &Spot, wide: f64, up: f64, down: f64) -> f64 {
 pub(super) fn funnel(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
     let w = around(spot, 1.35, 1.6, 1.6);
-    let open = m.along(&[(0.0, 1.0), (0.5, 0.9), (0.9, 0.35), (1.2, 0.15), (2.0, 0.1)]);
+    let open = m.along(&[(0.0, 1.0), (0.5, 0.95), (0.9, 0.45), (1.2, 0.15), (2.0, 0.1)]);
     // The line between the lips goes furthest; above the upper lip skin is drawn down.
     let apart = if m.upper > 0.0 {
         curve(&[(0.0, 0.36), (0.6, 0.26), (1.0, 0.08), (1.5, -0.18), (2.0, -0.26)], m.across)
@@ -27,7 +27,7 @@ pub(super) fn funnel(spot: &Spot) -> DVec3 {
         curve(&[(0.0, 0.44), (0.6, 0.42), (1.0, 0.32), (1.5, 0.18), (2.0, 0.10)], m.across)
     };
     let forward = curve(&[(0.0, 0.70), (0.6, 0.62), (1.0, 0.46), (1.5, 0.22), (2.0, 0.10)], m.across);
-    DVec3::new(-0.50 * m.u.min(1.2), apart * m.upper * open, forward) * w
+    DVec3::new(-0.66 * m.u.min(1.2), apart * m.upper * open, forward) * w
 }
 
 /// The closed lips are drawn together and forward, as for a kiss.
@@ -35,7 +35,9 @@ pub(super) fn pucker(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
     let w = around(spot, 1.25, 1.4, 1.5) + 0.2 * around(spot, 2.4, 2.6, 2.6);
     let lips = curve(&[(0.0, 1.0), (1.0, 0.9), (2.0, 0.55)], m.across);
-    DVec3::new(-0.70 * m.u.min(1.35), 0.02, 0.72 * lips) * w
+    // What is drawn together becomes thicker.
+    let thick = curve(&[(0.0, 0.0), (1.0, 0.12), (2.0, 0.06)], m.across) * m.upper;
+    DVec3::new(-0.84 * m.u.min(1.35), 0.02 + thick, 0.84 * lips) * w
 }
 
 /// The mouth slides to the shape's own side, about the teeth.
@@ -45,7 +47,7 @@ pub(super) fn sideways(spot: &Spot) -> DVec3 {
     // On its own side the corner goes out, back and up; on the other it comes in and forward.
     let turned = 0.42 * smooth(0.0, 1.2, m.u) * m.u.min(1.2);
     let up = smooth(-0.3, 1.0, spot.side * m.u);
-    DVec3::new(0.52 * spot.side, 0.26 * up, -turned * spot.side) * w
+    DVec3::new(0.78 * spot.side, 0.26 * up, -turned * spot.side) * w
 }
 
 /// Holds the lips of the closed jaw together a little more firmly: they turn inward by a trace.

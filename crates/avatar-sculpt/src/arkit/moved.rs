@@ -1,8 +1,8 @@
 //! From fields to offsets of vertices.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
-use super::{CORRECTIVES, FIELDS, Field, Kind, Spot, Weight, clear, evened::Corners, jaw};
+use super::{CORRECTIVES, FIELDS, Field, Kind, Spot, Weight, clear, evened::Corners, jaw, lid_arc};
 use crate::{
     math::smooth,
     mesh::{self, Part},
@@ -11,10 +11,10 @@ use crate::{
     skin::{Skin, Vertex},
 };
 
-/// Offsets below this length (1e-5 of the head's size) are none.
-const LEAST: f64 = 2.8e-4;
-/// Changes of normals below this length (a twentieth of a degree) are none.
-const LEAST_TURN: f64 = 1e-3;
+/// Offsets below this length (a fortieth of a millimetre) are none.
+const LEAST: f64 = 2.5e-3;
+/// Changes of normals below this length (a quarter of a degree) are none.
+const LEAST_TURN: f64 = 4e-3;
 
 /// The stem of the skin's files.
 pub(super) const SKIN: &str = "MarsienneSkin";
@@ -41,9 +41,10 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
     let whole = Whole::new(skin);
     let mut all = Vec::new();
     let corners = Corners::new(&whole, skin);
-    let mut opened = corners.opened(&whole, skin);
+    let (still, jaw_open) = (vec![jaw::opened(0.0); skin.vertices.len()], jaw::bones(skin));
+    let mut opened = corners.turned(&whole, skin, &jaw_open);
     drop_traces(&mut opened, LEAST);
-    let mut opened_normals = whole.changes(skin, &opened, true);
+    let mut opened_normals = whole.changes(skin, &opened, &jaw_open);
     drop_traces(&mut opened_normals, LEAST_TURN);
     let fields = FIELDS.into_iter().map(|(name, kind)| (name, kind, Weight::Control));
     for (name, kind, weight) in fields.chain(CORRECTIVES) {
@@ -51,33 +52,53 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
             Kind::Both(_) | Kind::WithJaw(_) | Kind::OpenJaw(_) => &[("", 1.0)],
             Kind::Sided(..) | Kind::Across(_) => &[("Left", 1.0), ("Right", -1.0)],
         };
-        for (suffix, own) in sides {
+        for (side, (suffix, own)) in sides.iter().enumerate() {
             let mut offsets = offsets(skin, kind, *own);
             if matches!(kind, Kind::WithJaw(_)) {
                 corners.offsets(&whole, &mut offsets);
             }
-            let open = matches!(kind, Kind::OpenJaw(_));
-            let mut normals = whole.changes(skin, &offsets, open);
-            if open {
+            let open = matches!(weight, Weight::Product(_) | Weight::OfSide(..));
+            let mut normals = whole.changes(skin, &offsets, if open { &jaw_open } else { &still });
+            if matches!(kind, Kind::OpenJaw(_)) {
                 // Closed lips need no evened corners: what the jaw brings along is taken away again.
                 offsets.iter_mut().zip(&opened).for_each(|(d, corner)| *d -= *corner);
                 normals.iter_mut().zip(&opened_normals).for_each(|(n, corner)| *n -= *corner);
             }
             drop_traces(&mut offsets, LEAST);
             drop_traces(&mut normals, LEAST_TURN);
+            let weight = weight.of_side(side);
             all.push(Moved { name: format!("{name}{suffix}"), stem: SKIN, weight, offsets, normals });
+        }
+    }
+    for (name, at) in lid_arc::SHARES {
+        for (suffix, control, side) in lid_arc::SIDES {
+            let mut offsets = lid_arc::offsets(skin, side, at);
+            let mut normals = whole.changes(skin, &offsets, &lid_arc::bones(skin, side, at));
+            drop_traces(&mut offsets, LEAST);
+            drop_traces(&mut normals, LEAST_TURN);
+            let (name, weight) = (format!("{name}{suffix}"), Weight::Follows(control, at));
+            all.push(Moved { name, stem: SKIN, weight, offsets, normals });
         }
     }
     all.push(Moved {
         name: "openMouthCorners".to_owned(),
         stem: SKIN,
-        weight: Weight::Follows("jaw.open"),
+        weight: Weight::Follows("jaw.open", 1.0),
         offsets: opened,
         normals: opened_normals,
     });
+    for (name, side) in [("jawCornersLeft", 1.0), ("jawCornersRight", -1.0)] {
+        let bones = jaw::bones_aside(skin, side);
+        let mut offsets = corners.turned(&whole, skin, &bones);
+        drop_traces(&mut offsets, LEAST);
+        let mut normals = whole.changes(skin, &offsets, &bones);
+        drop_traces(&mut normals, LEAST_TURN);
+        let weight = Weight::Follows("jaw.jut", side);
+        all.push(Moved { name: name.to_owned(), stem: SKIN, weight, offsets, normals });
+    }
     for (stem, part) in sculpture.parts.iter().filter(|(stem, _)| *stem == "LowerJaw") {
         let tongue = |(p, uv): (&DVec3, &DVec2)| {
-            if teeth::is_tongue(*uv) { jaw::tongue_out(*p) } else { DVec3::ZERO }
+            if teeth::is_tongue(*uv) { jaw::tongue_out(*p) } else { jaw::TONGUE_DROP }
         };
         let out = part.positions.iter().zip(&part.uvs).map(tongue).collect();
         let forward = vec![jaw::FORWARD; part.positions.len()];
@@ -100,7 +121,7 @@ fn drop_traces(values: &mut [DVec3], least: f64) {
 fn offsets(skin: &Skin, kind: Kind, own: f64) -> Vec<DVec3> {
     let on = |field: Field, i: usize, half: f64| {
         let spot = Spot { node: skin.half.mover(i), side: own * half };
-        clear::of_eye(&spot, field(&spot))
+        clear::of_teeth(&spot, clear::of_eye(&spot, field(&spot)))
     };
     skin.vertices
         .iter()
@@ -153,9 +174,8 @@ impl Whole {
         Self { places, triangles, number, same, rest }
     }
 
-    /// How normals at rest change under offsets of the vertices, seen at rest or with the jaw open.
-    fn changes(&self, skin: &Skin, offsets: &[DVec3], open: bool) -> Vec<DVec3> {
-        let bones = if open { jaw::bones(skin) } else { vec![jaw::opened(0.0); skin.vertices.len()] };
+    /// How normals at rest change under offsets of the vertices, seen where these bones have taken them.
+    fn changes(&self, skin: &Skin, offsets: &[DVec3], bones: &[(DMat3, DVec3)]) -> Vec<DVec3> {
         let mut moved = self.places.clone();
         for (k, n) in self.number.iter().enumerate() {
             moved[*n] = bones[k].0 * (self.places[*n] + offsets[k]) + bones[k].1;

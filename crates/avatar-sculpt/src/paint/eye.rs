@@ -91,8 +91,9 @@ pub fn picture(width: usize, iris: &Iris, shade: &Shade) -> Picture {
             return rgb(200, 150, 136);
         }
         let open = shade.at(uv);
-        // Not the whole depth of the shade: some of it the renderer adds for every eye.
-        let dim = lerp(0.42, 1.0, smooth(0.05, 0.62, open));
+        // Little of the shade's depth: the renderer adds some for every eye, and what lids cover at rest is
+        // seen when the eye turns.
+        let dim = lerp(0.76, 1.0, smooth(0.05, 0.62, open));
         let c = sclera(d, s).lerp(iris_colour(iris, turn, s), smooth(1.07, 0.92, s));
         // Shade on flesh and eyes is warm: light comes back from the lids.
         let warm = DVec3::new(1.0, 0.94, 0.90);

@@ -48,11 +48,23 @@ impl Arch {
     }
 }
 
+/// The arch of the upper row, which is the wider one.
+const UPPER_ARCH: Arch = Arch { half_width: 2.12, front: 3.40, back: 0.7 };
+
+/// The level direction away from the rows of teeth: that of an ellipse like the upper arch through a place
+/// before them.
+#[must_use]
+pub fn outward(p: DVec3) -> DVec3 {
+    let Arch { half_width, front, back } = UPPER_ARCH;
+    let depth = front - back;
+    DVec3::new(p.x / (half_width * half_width), 0.0, (p.z - back).max(0.0) / (depth * depth))
+        .normalize_or_zero()
+}
+
 /// Upper teeth and gum.
 #[must_use]
 pub fn upper() -> Part {
-    let arch = Arch { half_width: 2.12, front: 3.40, back: 0.7 };
-    row(&UPPER, &arch, -4.93, -1.0)
+    row(&UPPER, &UPPER_ARCH, -4.93, -1.0)
 }
 
 /// Lower teeth, gum and tongue.

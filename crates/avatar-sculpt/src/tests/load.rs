@@ -4,7 +4,7 @@ use avatar_pack::{FaceState, MemorySource, Pack};
 use glam::DVec3;
 
 use super::{geometry, hit, mesh, sculpture};
-use crate::arkit;
+use crate::{anatomy::EYE, arkit, surface::half::Patch, weights};
 
 fn loaded() -> Pack {
     let files = geometry().files.iter().cloned().collect();
@@ -60,9 +60,9 @@ fn all_names_of_arkit_and_the_sounds_of_speech_are_controls() {
         let control = &pack.controls().controls()[index];
         assert_eq!((control.min, control.max, control.default), (0.0, 1.0, 0.0), "{name}");
         assert!(control.group.is_some(), "{name} has no group");
-        // Of the skin each moves something, but eyes that look aside and the tongue; silence and lips that are
-        // closed already move by a trace.
-        let apart = ["eyeLookIn", "eyeLookOut", "tongueOut"].iter().any(|start| name.starts_with(start));
+        // Of the skin each moves something, but eyes that look aside; silence and lips that are closed already
+        // move by a trace.
+        let apart = ["eyeLookIn", "eyeLookOut"].iter().any(|start| name.starts_with(start));
         let least = if name == "viseme_sil" || name == "mouthClose" { 0.005 } else { 0.1 };
         let moved = posed(&pack, &[(&name, 1.0)]);
         let most = moved.iter().zip(&rest).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
@@ -85,7 +85,9 @@ fn what_bones_do_turns_bones() {
     same("jawOpen", &[("jaw.open", 20.0)]);
     same("jawLeft", &[("jaw.jut", 8.0)]);
     same("jawRight", &[("jaw.jut", -8.0)]);
+    // The upper lid follows the gaze, by whatever name it is called.
     same("eyeLookDownLeft", &[("eye.left.ud", -25.0)]);
+    same("eyeLookUpRight", &[("eye.right.ud", 25.0)]);
 }
 
 #[test]
@@ -107,6 +109,29 @@ fn lips_that_are_closed_over_an_open_jaw_meet() {
     let (open, closed) = (gap(&[("jawOpen", 1.0)]), gap(&[("jawOpen", 1.0), ("mouthClose", 1.0)]));
     let half = gap(&[("jawOpen", 0.5), ("mouthClose", 1.0)]);
     assert!(open > 2.0 && closed < 0.1 && half < 0.25, "open {open}, closed {closed}, half {half}");
+}
+
+#[test]
+fn closing_lids_keep_their_distance_from_the_eye() {
+    // Skin that slides about an axis keeps its distance from it.
+    let pack = loaded();
+    let radius = |p: DVec3| (p.y - EYE.y).hypot(p.z - EYE.z);
+    let rest = posed(&pack, &[]);
+    let skin = &sculpture().skin;
+    let lid: Vec<usize> = (0..rest.len())
+        .filter(|&i| {
+            let node = &skin.half.nodes[skin.vertices[i].source];
+            let all = weights::of(node);
+            let share: f64 = all.iter().filter(|w| w.0 == weights::UPPER_LID).map(|w| w.1).sum();
+            node.patch == Patch::Sheet && share > 0.02
+        })
+        .collect();
+    assert!(lid.len() > 200, "{}", lid.len());
+    for closed in [-10.0, 11.25, 22.5, 33.75, 45.0] {
+        let p = posed(&pack, &[("lid.left.upper", closed), ("lid.right.upper", closed)]);
+        let off = lid.iter().map(|&i| (radius(p[i]) - radius(rest[i])).abs()).fold(0.0, f64::max);
+        assert!(off < 0.02, "lids closed by {closed} degrees: {off}");
+    }
 }
 
 #[test]

@@ -136,17 +136,51 @@ fn jaw(weights: &Weights) -> DMat3 {
         * DMat3::from_rotation_y((8.0 * (w("jawLeft") - w("jawRight"))).to_radians())
 }
 
+/// How much a shape counts that stands alone where its input is `at`: 0 at rest and where the next one stands
+/// alone, evenly between; beyond the outermost of 0 and all shapes the last line goes on.
+fn follows(face: &Face, input: &str, at: f64, x: f64) -> f64 {
+    let mut places = vec![0.0];
+    places.extend(face.moved.iter().filter_map(|(_, weight, _)| match weight {
+        Weight::Follows(of, at) if *of == input => Some(*at),
+        _ => None,
+    }));
+    places.sort_by(f64::total_cmp);
+    let last = places.len() - 1;
+    // The two places whose line counts at `x`.
+    let k = places.iter().filter(|p| **p <= x).count().clamp(1, last);
+    let (low, high) = (places[k - 1], places[k]);
+    let along = (x - low) / (high - low);
+    if at == low {
+        1.0 - along
+    } else if at == high {
+        along
+    } else {
+        0.0
+    }
+}
+
 fn deformed(face: &Face, weights: &Weights) -> Vec<DVec3> {
     let m = skin();
     let w = |name: &str| weights.get(name).copied().unwrap_or(0.0);
     let mut p = m.p.clone();
-    // Controls by the names that bones have in ARKit.
-    let control = |name: &str| if name == "jaw.open" { w("jawOpen") } else { w(name) };
+    let upper_lid = |side: &str| {
+        let follows = 7.5 * (w(&format!("eyeLookDown{side}")) - w(&format!("eyeLookUp{side}")));
+        (45.0 * w(&format!("eyeBlink{side}")) + follows).clamp(-10.0, 45.0)
+    };
+    // Controls of bones count 1 at their ends.
+    let control = |name: &str| match name {
+        "jaw.open" => w("jawOpen"),
+        "jaw.jut" => w("jawLeft") - w("jawRight"),
+        "lid.left.upper" => upper_lid("Left") / 45.0,
+        "lid.right.upper" => upper_lid("Right") / 45.0,
+        _ => w(name),
+    };
     for (name, weight, moved) in &face.moved {
         let weight = match weight {
             Weight::Control => w(name),
-            Weight::Follows(input) => control(input),
+            Weight::Follows(input, at) => follows(face, input, *at, control(input)),
             Weight::Product([a, b]) => control(a) * control(b),
+            Weight::OfSide(..) => unreachable!("{name} has the weight of its side"),
         };
         if weight != 0.0 {
             moved.iter().for_each(|(i, d)| p[*i] += *d * weight);
@@ -154,13 +188,7 @@ fn deformed(face: &Face, weights: &Weights) -> Vec<DVec3> {
     }
     let about_x = |degrees: f64| DMat3::from_rotation_x(degrees.to_radians());
     let lid = |side: &str, upper: bool| {
-        let blink = w(&format!("eyeBlink{side}"));
-        if upper {
-            let follows = 7.5 * (w(&format!("eyeLookDown{side}")) - w(&format!("eyeLookUp{side}")));
-            about_x((45.0 * blink + follows).min(45.0))
-        } else {
-            about_x(-25.0 * blink)
-        }
+        if upper { about_x(upper_lid(side)) } else { about_x(-25.0 * w(&format!("eyeBlink{side}"))) }
     };
     let still = (DVec3::ZERO, DMat3::IDENTITY);
     let (left, right) = (eye(1.0), eye(-1.0));
@@ -209,7 +237,9 @@ pub(super) fn faults(face: &Face, weights: &Weights) -> Faults {
     let back = jaw(weights).inverse();
     let w = |name: &str| weights.get(name).copied().unwrap_or(0.0);
     for &i in &face.lips {
-        let below = JAW + back * (p[i] - JAW) - w("jawForward") * arkit::FORWARD;
+        let below = JAW + back * (p[i] - JAW)
+            - w("jawForward") * arkit::FORWARD
+            - w("tongueOut") * arkit::TONGUE_DROP;
         let inside = face.rows[0].iter().any(|piece| piece.contains(p[i]))
             || face.rows[1].iter().any(|piece| piece.contains(below));
         if inside {
@@ -242,5 +272,5 @@ pub(in crate::tests) fn distance(from: DVec3, t: [DVec3; 3]) -> f64 {
 pub(super) fn names() -> Vec<String> {
     let bones = arkit::BY_BONES.map(str::to_owned);
     let own = face().moved.iter().filter(|m| m.1 == Weight::Control).map(|m| m.0.clone());
-    own.chain(bones).chain(["tongueOut".to_owned()]).collect()
+    own.chain(bones).collect()
 }

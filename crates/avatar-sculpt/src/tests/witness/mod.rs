@@ -33,7 +33,6 @@ fn names() -> Vec<String> {
             _ => names.extend([format!("{name}Left"), format!("{name}Right")]),
         }
     }
-    names.push("tongueOut".to_owned());
     names.sort();
     names
 }

@@ -1,0 +1,55 @@
+//! Keeps the skin of a closing upper lid at its distance from the eye.
+//!
+//! Where skin follows a lid by half, the mean of a still and a turning bone cuts the corner of the arc. The
+//! loss grows with the square of the angle, so it is given back by two shapes: half way and at the end.
+
+use glam::{DMat3, DVec3};
+
+use crate::{
+    anatomy::EYE,
+    lids::{UPPER_CLOSE, shrink},
+    math::{cos, sin},
+    skin::Skin,
+    weights,
+};
+
+/// The names of the shapes without their side, and which share of the lid's turn they are made for. The first
+/// is the end of the control's range: without it the next one would go on below 0.
+pub(super) const SHARES: [(&str, f64); 3] =
+    [("lidOpened", -10.0 / 45.0), ("lidHalfClosed", 0.5), ("lidClosed", 1.0)];
+/// The sides, and their controls.
+pub(super) const SIDES: [(&str, &str, f64); 2] =
+    [("Left", "lid.left.upper", 1.0), ("Right", "lid.right.upper", -1.0)];
+
+/// How much of the turn of a side's upper lid a vertex takes.
+fn share(skin: &Skin, number: usize, side: f64) -> f64 {
+    let v = &skin.vertices[number];
+    if v.p.x * side <= 0.0 {
+        return 0.0;
+    }
+    let all = weights::of(skin.half.mover(v.source));
+    all.iter().filter(|(bone, _)| *bone == weights::UPPER_LID).map(|(_, w)| w).sum()
+}
+
+/// What the bones of a lid do to each vertex when it has turned by a share of its range: the turn, and where
+/// the origin goes.
+pub(super) fn bones(skin: &Skin, side: f64, turned: f64) -> Vec<(DMat3, DVec3)> {
+    let (s, c) = (sin(UPPER_CLOSE * turned), cos(UPPER_CLOSE * turned));
+    let turn = DMat3::from_cols(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c));
+    let eye = DVec3::new(EYE.x * side, EYE.y, EYE.z);
+    let of = |w: f64| (DMat3::IDENTITY * (1.0 - w) + turn * w, (eye - turn * eye) * w);
+    (0..skin.vertices.len()).map(|i| of(share(skin, i, side))).collect()
+}
+
+/// Offsets away from the lid's axis that make up for what the mean of two bones takes.
+pub(super) fn offsets(skin: &Skin, side: f64, turned: f64) -> Vec<DVec3> {
+    let of = |i: usize| {
+        let w = share(skin, i, side);
+        if w == 0.0 {
+            return DVec3::ZERO;
+        }
+        let rel = skin.half.mover(skin.vertices[i].source).p - EYE;
+        DVec3::new(0.0, rel.y, rel.z) * (1.0 / shrink(w, UPPER_CLOSE * turned) - 1.0)
+    };
+    (0..skin.vertices.len()).map(of).collect()
+}
