@@ -1,8 +1,9 @@
 //! Makes another person of a pack: applies values of the axes to it, once.
 
-use crate::identity::{Eye, Field};
+use crate::identity::{Eye, Field, colors};
 use crate::load::head_of;
 use crate::{ContentsError, Pack, PackContents, PaletteBone, Part};
+use avatar_groom::Hair;
 use avatar_mesh::{Mesh, Offsets, PartKind};
 use glam::{DMat3, DVec3, Mat4, Vec3, Vec4};
 use rig_core::{RawJoint, RawRig, Rig, RigError};
@@ -93,6 +94,25 @@ impl Pack {
         set_measures(&mut contents);
         contents.identity = None;
         Ok(Self::new(contents)?)
+    }
+}
+
+impl Pack {
+    /// Gives the pack the skin, the irises and the colour of its hair, where it has some, that go with a
+    /// number, as [`Identity::draw`](crate::Identity::draw) draws the axes.
+    pub fn draw_colors(&mut self, seed: u64) {
+        let drawn = colors(seed);
+        let mut materials = self.materials().clone();
+        for part in self.parts().iter().filter(|part| part.material.is_none()) {
+            let own = materials.of(&part.name, part.kind);
+            let drawn = drawn.colors.over(part.kind, own);
+            if drawn != own {
+                materials.set(&part.name, drawn);
+            }
+        }
+        self.set_materials(materials);
+        let hair = self.hair().map(|hair| Hair { style: hair.style.colored(drawn.hair), ..*hair });
+        self.set_hair(hair);
     }
 }
 

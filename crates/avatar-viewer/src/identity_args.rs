@@ -9,7 +9,7 @@ use std::str::FromStr;
 /// `AXIS=VALUE` or `seed:NUMBER`
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum IdentityArg {
-    /// All axes as this number draws them.
+    /// All axes, and colours, as this number draws them.
     Seed(u64),
     /// One axis.
     Axis { name: String, value: f32 },
@@ -39,9 +39,13 @@ pub(crate) fn person(pack: Pack, args: &[IdentityArg]) -> Result<Pack> {
     }
     let identity = pack.identity().ok_or_else(|| usage(format!("--identity: {}", IdentityError::NoAxes)))?;
     let mut values = vec![0.0; identity.axes.len()];
+    let mut drawn = None;
     for arg in args {
         match arg {
-            IdentityArg::Seed(seed) => values = identity.draw(*seed),
+            IdentityArg::Seed(seed) => {
+                values = identity.draw(*seed);
+                drawn = Some(*seed);
+            }
             IdentityArg::Axis { name, value } => {
                 let axis = identity
                     .index(name)
@@ -54,5 +58,7 @@ pub(crate) fn person(pack: Pack, args: &[IdentityArg]) -> Result<Pack> {
             }
         }
     }
-    Ok(pack.with_identity(&values)?)
+    let mut person = pack.with_identity(&values)?;
+    drawn.into_iter().for_each(|seed| person.draw_colors(seed));
+    Ok(person)
 }

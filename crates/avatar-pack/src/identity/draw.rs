@@ -1,4 +1,6 @@
 use super::Identity;
+use avatar_groom::Style;
+use avatar_look::Colors;
 
 impl Identity {
     /// Values of all axes for a number: the same on every machine, and mostly mild. Axes that go together in
@@ -25,6 +27,31 @@ impl Identity {
             values.push(value.clamp(-1.0, 1.0));
         }
         values
+    }
+}
+
+/// Colours of a person.
+pub(crate) struct Drawn {
+    pub(crate) colors: Colors,
+    pub(crate) hair: [f32; 3],
+}
+
+/// Colours for a number: dark skin rarely goes with light eyes and light hair.
+pub(crate) fn colors(seed: u64) -> Drawn {
+    // Other numbers than those of the axes.
+    let mut state = !seed;
+    let share = even(&mut state) as f32;
+    // Half of the people are below fair to olive, a sixth above brown.
+    let melanin = 0.03 + 1.87 * share * share * share * share;
+    let mut pick = |dark: &[usize], light: &[usize], certain: f32| {
+        let list = if even(&mut state) < f64::from(melanin / certain) { dark } else { light };
+        list[((even(&mut state) * list.len() as f64) as usize).min(list.len() - 1)]
+    };
+    let (iris, hair) =
+        (pick(&[0, 0, 0, 0, 1], &[0, 1, 2, 3, 4, 4, 5], 0.5), pick(&[0, 0, 1], &[1, 2, 2, 3, 4, 5, 6], 0.4));
+    Drawn {
+        colors: Colors { skin: Some(Colors::skin_with(melanin)), iris: Some(Colors::IRISES[iris].1) },
+        hair: Style::COLORS[hair].1,
     }
 }
 

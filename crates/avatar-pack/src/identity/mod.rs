@@ -5,6 +5,7 @@ mod field;
 mod text;
 mod write;
 
+pub(crate) use draw::colors;
 pub(crate) use field::{Eye, Field};
 
 /// Axes along which a face becomes that of somebody else: what `identity.toml` says.
