@@ -10,7 +10,8 @@ use crate::common::folder;
 use avatar_exchange::{Node, RawScene, Scene, ScenePart, Skin, Transform, Trs, glb, gltf};
 use avatar_mesh::{FACE_PARTS, Mesh, Shape, Skinning};
 use avatar_pack::{
-    FaceState, Import, MemorySource, Pack, RawError, RawFiles, Texture, Textures, export, raw_files,
+    FaceState, Import, MemorySource, Pack, RawError, RawFiles, ShapeWeight, Texture, Textures, export,
+    raw_files,
 };
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use pose_anim::ClipSet;
@@ -26,6 +27,17 @@ fn loaded(files: &RawFiles) -> (MemorySource, Pack) {
 
 fn imported(raw: RawScene) -> Import {
     Import::from_scene(Scene::from_raw(raw).expect("a scene")).expect("an avatar")
+}
+
+/// The shapes that follow others of the pack, with their weights: in a GLB each has a control of its own.
+fn followers<'a>(pack: &'a Pack, values: &[f32]) -> Vec<(&'a str, f32)> {
+    let mut state = FaceState::new(pack);
+    state.pose(pack, values).expect("a pose");
+    let further = &pack.further_shapes().expect("further shapes").shapes;
+    let weight_of = |name: &str| pack.shapes().iter().position(|shape| shape == name).expect("a shape");
+    (further.iter().filter(|shape| shape.weight != ShapeWeight::Control))
+        .map(|shape| (shape.name.as_str(), state.weights()[weight_of(&shape.name)]))
+        .collect()
 }
 
 /// All vertices of a pose by the names of its controls, in the order of the parts.
@@ -102,16 +114,21 @@ fn an_avatar_that_went_through_glb_is_the_same_in_all_poses() {
     }
     let bounds = pack.bounds().expect("vertices");
     let size = (bounds.max - bounds.min).max_element();
-    // The couplings of the pack are no part of a GLB: what it has of them is compared.
+    // The couplings of the pack and its mixtures are no part of a GLB: what it has of them is compared.
+    let mixtures = &pack.further_shapes().expect("further shapes").mixtures;
     let all: Vec<usize> = (0..FACE_PARTS.len()).collect();
     for pose in poses(&pack) {
         let mut values = pack.controls().defaults();
         for (name, value) in &pose {
             values[pack.controls().index(name).expect("a control")] = *value;
         }
-        let mut effective = values.clone();
-        pack.binding().couple(&values, &mut effective);
-        let named: Vec<(&str, f32)> = pack.controls().names().zip(effective).collect();
+        let mut state = FaceState::new(&pack);
+        state.pose(&pack, &values).expect("a pose");
+        let effective = state.effective().to_vec();
+        let named: Vec<(&str, f32)> = (pack.controls().names().zip(effective))
+            .filter(|(name, _)| !mixtures.iter().any(|mixture| mixture.name == *name))
+            .chain(followers(&pack, &values))
+            .collect();
         let of_pack = posed(&pack, &pose, &all);
         agree(&of_pack, &posed(&import.pack, &named, &all), size, &format!("GLB, {pose:?}"));
         agree(&of_pack, &posed(&again, &named, &all), size, &format!("folder, {pose:?}"));

@@ -3,6 +3,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 #![allow(clippy::disallowed_methods, reason = "it reads the built-in avatar")]
 
+use crate::common::head::weights_of_skin;
 use crate::common::nearest::Nearest;
 use crate::common::{gpu, scene};
 use avatar_groom::{DensityMap, Groom, Root, SEGMENTS, Strand, Style, Triangle, grow, grow_guide};
@@ -85,9 +86,10 @@ impl<'a> Head<'a> {
     fn strands(&mut self, values: &[f32]) -> Vec<Strand> {
         let (pack, gpu) = (self.pack, self.gpu);
         self.face.pose(pack, values).expect("a pose");
-        self.state.set(&gpu.queue, self.face.bones(), self.face.weights()).expect("lengths fit");
+        let weights = weights_of_skin(pack, &self.face);
+        self.state.set(&gpu.queue, self.face.bones(), weights).expect("lengths fit");
         let skin = &pack.parts()[0].mesh;
-        deform(skin, self.face.bones(), self.face.weights(), &mut self.posed).expect("lengths fit");
+        deform(skin, self.face.bones(), weights, &mut self.posed).expect("lengths fit");
         let Self { deformer, grower, model, state, .. } = self;
         grower.run(&gpu.device, &gpu.queue, deformer, model, state).expect("strands")
     }

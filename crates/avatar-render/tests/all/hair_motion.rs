@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use crate::common::gpu;
-use crate::common::head::{Head, canvas};
+use crate::common::head::{Head, canvas, weights_of_skin};
 use crate::common::nearest::Nearest;
 use avatar_groom::{SEGMENTS, Strand, Style};
 use avatar_mesh::deform;
@@ -46,7 +46,8 @@ impl<'a> Stage<'a> {
         let mut values = controls.defaults();
         values[controls.index("head.turn").expect("a head that turns")] = degrees;
         self.face.pose(&self.head.pack, &values).expect("a pose");
-        self.state.set(&self.gpu.queue, self.face.bones(), self.face.weights()).expect("lengths fit");
+        let weights = weights_of_skin(&self.head.pack, &self.face);
+        self.state.set(&self.gpu.queue, self.face.bones(), weights).expect("lengths fit");
     }
 
     fn strands(&mut self) -> Vec<Strand> {
@@ -141,7 +142,8 @@ fn hair_that_swings_stays_outside_of_the_head() {
             if frame % 5 != 4 {
                 continue;
             }
-            deform(skin, stage.face.bones(), stage.face.weights(), &mut posed).expect("lengths fit");
+            let weights = weights_of_skin(&stage.head.pack, &stage.face);
+            deform(skin, stage.face.bones(), weights, &mut posed).expect("lengths fit");
             let nearest = Nearest::new(&posed.positions, &skin.triangles);
             for (i, points) in strands.iter().enumerate() {
                 for (k, point) in points.iter().enumerate() {

@@ -100,11 +100,12 @@ fn heads_of_one_frame_have_their_own_share_of_strands() {
     let mut thin = AvatarState::new(&gpu.device, &model);
     let bones = |x: f32| vec![Affine3A::from_translation(Vec3::X * x); model.palette_len()];
     let weights = vec![0.0; model.shape_count()];
-    full.set(&gpu.queue, &bones(-4.0), &weights).expect("lengths fit");
-    thin.set(&gpu.queue, &bones(4.0), &weights).expect("lengths fit");
+    full.set(&gpu.queue, &bones(-14.0), &weights).expect("lengths fit");
+    thin.set(&gpu.queue, &bones(14.0), &weights).expect("lengths fit");
     thin.set_hair_detail(HairDetail { share: 0.1, ..HairDetail::default() });
     let stage = Stage::new(gpu, Quality::Low.shading(avatar_render::Style::Natural), 64, FORMAT);
-    let scene = head.scene(0.0, 0.3);
+    // So far apart that their shoulders do not meet.
+    let scene = head.scene(0.0, 0.2);
     let drawn = |avatars: &[_]| stage.bytes(gpu, &scene, avatars);
     let both = drawn(&[(&model, &full), (&model, &thin)]);
     assert!(both == drawn(&[(&model, &thin), (&model, &full)]), "the order does not matter");

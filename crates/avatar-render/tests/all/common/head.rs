@@ -2,7 +2,7 @@
 
 use avatar_groom::{DensityMap, Groom, Style};
 use avatar_mesh::{Bounds, Mesh};
-use avatar_pack::{Pack, Source, SourceError, Texture, Textures};
+use avatar_pack::{FaceState, Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Canvas, Gpu};
 use avatar_render::{
     AvatarModel, AvatarState, Camera, HairDetail, Image, Light, PartBones, PartDesc, PartTextures, Quality,
@@ -88,6 +88,11 @@ impl Head {
         let camera = Camera::orbit(bounds.center(), distance, yaw, 0.0, fov, 1.0);
         Scene { camera, background: [0.0; 4], light: Light::studio() }
     }
+}
+
+/// The weights of the skin's shapes: all that a model of the skin alone has.
+pub(crate) fn weights_of_skin<'a>(pack: &Pack, face: &'a FaceState) -> &'a [f32] {
+    &face.weights()[pack.parts()[0].shapes()]
 }
 
 /// What the adapter at hand does not decide about: low quality.
