@@ -13,7 +13,7 @@ pub(super) fn add_cheeks_and_brow(d: f64, q: DVec3) -> f64 {
     let bone = cone(q, DVec3::new(3.6, -1.75, 2.1), 0.95, DVec3::new(6.0, -0.9, -1.6), 0.75);
     let apple = ellipsoid(q, DVec3::new(2.9, -2.9, 2.35), DVec3::new(1.5, 1.5, 1.25));
     // On to the ear: without its arch the bone would end in a dent.
-    let arch = cone(q, DVec3::new(6.0, -0.9, -1.6), 0.75, DVec3::new(6.55, -1.1, -4.6), 0.55);
+    let arch = cone(q, DVec3::new(6.0, -0.9, -1.6), 0.75, DVec3::new(6.5, -1.1, -4.6), 0.46);
     let d = join(join(d, join(bone, arch, 0.6), 1.6), apple, 1.4);
     let inner = cone(q, DVec3::new(0.9, 1.80, 3.28), 0.52, DVec3::new(3.1, 2.38, 2.92), 0.60);
     let outer = cone(q, DVec3::new(3.1, 2.38, 2.92), 0.60, DVec3::new(5.3, 1.85, 0.8), 0.5);

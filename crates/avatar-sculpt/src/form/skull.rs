@@ -81,8 +81,8 @@ fn face(q: DVec3) -> f64 {
 /// The edge of the jaw from the chin to its corner, and up to the ear: without it cheek and throat are one
 /// ball.
 fn jaw_bone(q: DVec3) -> f64 {
-    let edge = cone(q, DVec3::new(0.7, -8.4, 1.5), 0.7, DVec3::new(4.15, -6.5, -3.3), 0.8);
-    let branch = cone(q, DVec3::new(4.15, -6.5, -3.3), 0.8, DVec3::new(5.2, -2.6, -4.6), 0.8);
+    let edge = cone(q, DVec3::new(0.7, -8.4, 1.5), 0.7, DVec3::new(4.1, -6.4, -3.4), 0.72);
+    let branch = cone(q, DVec3::new(4.1, -6.4, -3.4), 0.72, DVec3::new(5.2, -2.6, -4.6), 0.8);
     join(edge, branch, 0.8)
 }
 

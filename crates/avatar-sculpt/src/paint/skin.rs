@@ -103,7 +103,9 @@ fn sheet(site: &Site, own: &Complexion) -> DVec3 {
     c = lips(site, c);
     c = c.lerp(rgb(62, 40, 36), 0.86 * hair::brows(p, true));
     let q = DVec3::new(p.x.abs(), p.y, p.z);
-    c = c.lerp(rgb(52, 22, 20), 0.95 * smooth(0.02, -0.16, form::nostril(q)));
+    // The wall of a nostril's hollow, but for its foot on the lip.
+    let nostril = smooth(0.10, -0.01, form::nostril(q)) * smooth(-3.78, -3.55, p.y);
+    c = c.lerp(rgb(58, 24, 22), 0.92 * nostril);
     // Hair cut to the skin: a shade of many dark points, not a cap.
     let shorn = hair::scalp(site) * (0.78 + 0.5 * fbm(p * DVec3::new(7.0, 4.0, 5.0), 3));
     c.lerp(rgb(62, 44, 40), (0.82 * shorn).clamp(0.0, 0.9))
@@ -182,6 +184,9 @@ pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
         Patch::Sheet => {
             let q = site.node.p - DVec3::new(1.08, -2.72, 4.15);
             let crease = bell3(q, DVec3::ZERO, DVec3::new(0.34, 0.62, 0.6));
+            // The hollow below the lower lid is shallow, and light comes to it from the cheek.
+            let under = bell3(site.node.p, EYE + DVec3::new(0.0, -1.45, 1.4), DVec3::new(1.9, 0.6, 1.2));
+            let open = lerp(open, 1.0, 0.55 * under * smooth(0.2, 0.6, site.node.lid));
             open * (1.0 - 0.36 * crease) - 0.18 * lash_shade(site)
         }
     };
