@@ -36,6 +36,9 @@ pub struct View {
 pub enum Framing {
     /// All parts.
     Whole,
+    /// Head and shoulders of a face with a bust ([`Pack::head`]), which leaves the picture at its lower edge as
+    /// in a photograph; all parts of any other avatar.
+    Portrait,
     /// The head of an avatar with a body ([`Pack::face`]); all parts of an avatar that is no more than a
     /// head.
     Head,
@@ -102,6 +105,7 @@ impl View {
     pub fn camera(&self, pack: &Pack, aspect: f32) -> Camera {
         let (framed, nearer) = match (self.framing, pack.face()) {
             (Framing::Whole, _) | (Framing::Head, None) => (None, 1.0),
+            (Framing::Portrait, _) => (pack.head().map(with_shoulders), 1.0),
             (Framing::Face, Some(head)) if pack.head().is_some() => (Some(head), FACE_DISTANCE),
             (Framing::Head | Framing::Face, Some(face)) => (Some(face), 1.0),
             (Framing::Face, None) => (None, FACE_DISTANCE),
@@ -115,7 +119,8 @@ impl View {
         let across = bounds.size().x.max(bounds.size().z);
         // A head is round: the corners of its box that are nearest to the camera are empty. Other files hold
         // anything.
-        let is_head = pack.motion().is_none() || framed == pack.face() && framed.is_some();
+        let is_head = pack.motion().is_none()
+            || framed.is_some() && (framed == pack.face() || self.framing == Framing::Portrait);
         let roundness = if is_head { ROUNDNESS } else { 1.0 };
         let half = Vec3::new(across, bounds.size().y, across * roundness) / 2.0;
         let round = Bounds { min: bounds.center() - half, max: bounds.center() + half };
@@ -149,6 +154,13 @@ impl Default for View {
     fn default() -> Self {
         Self::FRONT
     }
+}
+
+/// The box around a head, and below it what a portrait shows of neck and shoulders; above it a trace of room
+/// for hair.
+fn with_shoulders(head: Bounds) -> Bounds {
+    let height = head.size().y;
+    Bounds { min: head.min - Vec3::Y * 0.14 * height, max: head.max + Vec3::Y * 0.04 * height }
 }
 
 /// The whole avatar from the front, before [`BACKGROUND`], in the light of a studio, for a picture of this

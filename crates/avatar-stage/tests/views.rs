@@ -52,6 +52,21 @@ fn a_portrait_holds_the_whole_head_and_fills_the_picture() {
 }
 
 #[test]
+fn a_portrait_of_a_bust_holds_its_head_and_leaves_out_its_lower_edge() {
+    for aspect in [0.7, 1.0, 16.0 / 9.0] {
+        let camera = View { framing: Framing::Portrait, ..View::FRONT }.camera(pack(), aspect);
+        let at = |p: Vec3| camera.clip_from_world().project_point3(p);
+        let (head, all) = (pack().head().unwrap(), pack().bounds().unwrap());
+        for corner in [head.min, head.max] {
+            let seen = at(corner.with_z(head.center().z));
+            assert!(seen.x.abs() < 1.0 && seen.y.abs() < 1.0, "{aspect}: {seen}");
+        }
+        let below = at(Vec3::new(0.0, all.min.y, head.center().z));
+        assert!(below.y < -1.0, "{aspect}: the bust's edge is seen at {below}");
+    }
+}
+
+#[test]
 fn nearer_framings_show_more_of_less() {
     let distance = |framing: Framing| {
         let view = View { framing, ..View::FRONT };
@@ -61,6 +76,7 @@ fn nearer_framings_show_more_of_less() {
     let whole = distance(Framing::Whole);
     assert!(distance(Framing::Head) < whole, "this avatar has shoulders");
     assert!(distance(Framing::Face) < distance(Framing::Head));
+    assert!(distance(Framing::Head) < distance(Framing::Portrait) && distance(Framing::Portrait) < whole);
     let eye = pack().parts().iter().position(|part| part.name == "left-eyeball").unwrap();
     assert!(distance(Framing::Part(eye)) < distance(Framing::Face));
     assert_eq!(distance(Framing::Part(999)), whole, "no such part");

@@ -22,7 +22,8 @@ pub(crate) struct PictureArgs {
     /// Camera's angle above the horizon in degrees [default: 0]
     #[arg(long, allow_hyphen_values = true, value_parser = finite, value_name = "DEGREES")]
     pitch: Option<f32>,
-    /// What fills the picture, where it is at rest: the name of a part, or `face` [default: the whole avatar]
+    /// What fills the picture, where it is at rest: the name of a part, `face`, or `whole` for all
+    /// of the avatar [default: head and shoulders of a bust, else the whole avatar]
     #[arg(long, value_name = "PART")]
     frame: Option<String>,
     /// Samples per pixel, 1 or 4
@@ -37,11 +38,12 @@ impl PictureArgs {
     /// Where the camera stands around this pack.
     pub(crate) fn view(&self, pack: &Pack) -> Result<View> {
         let framing = match self.frame.as_deref() {
-            None => Framing::Whole,
+            None => Framing::Portrait,
+            Some("whole") if pack.part("whole").is_none() => Framing::Whole,
             Some("face") if pack.part("face").is_none() => Framing::Face,
             Some(name) => {
                 let place = pack.parts().iter().position(|part| part.name == name);
-                let names = pack.parts().iter().map(|part| part.name.as_str()).chain(["face"]);
+                let names = pack.parts().iter().map(|part| part.name.as_str()).chain(["face", "whole"]);
                 Framing::Part(place.ok_or_else(|| usage::unknown("part", name, names))?)
             }
         };
