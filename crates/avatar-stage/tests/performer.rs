@@ -199,8 +199,8 @@ fn a_layer_goes_over_the_poses() {
     performer.press("smile").unwrap();
     performer.advance(5.0).unwrap();
     assert_eq!(performer.values()[control(face::JAW_OPEN)], 10.0);
-    let smile = pack().poses().get("smile").unwrap().value(control(face::SMILE)).unwrap();
-    assert_eq!(performer.values()[control(face::SMILE)], smile);
+    let bend = pack().poses().get("smile").unwrap().value(control(face::HEAD_BEND)).unwrap();
+    assert!(bend != 0.0 && performer.values()[control(face::HEAD_BEND)] == bend);
 }
 
 #[test]
