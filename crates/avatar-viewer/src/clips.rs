@@ -8,6 +8,9 @@ use avatar_pack::{MotionAt, Pack, SceneMotion};
 use pose_anim::{Clip, Recording, Wrap};
 use std::path::Path;
 
+/// Columns that a warning names.
+const TOLD: usize = 8;
+
 /// A clip that exists.
 #[derive(Clone, Debug)]
 pub(crate) enum FoundClip {
@@ -44,11 +47,11 @@ fn recording(pack: &Pack, path: &Path) -> Result<Clip> {
     let recording = recording.map_err(|error| anyhow!("{}: {error}", path.display()))?;
     let over = &recording.passed_over;
     if !over.is_empty() {
+        let first = over.iter().take(TOLD).map(String::as_str).collect::<Vec<_>>().join(", ");
+        let more = if over.len() > TOLD { " and others" } else { "" };
+        let (file, count) = (path.display(), over.len());
         standard::warn(format_args!(
-            "{}: the face has no control for {} of its columns, which are passed over: {}",
-            path.display(),
-            over.len(),
-            over.join(", ")
+            "{file}: the face has no control for {count} columns, which are passed over: {first}{more}"
         ));
     }
     Ok(recording.clip)

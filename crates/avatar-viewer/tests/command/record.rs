@@ -292,3 +292,28 @@ fn an_empty_folder_is_filled_and_an_old_film_replaced() {
     assert!(fs::read(&film).expect("a film").starts_with(b"GIF89a"));
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2);
 }
+
+#[test]
+fn a_face_trackers_recording_is_a_clip() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("talk.csv");
+    let header = "FrameNumber,SubFrame,Numerator,Denominator,Smile,HeadYaw,TongueOut,JawOpen";
+    fs::write(&file, format!("{header}\n7,0,16,1,0,0,1,1\n9,0,16,1,0.5,0.5,1,1\n")).expect("written");
+    let pack = golden_pack();
+    let joints = |options: &[&str]| {
+        let run = finish(viewer().arg("bones").arg(&pack).args(options));
+        (json(&run.stdout)["joints"].clone(), run.stderr)
+    };
+    let name = file.to_str().expect("a name in UTF-8");
+    // Half way between both rows: a quarter of a radian.
+    let (half, told) = joints(&["--clip", name, "--time", "0.0625"]);
+    assert!(told.contains("no control for 2 columns, which are passed over: TongueOut, JawOpen"), "{told}");
+    let turn = format!("head.turn={}", 0.25 * 180.0 / std::f64::consts::PI);
+    assert_eq!(half, joints(&["--set", &turn]).0);
+    assert_ne!(half, joints(&[]).0);
+    fs::write(&file, format!("{header}\n7,0,30,1,wide,0,1,1\n")).expect("written");
+    let place = "talk.csv: line 2: expected a number as Smile, found \"wide\"";
+    finish(viewer().arg("bones").arg(&pack).args(["--clip", name])).fails(1, &[place]);
+    let missing = "none.csv: expected a recording of a face, found nothing of that name";
+    finish(viewer().arg("bones").arg(&pack).args(["--clip", "none.csv"])).fails(1, &[missing]);
+}
