@@ -9,6 +9,9 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
+/// Controls of the built-in face: those of nine joints and two shapes, 52 names of ARKit, 15 visemes.
+const CONTROLS: usize = 15 + 52 + 15;
+
 /// The `skin` matrix of a joint after these options, row by row.
 fn skin_matrix(options: &[&str], joint: &str) -> Vec<f64> {
     let mut arguments = vec!["bones"];
@@ -135,8 +138,8 @@ fn info_tells_everything() {
     let info = json(&run(&["info", "--json"]).ok());
     assert_eq!(info["parts"].as_array().expect("parts").len(), 7);
     assert_eq!(info["joints"].as_array().expect("joints").len(), 9);
-    assert_eq!(info["controls"].as_array().expect("controls").len(), 15);
-    assert!(info["poses"].as_array().expect("poses").len() >= 16);
+    assert_eq!(info["controls"].as_array().expect("controls").len(), CONTROLS);
+    assert_eq!(info["poses"].as_array().expect("poses").len(), 27);
     assert_eq!(info["warnings"].as_array().expect("warnings").len(), 0, "{}", info["warnings"]);
     let skin = &info["parts"][0];
     assert_eq!(skin["name"], "skin");
@@ -173,7 +176,7 @@ fn trace_presses_at_exact_times() {
     let mut lines = text.lines();
     let header: Vec<_> = lines.next().expect("a header").split(',').collect();
     assert_eq!(header[0], "t");
-    assert_eq!(header.len(), 16);
+    assert_eq!(header.len(), 1 + CONTROLS);
     let rows: Vec<Vec<f64>> =
         lines.map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect()).collect();
     assert_eq!(rows.len(), 721, "three seconds at 240 Hz, both ends");
@@ -181,7 +184,7 @@ fn trace_presses_at_exact_times() {
     assert_eq!(rows[720][0], 3.0);
     assert!(rows[0][1..].iter().all(|&x| x == 0.0), "the motion starts from the defaults");
     let column = |name: &str| header.iter().position(|h| *h == name).expect("a column");
-    let smile = column("smile");
+    let smile = column("mouthSmileLeft");
     assert!(rows[72][smile] > 0.2, "the smile is under way at 0.3 s");
     assert!(rows[720][1..].iter().all(|&x| x == 0.0), "neutral is reached to the bit");
     // The same motion, sampled three times less often: presses do not wait for ticks.
@@ -201,22 +204,22 @@ fn trace_prints_derivatives_that_are_those_of_the_values() {
     let hz = 4000.0;
     let text = run(&["trace", "--script", script, "--derivatives", "--hz", "4000", "--duration", "1.5"]).ok();
     let header: Vec<_> = text.lines().next().expect("a header").split(',').collect();
-    assert_eq!(header.len(), 1 + 3 * 15);
-    for control in 1..=15 {
-        assert_eq!(header[control + 15], format!("{}'", header[control]));
-        assert_eq!(header[control + 30], format!("{}''", header[control]));
+    assert_eq!(header.len(), 1 + 3 * CONTROLS);
+    for control in 1..=CONTROLS {
+        assert_eq!(header[control + CONTROLS], format!("{}'", header[control]));
+        assert_eq!(header[control + 2 * CONTROLS], format!("{}''", header[control]));
     }
     let rows: Vec<Vec<f64>> = (text.lines().skip(1))
         .map(|line| line.split(',').map(|x| x.parse().expect("a number")).collect())
         .collect();
     // Hermite's rule takes both ends' slopes into account, so that its error is far below f32's.
-    for column in 1..=30 {
+    for column in 1..=2 * CONTROLS {
         let mut integral = rows[0][column];
         for pair in rows.windows(2) {
             let (a, b, dt) = (&pair[0], &pair[1], 1.0 / hz);
-            integral += (a[column + 15] + b[column + 15]) * dt / 2.0;
-            if column <= 15 {
-                integral += (a[column + 30] - b[column + 30]) * dt * dt / 12.0;
+            integral += (a[column + CONTROLS] + b[column + CONTROLS]) * dt / 2.0;
+            if column <= CONTROLS {
+                integral += (a[column + 2 * CONTROLS] - b[column + 2 * CONTROLS]) * dt * dt / 12.0;
                 assert!(
                     (integral - b[column]).abs() < 1e-5 * (1.0 + b[column].abs()),
                     "{}: {integral} {}",
