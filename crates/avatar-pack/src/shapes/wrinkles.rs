@@ -8,7 +8,8 @@ const POINT: &str = "an array of three numbers up to 1e9";
 const RADIUS: &str = "a number above 0 and up to 1e9";
 const GAIN: &str = "a number from 0 to 10";
 
-/// Reads the place of this number; `is_shape` tells whether there is a shape of this name, and `shapes` lists all.
+/// Reads the place of this number; `is_shape` tells whether there is a shape of this name, and `shapes` lists
+/// all.
 pub(super) fn read<'n>(
     number: usize,
     mut table: Table<'_, '_>,

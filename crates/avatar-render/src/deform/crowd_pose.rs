@@ -89,7 +89,7 @@ impl CrowdPose {
         let limits = device.limits();
         let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let bone_bytes = (bone_count * size_of::<GpuBone>()).max(1);
-        let shape_stride = stride(shape_count);
+        let shape_stride = GpuActiveShape::room(shape_count);
         let most = |bytes: usize| (binding / bytes as u64) as usize;
         let limit = most(bone_bytes).min(most(shape_stride * size_of::<GpuActiveShape>()));
         if count > limit {
@@ -183,7 +183,8 @@ impl CrowdPose {
             return Err(StateError::WeightCount { expected: shape_count, found: weights.len() }.into());
         }
         let own_bones = &mut self.bones[avatar * bone_count..][..bone_count];
-        let own_shapes = &mut self.shapes[avatar * stride(shape_count)..][..stride(shape_count)];
+        let own_shapes = &mut self.shapes[avatar * GpuActiveShape::room(shape_count)..]
+            [..GpuActiveShape::room(shape_count)];
         if are_set(own_bones, bones) && are_active(own_shapes, weights) {
             return Ok(());
         }
@@ -192,17 +193,7 @@ impl CrowdPose {
             return Err(CrowdError::Mirrored { bone });
         }
         own_bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
-        let mut active = 0;
-        for (shape, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
-            active += 1;
-            own_shapes[active] = GpuActiveShape { index: shape as u32, weight };
-        }
-        let mut places = 0;
-        for place in GpuActiveShape::wrinkled(&self.wrinkles, weights) {
-            places += 1;
-            own_shapes[active + places] = place;
-        }
-        own_shapes[0] = GpuActiveShape::head_of(active, places);
+        let active = GpuActiveShape::list(own_shapes, weights, &self.wrinkles);
         let is_usual = weights.iter().all(|weight| (0.0..=1.0).contains(weight));
         place.bounds = match is_usual {
             true => around(&self.boxes, self.excess, own_bones),
@@ -294,7 +285,7 @@ impl CrowdPose {
         }
         let unwritten = std::mem::take(&mut self.unwritten);
         write(queue, &self.buffers.bones, &self.bones, &unwritten, self.bone_count);
-        write(queue, &self.buffers.shapes, &self.shapes, &unwritten, stride(self.shape_count));
+        write(queue, &self.buffers.shapes, &self.shapes, &unwritten, GpuActiveShape::room(self.shape_count));
         let all = 0..self.places.len();
         write(queue, &self.buffers.drawn, &self.drawn, &all, 1);
         write(queue, &self.buffers.blended, &self.blended, &all, 1);
@@ -303,11 +294,6 @@ impl CrowdPose {
             write(queue, &self.buffers.moved, &self.moved, &all, 1);
         }
     }
-}
-
-/// Elements of shapes and wrinkles of each avatar.
-fn stride(shape_count: usize) -> usize {
-    1 + shape_count + Wrinkle::MOST
 }
 
 /// Writes the values of some avatars, each of which has so many.

@@ -94,7 +94,7 @@ impl Pose {
         });
         let output_layout = deformed_layout(device);
         // Zeros: no active shapes.
-        let bytes = ((1 + shape_count + Wrinkle::MOST) * size_of::<GpuActiveShape>()) as u64;
+        let bytes = (GpuActiveShape::room(shape_count) * size_of::<GpuActiveShape>()) as u64;
         let shape_buffer =
             written_buffer(device, "avatar: active shapes", bytes, wgpu::BufferUsages::STORAGE);
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -182,7 +182,7 @@ impl Pose {
 
 /// Room for the active shapes of an avatar, all at rest.
 fn active_shapes(shape_count: usize) -> Vec<GpuActiveShape> {
-    let mut active = Vec::with_capacity(1 + shape_count + Wrinkle::MOST);
+    let mut active = Vec::with_capacity(GpuActiveShape::room(shape_count));
     active.push(GpuActiveShape::head(0));
     active
 }

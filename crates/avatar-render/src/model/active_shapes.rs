@@ -21,6 +21,29 @@ impl GpuActiveShape {
         Self { index: shapes as u32, weight: wrinkles as f32 }
     }
 
+    /// Elements that the lists of an avatar with so many shapes take at most.
+    pub(crate) fn room(shapes: usize) -> usize {
+        1 + shapes + Wrinkle::MOST
+    }
+
+    /// Writes the lists of an avatar into room for them. Returns how many shapes are active.
+    pub(crate) fn list(room: &mut [Self], weights: &[f32], wrinkles: &[Wrinkle]) -> usize {
+        let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+        let shapes = shapes.map(|(shape, &weight)| Self { index: shape as u32, weight });
+        let (mut active, mut places) = (0, 0);
+        let Some((head, rest)) = room.split_first_mut() else { return 0 };
+        for (own, shape) in rest.iter_mut().zip(shapes) {
+            *own = shape;
+            active += 1;
+        }
+        for (own, place) in rest.iter_mut().skip(active).zip(Self::wrinkled(wrinkles, weights)) {
+            *own = place;
+            places += 1;
+        }
+        *head = Self::head_of(active, places);
+        active
+    }
+
     /// The places that are wrinkled with these weights of shapes, with how strongly each is.
     pub(crate) fn wrinkled<'a>(
         wrinkles: &'a [Wrinkle],

@@ -18,8 +18,8 @@ struct Groove<'a> {
     ends: bool,
 }
 
-/// Between the brows, on the root of the nose, beside its bridge, under the eye, and from the wing of the nose
-/// around the mouth.
+/// Between the brows, on the root of the nose, beside its bridge, under the eye, and from the wing of the
+/// nose around the mouth.
 const GROOVES: [Groove<'_>; 10] = [
     Groove { line: &[[0.40, 1.50], [0.48, 2.30], [0.74, 3.15]], width: 0.075, depth: 1.0, ends: true },
     Groove { line: &[[0.92, 1.85], [0.96, 2.30], [1.10, 2.75]], width: 0.055, depth: 0.5, ends: true },
