@@ -319,10 +319,10 @@ def _ozz(workshop):
 
 
 PROGRAMS = {
-    "render": _viewer("render", key="render"),
+    "render": _viewer("render", "--hair", "off", key="render"),
     "bob high": _viewer("render", "--hair", "bob", "--quality", "high", key="bob high"),
     "bob low": _viewer("render", "--hair", "bob", "--quality", "low", key="bob low"),
-    "bald low": _viewer("render", "--quality", "low", key="bald low"),
+    "bald low": _viewer("render", "--hair", "off", "--quality", "low", key="bald low"),
     "sheet": _viewer("sheet", key="sheet"),
     "window": _window,
     "crowd": _crowd,

@@ -34,7 +34,7 @@ def _line(what, ours, goal, beside="", theirs=(), unit="s"):
 
 
 def _render(get):
-    yield _line("`render`, from the start to the file", get("render"), "≤ 0.8", unit="s")
+    yield _line("`render --hair off`, from the start to the file", get("render"), "≤ 0.8", unit="s")
 
 
 def _hair(get):

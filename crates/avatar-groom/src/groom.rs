@@ -10,6 +10,8 @@ pub struct PlantedStrand {
     pub comb: Vec3,
     /// Its length in the world.
     pub length: f32,
+    /// Its width by that of its style: hairlines begin with finer hair.
+    pub thickness: f32,
     /// Where curls begin around it, in radians from −π to π.
     pub phase: f32,
     /// The place in [`Groom::guides`] of the strand that it follows.

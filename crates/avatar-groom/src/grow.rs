@@ -110,7 +110,7 @@ pub(crate) fn grow_to(
         let step = (length - first) * step_share(i);
         // Along the skin: what supports hair takes the comb's push into it.
         let combed = (comb - skin_normal * (comb.dot(skin_normal) * near)) * near.max(style.hold * (1.0 - t));
-        let force = combed + own * (style.noise * t) + down * style.gravity;
+        let force = combed + own * (style.noise * t) + down * style.gravity - skin_normal * (style.tuck * t);
         // A force straight back is ignored: the sum might have no direction.
         let across = force - direction * force.dot(direction).min(0.0);
         direction = (direction + across * style.bend).normalize_or(direction);

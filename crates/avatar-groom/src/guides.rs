@@ -16,16 +16,16 @@ pub(crate) fn choose(roots: &[Root]) -> Vec<u32> {
 }
 
 /// For each strand of the scalp the number of the nearest guide. Strands on one side of the parting follow no
-/// guide on the other one. `side` says which side a place is on.
+/// guide on the other one. `side` says which side a place is on: −1 or 1, and 0 behind the parting's end.
 pub(crate) fn assign(
     roots: &[Root],
     positions: &[Vec3],
     guides: &[u32],
-    side: impl Fn(Vec3) -> bool,
+    side: impl Fn(Vec3) -> f32,
 ) -> Vec<Option<u32>> {
     // Places on the other side are moved far away, so that none of them is the nearest.
     let extent = positions.iter().fold(0.0f32, |most, p| most.max(p.abs().max_element()));
-    let apart = |p: Vec3| if side(p) { p + Vec3::X * 8.0 * extent } else { p };
+    let apart = |p: Vec3| p + Vec3::X * (8.0 * extent * side(p));
     let places: Vec<Vec3> =
         guides.iter().filter_map(|guide| positions.get(*guide as usize)).map(|p| apart(*p)).collect();
     let cells = Cells::new(&places, extent);
@@ -47,7 +47,7 @@ impl Cells {
     fn new(places: &[Vec3], extent: f32) -> Self {
         // On a surface, a few of N places in each cube that it crosses.
         let size = (3.0 * extent / (places.len().max(1) as f32).sqrt()).max(1e-9);
-        let mut cells = Self { size, rings: (32.0 * extent / size) as i32, members: BTreeMap::new() };
+        let mut cells = Self { size, rings: (64.0 * extent / size) as i32, members: BTreeMap::new() };
         for (number, place) in (0u32..).zip(places) {
             cells.members.entry(cells.cell(*place)).or_default().push(number);
         }

@@ -12,9 +12,15 @@ use std::collections::BTreeMap;
 const PHASE_SPREAD: f32 = 0.12;
 /// Where the cut is not quite even, as a fraction of the length.
 const CUT_SPREAD: f32 = 0.05;
-/// Densities between which strands grow to their full length, and what share of it the first ones have.
-const HAIRLINE: [f32; 2] = [0.4, 0.85];
-const HAIRLINE_LENGTH: f32 = 0.08;
+/// Densities between which strands grow to their full length and thickness, and what shares of these the first
+/// ones have: hairlines begin with fine hair.
+const HAIRLINE: [f32; 2] = [0.1, 0.85];
+const HAIRLINE_LENGTH: f32 = 0.3;
+const HAIRLINE_THICKNESS: f32 = 0.2;
+/// Where the parting ends and hair falls all around: the crown, as a share of the head's depth from its back.
+const CROWN: f32 = 0.36;
+/// How far before the crown the hairline is combed in its own way, as a share of the head's depth.
+const TEMPLE: f32 = 0.15;
 /// How often the length to the cut is halved.
 const CUT_STEPS: usize = 9;
 
@@ -45,18 +51,36 @@ impl Groom {
         let bounds = head.unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ONE });
         let height = bounds.size().y.max(1e-6);
         let middle = (bounds.min.x + bounds.max.x) * 0.5;
+        let crown = bounds.min.z + CROWN * bounds.size().z;
         let roots = scatter_on(skin, bounds, density, eyes, &style, strands, seed);
         let positions: Vec<Vec3> = roots.iter().map(|root| position(skin, root)).collect();
         let parting = middle + style.scalp.parting * height;
         let guides = guides::choose(&roots);
-        let guide_of = guides::assign(&roots, &positions, &guides, |p| p.x < parting);
+        let side = |p: Vec3| match p {
+            _ if p.z <= crown => 0.0,
+            _ if p.x < parting => -1.0,
+            _ => 1.0,
+        };
+        let guide_of = guides::assign(&roots, &positions, &guides, side);
         let head_bone = head_bone(skin, &roots);
-        let planted = |(strand, (root, guide)): (usize, (Root, Option<u32>))| PlantedStrand {
-            comb: comb(skin, &root, eyes, &style, middle, height),
-            length: length(skin, density, &root, &style, height),
-            phase: phase(strand, guide.and_then(|guide| guides.get(guide as usize)), seed),
-            guide,
-            root,
+        let comber = Comber {
+            skin,
+            eyes,
+            style: &style,
+            parting: Vec3::new(parting, 0.0, crown),
+            middle,
+            depth: bounds.size().z.max(1e-6),
+        };
+        let planted = |(strand, (root, guide)): (usize, (Root, Option<u32>))| {
+            let grown = grown(skin, density, &root);
+            PlantedStrand {
+                comb: comber.comb(&root, grown),
+                length: length(&root, &style, height) * (HAIRLINE_LENGTH + (1.0 - HAIRLINE_LENGTH) * grown),
+                thickness: HAIRLINE_THICKNESS + (1.0 - HAIRLINE_THICKNESS) * grown,
+                phase: phase(strand, guide.and_then(|guide| guides.get(guide as usize)), seed),
+                guide,
+                root,
+            }
         };
         let mut groom = Self {
             strands: roots.into_iter().zip(guide_of).enumerate().map(planted).collect(),
@@ -140,17 +164,22 @@ fn length_without_variation(root: &Root, style: &Style, height: f32) -> f32 {
     style.region(root.region).length * height
 }
 
-fn length(skin: &Mesh, density: &DensityMap, root: &Root, style: &Style, height: f32) -> f32 {
+fn length(root: &Root, style: &Style, height: f32) -> f32 {
     let variation = style.region(root.region).length_variation;
+    length_without_variation(root, style, height) * (1.0 - variation * root.random[0])
+}
+
+/// How far hair has come into its own at a root: 0 where it begins, 1 where the map is dense.
+fn grown(skin: &Mesh, density: &DensityMap, root: &Root) -> f32 {
     let uv = |i: usize| skin.uvs.get(root.corners[i] as usize).copied().unwrap_or(Vec2::ZERO);
-    let thick = match root.region {
-        Region::Scalp => density.at((0..3).map(|i| uv(i) * root.barycentric[i]).sum()),
+    match root.region {
+        Region::Scalp => {
+            let thick = density.at((0..3).map(|i| uv(i) * root.barycentric[i]).sum());
+            let begun = ((thick - HAIRLINE[0]) / (HAIRLINE[1] - HAIRLINE[0])).clamp(0.0, 1.0);
+            begun * begun
+        }
         _ => 1.0,
-    };
-    // Where hair begins it is thin and short.
-    let begun = ((thick - HAIRLINE[0]) / (HAIRLINE[1] - HAIRLINE[0])).clamp(0.0, 1.0);
-    let share = HAIRLINE_LENGTH + (1.0 - HAIRLINE_LENGTH) * begun * begun;
-    length_without_variation(root, style, height) * (1.0 - variation * root.random[0]) * share
+    }
 }
 
 fn position(skin: &Mesh, root: &Root) -> Vec3 {
@@ -158,21 +187,45 @@ fn position(skin: &Mesh, root: &Root) -> Vec3 {
     (0..3).map(|i| corner(i) * root.barycentric[i]).sum()
 }
 
-/// Where a strand is combed, in the frame of its triangle.
-fn comb(skin: &Mesh, root: &Root, eyes: &[Bounds], style: &Style, middle: f32, height: f32) -> Vec3 {
-    let region = style.region(root.region);
-    let place = position(skin, root);
-    let x = place.x - middle - if root.region == Region::Scalp { region.parting * height } else { 0.0 };
-    // Away from the parting on both sides, without a jump at it.
-    let side = (x / (0.004 * height)).clamp(-1.0, 1.0);
-    let [away, up, forward] = region.comb;
-    // Lashes of lower lids are the mirror of those above the eye.
-    let eye =
-        eyes.iter().map(|eye| eye.center()).min_by(|a, b| a.distance(place).total_cmp(&b.distance(place)));
-    let is_lower = root.region == Region::Lashes && eye.is_some_and(|eye| place.y < eye.y);
-    let up = if is_lower { -up } else { up };
-    let bind = Vec3::new(away * side, up, forward);
-    let corner = |i: usize| skin.positions.get(root.corners[i] as usize).copied().unwrap_or(Vec3::ZERO);
-    let [x, y, z] = axes([corner(0), corner(1), corner(2)]);
-    Vec3::new(bind.dot(x), bind.dot(y), bind.dot(z))
+/// What says where strands are combed.
+struct Comber<'a> {
+    skin: &'a Mesh,
+    eyes: &'a [Bounds],
+    style: &'a Style,
+    /// Where the parting ends.
+    parting: Vec3,
+    middle: f32,
+    depth: f32,
+}
+
+impl Comber<'_> {
+    /// Where a strand is combed, in the frame of its triangle; `grown` says how far it is from the hairline.
+    fn comb(&self, root: &Root, grown: f32) -> Vec3 {
+        let region = self.style.region(root.region);
+        let place = position(self.skin, root);
+        let off = place - self.parting;
+        let along = |[away, up, forward]: [f32; 3], aside: Vec3| aside * away + Vec3::new(0.0, up, forward);
+        let mut bind = if root.region == Region::Scalp {
+            // Before the crown away from the parting on both sides, behind it all around. A jump at the parting
+            // is what makes it one.
+            let aside = Vec3::new(off.x, 0.0, off.z.min(0.0)).normalize_or(Vec3::X);
+            // What grows above the forehead would fall over the eyes.
+            let square = (off.z / ((1.0 - CROWN) * self.depth)).clamp(0.0, 1.0).powi(2);
+            let edge = ((1.0 - grown) * (off.z / (TEMPLE * self.depth)).clamp(0.0, 1.0)).max(square * square);
+            along(region.comb, aside).lerp(along(region.edge, aside), edge)
+        } else {
+            along(region.comb, Vec3::X * if place.x < self.middle { -1.0 } else { 1.0 })
+        };
+        // Lashes of lower lids are the mirror of those above the eye.
+        let nearer = |a: &Vec3, b: &Vec3| a.distance(place).total_cmp(&b.distance(place));
+        let eye = self.eyes.iter().map(|eye| eye.center()).min_by(nearer);
+        let is_lower = root.region == Region::Lashes && eye.is_some_and(|eye| place.y < eye.y);
+        if is_lower {
+            bind.y = -bind.y;
+        }
+        let corner =
+            |i: usize| self.skin.positions.get(root.corners[i] as usize).copied().unwrap_or(Vec3::ZERO);
+        let [x, y, z] = axes([corner(0), corner(1), corner(2)]);
+        Vec3::new(bind.dot(x), bind.dot(y), bind.dot(z))
+    }
 }

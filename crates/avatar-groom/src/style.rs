@@ -40,8 +40,13 @@ pub struct RegionStyle {
     pub bend: f32,
     /// Pull downward in the world.
     pub gravity: f32,
-    /// Pull of the comb at bind pose: away from the parting, up, forward.
+    /// Pull of the comb at bind pose: away from the parting, which ends at the crown, up, forward.
     pub comb: [f32; 3],
+    /// The same for the fine hair at the edge of the forehead and the temples, and more and more of it toward
+    /// the front.
+    pub edge: [f32; 3],
+    /// Pull to the head, at the tip: hair that bends in below the ears, and lies on the neck.
+    pub tuck: f32,
     /// How much the comb still pulls away from the skin, 0 (hair falls there) to 1 (it stands).
     pub hold: f32,
     /// How far the hair lifts off the head, as a layer.
@@ -87,6 +92,8 @@ impl Style {
         bend: 0.5,
         gravity: 0.35,
         comb: [1.0, -0.4, -0.5],
+        edge: [1.0, -0.4, -0.5],
+        tuck: 0.0,
         parting: 0.0,
         strip: 1.0,
         hold: 1.0,
@@ -121,15 +128,20 @@ impl Style {
         tip_color: [0.012, 0.009, 0.008],
         ..Self::BROW
     };
-    /// Cropped close to the head.
+    /// Above the ears, parted at the side.
     pub const SHORT: Self = Self {
         scalp: RegionStyle {
-            length: 0.085,
-            bend: 0.6,
-            gravity: 0.3,
-            comb: [0.5, 0.0, 0.5],
-            parting: 0.03,
-            clump: 0.35,
+            length: 0.16,
+            length_variation: 0.4,
+            bend: 1.2,
+            gravity: 0.35,
+            comb: [0.7, 0.15, 0.15],
+            edge: [0.7, 0.1, 0.1],
+            tuck: 0.2,
+            parting: 0.05,
+            hold: 0.4,
+            volume: 0.025,
+            noise: 0.2,
             ..Self::STRAND
         },
         brows: Self::BROW,
@@ -140,12 +152,14 @@ impl Style {
         scalp: RegionStyle {
             length: 0.7,
             length_variation: 0.1,
-            bend: 2.5,
-            gravity: 0.5,
-            comb: [0.9, 0.35, -0.75],
+            bend: 2.0,
+            gravity: 0.8,
+            comb: [1.0, 0.15, -0.15],
+            edge: [0.4, 0.4, -0.9],
+            tuck: 0.2,
             parting: 0.05,
             hold: 0.0,
-            volume: 0.03,
+            volume: 0.035,
             cut: 0.2,
             clump: 0.12,
             noise: 0.1,
@@ -156,19 +170,21 @@ impl Style {
     };
     /// Over the shoulders, parted in the middle.
     pub const LONG: Self = Self {
-        scalp: RegionStyle { length: 1.1, parting: 0.0, cut: -0.1, ..Self::BOB.scalp },
+        scalp: RegionStyle { length: 1.4, parting: 0.0, tuck: 0.15, cut: -0.18, ..Self::BOB.scalp },
         ..Self::SHORT
     };
     /// Curls around the head.
     pub const CURLY: Self = Self {
         scalp: RegionStyle {
-            length: 0.3,
-            bend: 0.6,
-            gravity: 0.45,
-            comb: [0.6, 0.3, -0.4],
-            curl_radius: 0.024,
-            curl_turns: 2.2,
-            clump: 0.4,
+            length: 0.45,
+            bend: 1.0,
+            gravity: 0.6,
+            comb: [0.8, 0.2, -0.1],
+            edge: [0.6, 0.3, -0.5],
+            tuck: 0.1,
+            curl_radius: 0.03,
+            curl_turns: 3.0,
+            clump: 0.9,
             noise: 0.15,
             swing: 2.2,
             volume: 0.02,
@@ -184,6 +200,7 @@ impl Style {
             bend: 0.15,
             gravity: 0.0,
             comb: [0.0, 0.6, -0.4],
+            edge: [0.0, 0.6, -0.4],
             strip: 0.055,
             clump: 0.4,
             swing: 5.0,

@@ -92,7 +92,8 @@ fn layouts() -> Vec<Layout> {
             clump,
             noise,
             volume,
-            hold
+            hold,
+            tuck
         ),
         layout!(
             "Hair",
@@ -112,7 +113,7 @@ fn layouts() -> Vec<Layout> {
         layout!("HairPose", GpuHairPose, head, others),
         layout!("Swing", GpuSwing, ticks, first, step, rest, tick, is_still, oscillators),
         layout!("Mote", GpuMote, position, velocity, held, held_at_frame),
-        layout!("HairView", GpuHairView, strands, fading, width, least_pixels, other_width, stride),
+        layout!("HairView", GpuHairView, strands, fading, width, least_pixels, other_width, stride, pieces),
         layout!("ShadowView", GpuShadowView, shadow_from_world),
         layout!(
             "Frame",

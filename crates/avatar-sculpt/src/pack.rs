@@ -18,6 +18,8 @@ use crate::{
 const CONTROLS: &str = include_str!("controls.toml");
 /// As are the materials.
 const MATERIALS: &str = include_str!("materials.toml");
+/// And the hair.
+const HAIR: &str = include_str!("hair.toml");
 
 /// As are the axes that make other people of her.
 const IDENTITY: &str = include_str!("identity.toml");
@@ -40,6 +42,7 @@ pub fn geometry(sculpture: &Sculpture) -> Result<Pack> {
         ("controls.toml".to_owned(), CONTROLS.as_bytes().to_vec()),
         ("materials.toml".to_owned(), MATERIALS.as_bytes().to_vec()),
         ("identity.toml".to_owned(), IDENTITY.as_bytes().to_vec()),
+        ("hair.toml".to_owned(), HAIR.as_bytes().to_vec()),
     ];
     let mut add = |stem: &str, mesh: &Mesh| {
         files.push((format!("{stem}_VB.raw"), write_vertices(mesh)));

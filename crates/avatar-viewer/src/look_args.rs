@@ -93,9 +93,6 @@ enum ToneMapName {
 /// Beyond this every picture is black or white.
 const LARGEST_EXPOSURE: f32 = 10.0;
 
-/// Share of the strands in low quality.
-const LOW_SHARE: f32 = 0.25;
-
 fn stops(text: &str) -> Result<f32, String> {
     let number = text.parse().ok().filter(|stops: &f32| stops.abs() <= LARGEST_EXPOSURE);
     number.ok_or_else(|| format!("expected a number from -{LARGEST_EXPOSURE} to {LARGEST_EXPOSURE}"))
@@ -145,14 +142,9 @@ impl LookArgs {
         })
     }
 
-    /// How much of the hair is drawn on this adapter: fewer and wider strands where each costs much. A share,
-    /// so that what the pack and the options say of their number still counts.
+    /// How much of the hair is drawn on this adapter.
     pub(crate) fn hair_detail(&self, adapter: &wgpu::AdapterInfo) -> HairDetail {
-        let share = match self.quality(adapter) {
-            Quality::Plain | Quality::Low => LOW_SHARE,
-            Quality::Medium | Quality::High => 1.0,
-        };
-        HairDetail { share, ..HairDetail::default() }
+        HairDetail::of_quality(self.quality(adapter))
     }
 
     /// The light.

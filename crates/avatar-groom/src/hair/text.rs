@@ -16,6 +16,8 @@ pub(crate) const FIELDS: &[Field<RegionStyle>] = &[
     Field::one("bend", 0.0, 10.0, |style| &mut style.bend),
     Field::one("gravity", -10.0, 10.0, |style| &mut style.gravity),
     Field::three("comb", -10.0, 10.0, |style| &mut style.comb),
+    Field::three("edge", -10.0, 10.0, |style| &mut style.edge),
+    Field::one("tuck", -10.0, 10.0, |style| &mut style.tuck),
     Field::one("hold", 0.0, 1.0, |style| &mut style.hold),
     Field::one("volume", 0.0, 1.0, |style| &mut style.volume),
     Field::one("cut", -10.0, 10.0, |style| &mut style.cut),

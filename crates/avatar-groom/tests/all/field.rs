@@ -177,7 +177,12 @@ fn guides_are_the_nearest_ones_on_their_side_of_the_parting() {
         let root = &groom.strands()[strand].root;
         (0..3).map(|i| mesh.positions[root.corners[i] as usize] * root.barycentric[i]).sum()
     };
-    let side = |strand: usize| at(strand).x < 0.2;
+    // The parting ends at the crown, 0.36 of the depth from the back.
+    let side = |strand: usize| match at(strand) {
+        at if at.z <= -1.0 + 0.36 * 2.0 => 0,
+        at if at.x < 0.2 => -1,
+        _ => 1,
+    };
     for strand in 0..groom.strands().len() {
         let same_side = groom.guides().iter().map(|g| *g as usize).filter(|g| side(*g) == side(strand));
         let nearest = same_side.map(|g| at(g).distance(at(strand))).fold(f32::INFINITY, f32::min);
@@ -185,6 +190,39 @@ fn guides_are_the_nearest_ones_on_their_side_of_the_parting() {
         assert_eq!(side(found), side(strand));
         assert!((at(found).distance(at(strand)) - nearest).abs() < 1e-6, "strand {strand}");
     }
+}
+
+#[test]
+fn hair_is_combed_away_from_the_parting_and_all_around_from_the_crown() {
+    let mesh = ball(Vec3::ZERO);
+    let [away, up, forward] = [0.9, 0.2, -0.3];
+    let scalp =
+        RegionStyle { parting: 0.1, comb: [away, up, forward], edge: [0.1, 0.5, -1.0], ..Style::LONG.scalp };
+    let groom = hairy(&mesh, style(scalp));
+    let (mut before, mut behind) = (0, 0);
+    for strand in groom.strands() {
+        let corners = strand.root.corners.map(|i| mesh.positions[i as usize]);
+        let at: Vec3 = (0..3).map(|i| corners[i] * strand.root.barycentric[i]).sum();
+        let off = Vec3::new(at.x - 0.2, 0.0, at.z - (-1.0 + 0.36 * 2.0));
+        let aside = if off.z >= 0.0 {
+            before += 1;
+            Vec3::X * off.x.signum()
+        } else {
+            behind += 1;
+            off.normalize_or_zero()
+        };
+        // Toward the front, all of which is 0.64 of the depth before the crown, as the edge is combed.
+        let front = (off.z / (0.64 * 2.0)).clamp(0.0, 1.0).powi(4);
+        let of = |[away, up, forward]: [f32; 3]| aside * away + Vec3::new(0.0, up, forward);
+        let expected = of([away, up, forward]).lerp(of([0.1, 0.5, -1.0]), front);
+        // The frame of the triangle: its first edge, and its normal.
+        let x = (corners[1] - corners[0]).normalize_or_zero();
+        let z = x.cross(corners[2] - corners[0]).normalize_or_zero();
+        let found = x * strand.comb.x + z.cross(x) * strand.comb.y + z * strand.comb.z;
+        assert!(found.distance(expected) < 1e-4, "{at}: {found} {expected}");
+        assert!((strand.thickness - 1.0).abs() < 1e-6, "no hairline on a map that is dense everywhere");
+    }
+    assert!(before > 100 && behind > 100, "{before} {behind}");
 }
 
 #[test]

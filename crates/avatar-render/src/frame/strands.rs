@@ -23,7 +23,7 @@ pub(crate) fn strands_in_view<'a>(
     let skin = model.parts.get(hair.part)?;
     let distance = state.pose.center_of(&skin.geometry).distance(camera.eye());
     let head_pixels = model.height * pixels_per_unit / distance.max(1e-6);
-    let view = state.hair_detail.view(hair.strand_count, head_pixels, most);
+    let view = state.hair_detail.view(hair.strand_count, head_pixels, most).with_pieces(hair.pieces);
     (view.count() > 0).then_some((view, grown))
 }
 

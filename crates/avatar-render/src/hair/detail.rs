@@ -1,5 +1,6 @@
 //! How many strands of an avatar are grown and drawn in a view, and how wide that makes them.
 
+use crate::view::shading::Quality;
 use avatar_groom::SEGMENTS;
 use bytemuck::{Pod, Zeroable};
 
@@ -43,6 +44,8 @@ pub(crate) struct GpuHairView {
     pub(crate) other_width: f32,
     /// From one drawn point of a strand to the next.
     pub(crate) stride: u32,
+    /// Pieces that are drawn from one point of a strand to the next: more than one where strands curl.
+    pub(crate) pieces: u32,
 }
 
 const STRANDS_PER_PIXEL: f32 = 200.0;
@@ -61,7 +64,20 @@ impl Default for HairDetail {
     }
 }
 
+/// Share of the strands where quality is plain or low.
+const LOW_SHARE: f32 = 0.25;
+
 impl HairDetail {
+    /// What goes with a quality: fewer and wider strands in those for adapters where each costs much. A share,
+    /// so that what a pack says of their number still counts.
+    pub fn of_quality(quality: Quality) -> Self {
+        let share = match quality {
+            Quality::Plain | Quality::Low => LOW_SHARE,
+            Quality::Medium | Quality::High => 1.0,
+        };
+        Self { share, ..Self::default() }
+    }
+
     /// How many of a model's strands are grown and drawn where its head is this many pixels high.
     pub fn strands(self, of: usize, head_pixels: f32) -> usize {
         self.view(of as u32, head_pixels, f32::INFINITY).count()
@@ -87,7 +103,7 @@ impl HairDetail {
         let width = for_share * kept.max(1.0) / whole;
         // A brow of few strands that are as wide as those of the scalp would be a row of squares.
         let other_width = if self.draft.is_some() { width.min(WIDEST) } else { width };
-        GpuHairView { strands, fading, width, least_pixels, other_width, stride }
+        GpuHairView { strands, fading, width, least_pixels, other_width, stride, pieces: 1 }
     }
 }
 
@@ -97,9 +113,14 @@ impl GpuHairView {
         self.strands.ceil() as usize
     }
 
+    /// With so many pieces between the points of a strand, where it is drawn finely.
+    pub(crate) fn with_pieces(self, pieces: u32) -> Self {
+        if self.is_draft() { self } else { Self { pieces, ..self } }
+    }
+
     /// Corners of a strand's ribbon: two at each point that is drawn.
     pub(crate) fn corners(self) -> u32 {
-        2 * (SEGMENTS as u32 / self.stride.max(1) + 1)
+        2 * (SEGMENTS as u32 / self.stride.max(1) * self.pieces + 1)
     }
 
     /// Whether strands are drawn coarsely.

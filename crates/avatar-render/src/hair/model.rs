@@ -17,6 +17,8 @@ use wgpu::util::DeviceExt;
 /// in proportion.
 const REFERENCE_STRANDS: f32 = 100_000.0;
 const WIDEST: f32 = 5.0;
+/// Pieces between two points of a strand that curls: a turn has four points.
+const CURLED_PIECES: u32 = 3;
 const VEC4S_PER_VERTEX: usize = size_of::<GpuDeformedVertex>() / size_of::<[f32; 4]>();
 
 /// The hair that all avatars of a model share.
@@ -32,6 +34,8 @@ pub(crate) struct HairModel {
     pub(crate) reach: f32,
     /// Swings per second of the tips of guides.
     pub(crate) swing: f32,
+    /// Pieces that are drawn from one point of a strand to the next.
+    pub(crate) pieces: u32,
     pub(crate) hair: wgpu::Buffer,
     pub(crate) roots: Vec4Texture,
     /// The roots of guides once more, marked as guides.
@@ -118,6 +122,7 @@ impl HairModel {
             guide_count,
             reach: groom.strands().iter().map(|planted| planted.length).fold(0.0, f32::max),
             swing: groom.style().scalp.swing,
+            pieces: if curls(&groom.style().scalp) { CURLED_PIECES } else { 1 },
             hair: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("hair"),
                 contents: bytemuck::bytes_of(&hair),
@@ -130,6 +135,10 @@ impl HairModel {
             other_bones: field.bones,
         })
     }
+}
+
+fn curls(style: &RegionStyle) -> bool {
+    style.curl_radius > 0.0 && style.curl_turns > 0.0
 }
 
 fn field_texture(device: &wgpu::Device, queue: &wgpu::Queue, field: &Field) -> wgpu::TextureView {
@@ -153,11 +162,12 @@ fn field_texture(device: &wgpu::Device, queue: &wgpu::Queue, field: &Field) -> w
 
 /// `corners` are the vertices of its triangle on the GPU.
 fn gpu_root(planted: &PlantedStrand, corners: [u32; 3]) -> GpuRoot {
-    let PlantedStrand { root, comb, length, phase, guide } = planted;
+    let PlantedStrand { root, comb, length, thickness, phase, guide } = planted;
     let [x, y, z, _] = root.random;
+    let thickness = (thickness.clamp(0.0, 1.0) * 255.0).round() as u32;
     GpuRoot {
         corners,
-        region: root.region as u32,
+        region: root.region as u32 | thickness << 8,
         barycentric: root.barycentric,
         guide: guide.unwrap_or(NO_GUIDE),
         comb: comb.to_array(),

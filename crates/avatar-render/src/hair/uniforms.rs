@@ -33,7 +33,8 @@ pub(crate) struct GpuHairRegion {
     pub(crate) noise: f32,
     pub(crate) volume: f32,
     pub(crate) hold: f32,
-    pub(crate) pad: [f32; 2],
+    pub(crate) tuck: f32,
+    pub(crate) pad: f32,
 }
 
 /// WGSL `Hair`.
@@ -67,6 +68,7 @@ pub(crate) struct GpuHairPose {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct GpuRoot {
     pub(crate) corners: [u32; 3],
+    /// The number of its region, and its thickness in 255ths in the next eight bits.
     pub(crate) region: u32,
     pub(crate) barycentric: [f32; 3],
     pub(crate) guide: u32,
@@ -93,7 +95,8 @@ impl GpuHairRegion {
             noise: style.noise,
             volume: style.volume * height,
             hold: style.hold,
-            pad: [0.0; 2],
+            tuck: style.tuck,
+            pad: 0.0,
         }
     }
 }

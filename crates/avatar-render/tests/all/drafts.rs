@@ -2,8 +2,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use crate::common::gpu;
-use crate::common::head::{Head, canvas, linear};
-use avatar_groom::Style;
+use crate::common::head::{COMBED_BACK, CROPPED, Head, LONG_BACK, canvas, linear};
 use avatar_render::headless::{Canvas, Gpu};
 use avatar_render::{AvatarModel, AvatarState, HairDetail, Scene};
 use glam::{Affine3A, Vec3};
@@ -26,7 +25,7 @@ fn drafts_cover_as_much_as_fine_strands_and_are_as_light() {
     const SIZE: u32 = 128;
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    for (name, style) in [("bob", Style::BOB), ("short", Style::SHORT), ("long", Style::LONG)] {
+    for (name, style) in [("bob", COMBED_BACK), ("short", CROPPED), ("long", LONG_BACK)] {
         let (model, mut state) = head.with_hair(gpu, style, 60_000.0);
         for (samples, yaw) in [(1, 0.0), (1, 1.3), (4, 0.0)] {
             let canvas = canvas(gpu, SIZE, samples);
@@ -57,7 +56,7 @@ fn a_draft_and_a_fine_head_in_one_frame_are_drawn_as_among_their_like() {
     const SIZE: u32 = 96;
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let (model, mut left) = head.with_hair(gpu, Style::SHORT, 8000.0);
+    let (model, mut left) = head.with_hair(gpu, CROPPED, 8000.0);
     let mut right = AvatarState::new(&gpu.device, &model);
     let scene = head.scene(0.0, 0.35);
     let across = head.pack.parts()[0].bounds.expect("a box").size().x;

@@ -1,9 +1,8 @@
 //! Where frames end: rings of uniforms, limits of the device, and what belongs to whom.
 
-use crate::common::head::Head;
+use crate::common::head::{CROPPED, Head};
 use crate::common::stage::Stage;
 use crate::common::{ball, gpu, model, part, scene, shadings};
-use avatar_groom::Style;
 use avatar_mesh::PartKind;
 use avatar_render::{
     AvatarState, Deformer, DeformerError, DrawError, Grower, GrowerError, HairDetail, PartTextures, Quality,
@@ -74,7 +73,7 @@ fn as_many_frames_as_promised_keep_their_own_camera_until_they_are_submitted() {
 fn more_heads_of_hair_than_are_told_apart_are_an_error_with_both_numbers() {
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let (model, mut state) = head.with_hair(gpu, Style::SHORT, 500.0);
+    let (model, mut state) = head.with_hair(gpu, CROPPED, 500.0);
     let stage = Stage::new(gpu, Shading::Plain, 8, FORMAT);
     let draw = |state: &AvatarState, heads: usize| {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -96,7 +95,7 @@ fn more_heads_of_hair_than_are_told_apart_are_an_error_with_both_numbers() {
 fn heads_of_one_frame_have_their_own_share_of_strands() {
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let (model, mut full) = head.with_hair(gpu, Style::SHORT, 3000.0);
+    let (model, mut full) = head.with_hair(gpu, CROPPED, 3000.0);
     let mut thin = AvatarState::new(&gpu.device, &model);
     let bones = |x: f32| vec![Affine3A::from_translation(Vec3::X * x); model.palette_len()];
     let weights = vec![0.0; model.shape_count()];
@@ -163,7 +162,7 @@ fn buffers_may_be_as_large_as_the_adapter_allows() {
 fn passes_read_nothing_that_another_frame_left() {
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let (haired, of_hair) = head.with_hair(gpu, Style::SHORT, 3000.0);
+    let (haired, of_hair) = head.with_hair(gpu, CROPPED, 3000.0);
     let wide = ball(Vec3::ZERO, 12.0, 16);
     let eye = ball(Vec3::new(2.0, 3.0, 11.0), 4.0, 12);
     let none = PartTextures::default();

@@ -2,7 +2,9 @@
 //! flickers.
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
-use crate::common::head::{Head, PLAIN, canvas, encoded, linear, luma, shrunk, ssim};
+use crate::common::head::{
+    COMBED_BACK, CROPPED, FRIZZY, Head, PLAIN, canvas, encoded, linear, luma, shrunk, ssim,
+};
 use crate::common::{gpu, model, part, square};
 use avatar_groom::{DensityMap, Groom, RegionStyle, Style};
 use avatar_mesh::PartKind;
@@ -52,7 +54,7 @@ fn strands_at_one_sample_are_nearer_to_many_samples_than_plain_lines_at_four() {
     let [one, four] = [1, 4].map(|samples| canvas(gpu, SIZE, samples));
     let large = canvas(gpu, SIZE * FACTOR, 4);
     let mut gains = Vec::new();
-    for (name, style) in [("bob", Style::BOB), ("short", Style::SHORT), ("curly", Style::CURLY)] {
+    for (name, style) in [("bob", COMBED_BACK), ("short", CROPPED), ("curly", FRIZZY)] {
         let mut avatar = head.with_hair(gpu, style, 40_000.0);
         for yaw in [0.0, 1.3] {
             let scene = head.scene(yaw, 0.75);
@@ -88,7 +90,7 @@ fn figure_of_thin_lines() {
     const SIZE: usize = 96;
     let gpu = gpu().expect("an adapter");
     let head = Head::new();
-    let mut avatar = head.with_hair(gpu, Style::CURLY, 15_000.0);
+    let mut avatar = head.with_hair(gpu, FRIZZY, 15_000.0);
     let scene = head.scene(0.6, 0.75);
     let mut picture =
         |size: u32, samples, detail| draw(gpu, &canvas(gpu, size, samples), &scene, &mut avatar, detail);
@@ -115,7 +117,7 @@ fn far_heads_have_a_quarter_of_the_strands_and_look_alike() {
     const SIZE: u32 = 96;
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    for (name, style) in [("bob", Style::BOB), ("curly", Style::CURLY)] {
+    for (name, style) in [("bob", COMBED_BACK), ("curly", FRIZZY)] {
         let mut avatar = head.with_hair(gpu, style, 60_000.0);
         let all = avatar.0.strand_count();
         for (samples, yaw) in [(1, 0.0), (4, 0.0), (4, 1.3)] {
@@ -151,13 +153,13 @@ fn no_strands_leave_the_bald_picture() {
     for samples in [1, 4] {
         let canvas = canvas(gpu, 64, samples);
         let scene = head.scene(0.4, 0.7);
-        let mut avatar = head.with_hair(gpu, Style::BOB, 3000.0);
+        let mut avatar = head.with_hair(gpu, COMBED_BACK, 3000.0);
         let mut picture = |detail| {
             avatar.1.set_hair_detail(detail);
             canvas.render(gpu, &scene, &[(&avatar.0, &avatar.1)]).expect("a picture").rgba
         };
         let (none, some) = (picture(bald(ALL)), picture(ALL));
-        let without = head.with_hair(gpu, Style::BOB, 0.0);
+        let without = head.with_hair(gpu, COMBED_BACK, 0.0);
         let bare = canvas.render(gpu, &scene, &[(&without.0, &without.1)]).expect("a picture").rgba;
         assert_eq!(without.0.strand_count(), 0);
         assert_eq!(none, bare);
@@ -170,7 +172,7 @@ fn views_of_one_submission_have_their_own_strands() {
     use avatar_render::{PassTimer, Quality, Renderer, RendererConfig, Style as Manner, Targets};
     let Some(gpu) = gpu() else { return };
     let head = Head::new();
-    let (model, mut state) = head.with_hair(gpu, Style::BOB, 20_000.0);
+    let (model, mut state) = head.with_hair(gpu, COMBED_BACK, 20_000.0);
     let format = wgpu::TextureFormat::Rgba8UnormSrgb;
     let shading = Quality::Low.shading(Manner::Natural);
     let config = RendererConfig { color_format: format, samples: 4, shading };
@@ -256,9 +258,9 @@ fn brush(gpu: &Gpu) -> Avatar {
         comb: [0.0, 0.0, 1.0],
         noise: 1.5,
         clump: 0.0,
-        ..Style::SHORT.scalp
+        ..CROPPED.scalp
     };
-    let style = Style { scalp, ..Style::SHORT };
+    let style = Style { scalp, ..CROPPED };
     let groom = Groom::new(&plate, &white, &[], style, 24.0, 5);
     let (mut model, _) = model(gpu, &[part(&plate, PartKind::Skin, PartTextures::default())]);
     model.set_hair(&gpu.device, &gpu.queue, 0, Some(&groom)).expect("hair");

@@ -6,7 +6,10 @@ use image::RgbaImage;
 fn picture(options: &[&str]) -> RgbaImage {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let out = folder.path().join("face.png");
-    finish(viewer().args(["render", "--quality", "low"]).args(options).arg("--out").arg(&out)).ok();
+    finish(
+        viewer().args(["render", "--hair", "off", "--quality", "low"]).args(options).arg("--out").arg(&out),
+    )
+    .ok();
     image::open(out).expect("a PNG").into_rgba8()
 }
 

@@ -44,7 +44,8 @@ fn built_in() -> TempDir {
     for entry in fs::read_dir(folder).expect("the built-in avatar") {
         let entry = entry.expect("a readable folder");
         let name = entry.file_name().into_string().expect("a plain name");
-        if !name.ends_with(".png") || name == "EyeTex_Decal00.png" {
+        let is_hair = name == "hair.toml";
+        if !is_hair && (!name.ends_with(".png") || name == "EyeTex_Decal00.png") {
             fs::copy(entry.path(), copy.path().join(name)).expect("a copy");
         }
     }

@@ -4,7 +4,7 @@
 use crate::common::{finish, has_adapter, viewer};
 use avatar_pack::{Pack, Textures};
 use avatar_render::headless::{GpuOptions, open_blocking, render_image};
-use avatar_render::{AvatarState, Light};
+use avatar_render::{AvatarState, HairDetail, Light, Quality};
 use avatar_stage::{BACKGROUND, DefaultFace, NamedView, Performer, SAMPLES, portrait, upload};
 
 #[test]
@@ -17,6 +17,7 @@ fn a_picture_made_with_the_library_is_that_of_the_viewer() {
     let model =
         upload(&gpu.device, &gpu.queue, face.pack(), &Textures::load(&DefaultFace)).expect("uploaded");
     let mut avatar = AvatarState::new(&gpu.device, &model);
+    avatar.set_hair_detail(HairDetail::of_quality(Quality::of_adapter(&gpu.info)));
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (pose, view) in [("smile", NamedView::Front), ("wink-left", NamedView::ThreeQuarter)] {
         face.press(pose).expect("a pose");

@@ -71,10 +71,10 @@ fn strand_light(point: StrandPoint, color: vec3f, open: f32) -> vec3f {
 
 @vertex
 fn strand_main(@builtin(vertex_index) corner: u32, @builtin(instance_index) strand: u32) -> StrandOut {
-    let region = region_of(strand);
+    let kind = kind_of(strand);
     let random = random_of(strand);
-    let style = hair.regions[region];
-    let point = strand_point(strand, corner, region);
+    let style = hair.regions[kind & 255u];
+    let point = strand_point(strand, corner, kind);
     let ribbon = ribbon_corner(point, corner);
     let shade = 1.0 + style.color_variation * (random.y * 2.0 - 1.0);
     let color = mix(style.root_color, style.tip_color, point.along) * shade;

@@ -62,7 +62,7 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
         let step = (root.length - first) * (f32(i + 1u) * (1.0 / STEP_SUM));
         // Along the skin: the skin stops the part of the comb's force that points into it.
         let combed = (comb - skin_normal * (dot(comb, skin_normal) * near)) * max(near, style.hold * (1.0 - t));
-        let force = combed + own * (style.noise * t) + down * style.gravity;
+        let force = combed + own * (style.noise * t) + down * style.gravity - skin_normal * (style.tuck * t);
         // A force straight back is ignored: the sum might have no direction.
         let across = force - direction * min(dot(force, direction), 0.0);
         direction = normalize_or(direction + across * style.bend, direction);

@@ -15,6 +15,7 @@ struct HairRegion {
     noise: f32,
     volume: f32,
     hold: f32,
+    tuck: f32,
 }
 
 struct Hair {

@@ -9,7 +9,7 @@ struct LayersOut {
 
 @vertex
 fn strand_layers_main(@builtin(vertex_index) corner: u32, @builtin(instance_index) strand: u32) -> LayersOut {
-    let ribbon = ribbon_corner(strand_point(strand, corner, region_of(strand)), corner);
+    let ribbon = ribbon_corner(strand_point(strand, corner, kind_of(strand)), corner);
     return LayersOut(ribbon.position_clip, ribbon.pixels, ribbon.off);
 }
 

@@ -15,6 +15,8 @@ struct HairView {
     other_width: f32,
     // From one drawn point of a strand to the next.
     stride: u32,
+    // Pieces that are drawn from one point of a strand to the next.
+    pieces: u32,
 }
 
 @group(2) @binding(0) var<uniform> hair: Hair;
@@ -35,7 +37,8 @@ struct StrandPoint {
     radius: f32,
 }
 
-fn region_of(strand: u32) -> u32 {
+// The region of a strand, and its thickness in 255ths in the next eight bits.
+fn kind_of(strand: u32) -> u32 {
     return textureLoad(roots, texel_of(4u * strand), 0).w;
 }
 
@@ -44,23 +47,39 @@ fn random_of(strand: u32) -> vec3f {
 }
 
 // `corner` counts the corners of the ribbon, two at each point.
-fn strand_point(strand: u32, corner: u32, region: u32) -> StrandPoint {
+fn strand_point(strand: u32, corner: u32, kind: u32) -> StrandPoint {
+    let region = kind & 255u;
     let style = hair.regions[region];
-    let i = corner / 2u * hair_view.stride;
+    let piece = corner / 2u;
+    let i = piece / hair_view.pieces * hair_view.stride;
+    let between = f32(piece % hair_view.pieces) / f32(hair_view.pieces);
     let first = strand * (SEGMENTS + 2u);
     let here = points[first + i];
     let before = points[first + max(i, hair_view.stride) - hair_view.stride].xyz;
-    let after = points[first + min(i + hair_view.stride, SEGMENTS)].xyz;
+    let after = points[first + min(i + hair_view.stride, SEGMENTS)];
     var point: StrandPoint;
     point.position = here.xyz;
     point.height = here.w;
-    point.tangent = normalize(after - before + vec3f(1e-9, 0.0, 0.0));
-    point.along = f32(i) / f32(SEGMENTS);
+    var along = after.xyz - before;
+    if between > 0.0 {
+        // A curve through the points: E. Catmull and R. Rom, "A Class of Local Interpolating Splines", 1974.
+        let next = points[first + min(i + 2u, SEGMENTS)].xyz;
+        let in = 0.5 * along;
+        let out = 0.5 * (next - here.xyz);
+        let way = after.xyz - here.xyz;
+        let square = 3.0 * way - 2.0 * in - out;
+        let cube = in + out - 2.0 * way;
+        point.position += between * (in + between * (square + between * cube));
+        point.height = mix(here.w, after.w, between);
+        along = in + between * (2.0 * square + between * 3.0 * cube);
+    }
+    point.tangent = normalize(along + vec3f(1e-9, 0.0, 0.0));
+    point.along = (f32(i) + between) / f32(SEGMENTS);
     point.normal = points[first + SEGMENTS + 1u].xyz;
     // Strands near the cut fade, so that they do not pop where the cut moves.
     let share = saturate((hair_view.strands - f32(strand)) / max(hair_view.fading, 1e-3));
     let factor = select(hair_view.other_width, hair_view.width, region == SCALP);
-    let width = hair.width_factor * factor * share;
+    let width = hair.width_factor * factor * share * (f32(kind >> 8u) * (1.0 / 255.0));
     point.radius = mix(style.root_radius, style.tip_radius, point.along) * width;
     return point;
 }

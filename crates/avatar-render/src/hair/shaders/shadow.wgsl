@@ -12,7 +12,7 @@ fn hair_shadow_main(
     @builtin(vertex_index) corner: u32,
     @builtin(instance_index) strand: u32,
 ) -> ShadowStrandOut {
-    let point = strand_point(strand, corner, region_of(strand));
+    let point = strand_point(strand, corner, kind_of(strand));
     // Strands thinner than two texels are drawn that wide and cover less: otherwise the map would have steps.
     let texels = 2.0 * point.radius / hair_map_texel();
     let drawn = max(texels, 2.0);

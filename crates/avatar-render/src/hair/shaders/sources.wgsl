@@ -42,7 +42,7 @@ fn root_of(strand: u32) -> Root {
     let c = textureLoad(roots, texel_of(4u * strand + 2u));
     let d = textureLoad(roots, texel_of(4u * strand + 3u));
     return Root(
-        a.xyz, a.w, bitcast<vec3f>(b.xyz), b.w, bitcast<vec3f>(c.xyz), bitcast<f32>(c.w), bitcast<vec3f>(d.xyz),
+        a.xyz, a.w & 255u, bitcast<vec3f>(b.xyz), b.w, bitcast<vec3f>(c.xyz), bitcast<f32>(c.w), bitcast<vec3f>(d.xyz),
         bitcast<f32>(d.w));
 }
 

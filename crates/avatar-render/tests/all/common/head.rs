@@ -1,6 +1,6 @@
 //! The built-in avatar's skin with hair, and pictures of it.
 
-use avatar_groom::{DensityMap, Groom, Style};
+use avatar_groom::{DensityMap, Groom, RegionStyle, Style};
 use avatar_mesh::{Bounds, Mesh};
 use avatar_pack::{FaceState, Pack, Source, SourceError, Texture, Textures};
 use avatar_render::headless::{Canvas, Gpu};
@@ -19,6 +19,58 @@ impl Source for Folder {
         Ok(std::fs::read(self.0.join(name)).ok().map(Cow::Owned))
     }
 }
+
+/// Styles of the tests' own, for what measures how hair is drawn: presets may change with fashion.
+pub(crate) const CROPPED: Style = Style {
+    scalp: RegionStyle {
+        length: 0.085,
+        length_variation: 0.35,
+        bend: 0.6,
+        gravity: 0.3,
+        comb: [0.5, 0.0, 0.5],
+        edge: [0.5, 0.0, 0.5],
+        tuck: 0.0,
+        parting: 0.03,
+        hold: 1.0,
+        volume: 0.01,
+        clump: 0.35,
+        noise: 0.15,
+        ..Style::SHORT.scalp
+    },
+    ..Style::SHORT
+};
+/// To the chin, behind the ears.
+pub(crate) const COMBED_BACK: Style = Style {
+    scalp: RegionStyle {
+        bend: 2.5,
+        gravity: 0.5,
+        comb: [0.9, 0.35, -0.75],
+        edge: [0.9, 0.35, -0.75],
+        tuck: 0.0,
+        volume: 0.03,
+        ..Style::BOB.scalp
+    },
+    ..Style::BOB
+};
+/// The same, to below the neck.
+pub(crate) const LONG_BACK: Style =
+    Style { scalp: RegionStyle { length: 1.1, parting: 0.0, cut: -0.1, ..COMBED_BACK.scalp }, ..COMBED_BACK };
+/// Short curls.
+pub(crate) const FRIZZY: Style = Style {
+    scalp: RegionStyle {
+        length: 0.3,
+        bend: 0.6,
+        gravity: 0.45,
+        comb: [0.6, 0.3, -0.4],
+        edge: [0.6, 0.3, -0.4],
+        tuck: 0.0,
+        curl_radius: 0.024,
+        curl_turns: 2.2,
+        clump: 0.4,
+        ..Style::CURLY.scalp
+    },
+    ..Style::CURLY
+};
 
 /// The built-in avatar and where hair grows on it.
 pub(crate) struct Head {
