@@ -8,7 +8,7 @@ use avatar_groom::{Groom, SEGMENTS};
 use avatar_mesh::Deformed;
 use avatar_pack::{FaceState, Pack, Texture, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, RenderImageError, open_blocking};
-use avatar_render::{AvatarModel, AvatarState, Deformer, Grower};
+use avatar_render::{AvatarModel, AvatarState, Deformer, Grower, HairDetail};
 use avatar_stage::{View, set_colors, set_groom, upload_with_hair};
 use glam::Vec3;
 use image::RgbaImage;
@@ -109,6 +109,15 @@ impl Offscreen {
         avatar.set_hair_detail(look.hair_detail(&gpu.info));
         check(&gpu)?;
         Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, look, canvas: None })
+    }
+
+    /// Draws hair by so many wide strands, where the quality is one for adapters on which each costs much: for
+    /// many small pictures.
+    pub(crate) fn sketch_hair(&mut self, strands: u32) {
+        let detail = self.look.hair_detail(&self.gpu.info);
+        if detail.share < 1.0 {
+            self.avatar.set_hair_detail(HairDetail { draft: Some(strands), ..detail });
+        }
     }
 
     /// The adapter, for people.

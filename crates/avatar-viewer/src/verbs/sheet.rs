@@ -16,6 +16,8 @@ const FACE: Size = Size { width: 240, height: 300 };
 const LABEL_HEIGHT: u32 = 34;
 const GAP: u32 = 12;
 const COLUMNS: u32 = 4;
+/// Strands of a head that is as small as here.
+const STRANDS: u32 = 4000;
 const SHEET_COLOR: [u8; 4] = [0x16, 0x18, 0x1c, 255];
 const LABEL_COLOR: [u8; 3] = [0xe6, 0xe2, 0xda];
 
@@ -36,6 +38,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<()> {
     let head = View { framing: Framing::Head, ..View::FRONT };
     let level = args.lod.level(&pack, &args.look, &head, FACE.sides(), 2 * poses.len() as u64);
     let mut offscreen = Offscreen::of_files(&files, &level, FACE, SAMPLES, args.look)?;
+    offscreen.sketch_hair(STRANDS);
     let mut progress = Progress::new("pose", poses.len() as u64);
     let mut sheet = RgbaImage::from_pixel(width, height, Rgba(SHEET_COLOR));
     for (index, pose) in poses.into_iter().enumerate() {
