@@ -22,8 +22,8 @@ pub(super) fn of_eye(spot: &Spot, d: DVec3) -> DVec3 {
 /// Takes the part of a displacement toward the gums away on the inner side of the lips, which lies close to
 /// them.
 ///
-/// The rows of teeth bulge forward everywhere: whoever slides along them or leaves them stays outside, whatever
-/// is added up.
+/// The rows of teeth bulge forward everywhere: what slides along them or leaves them stays outside, whatever
+/// sum it is part of.
 pub(super) fn of_teeth(spot: &Spot, d: DVec3) -> DVec3 {
     if !spot.in_mouth() {
         return d;

@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{moved::Whole, spot::dome};
+use super::{spot::dome, whole::Whole};
 use crate::{
     anatomy::mouth_line,
     skin::{Skin, Vertex},

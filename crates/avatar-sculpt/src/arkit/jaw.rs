@@ -45,7 +45,7 @@ pub(super) fn bones_aside(skin: &Skin, side: f64) -> Vec<(DMat3, DVec3)> {
 }
 
 /// How far the jaw goes forward: down by a little, too, so that the lower teeth pass below the upper ones.
-pub const FORWARD: DVec3 = DVec3::new(0.0, -0.16, 0.62);
+pub const FORWARD: DVec3 = DVec3::new(0.0, -0.145, 0.56);
 
 /// The skin follows the jaw as it does when it turns.
 pub(super) fn forward(spot: &Spot) -> DVec3 {

@@ -19,6 +19,7 @@ mod mouth;
 mod moved;
 mod opened;
 mod spot;
+mod whole;
 
 use glam::DVec3;
 
@@ -93,12 +94,12 @@ pub const CORRECTIVES: [(&str, Kind, Weight); 4] = [
 pub enum Weight {
     /// It has a control of its own.
     Control,
-    /// It follows a control of a bone, which counts 0 at its default and 1 at its end, and stands alone at this
-    /// value.
+    /// It follows a control of a bone, which counts 0 at its default and 1 at its end, and stands alone at
+    /// this value.
     Follows(&'static str, f64),
     /// It is the product of the values of two controls, of which that of a bone counts 1 at its end.
     Product([&'static str; 2]),
-    /// For a shape with sides: the product of the first control of its own side, left or right, and the second.
+    /// For a shape with sides: the product of the control of its own side, left or right, and of another one.
     OfSide([&'static str; 2], &'static str),
 }
 

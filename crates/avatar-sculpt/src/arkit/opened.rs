@@ -1,7 +1,7 @@
 //! What shapes of the mouth do in another way once the jaw is open.
 //!
-//! Weights of these fields are products of the jaw's opening and of the shape, so they are written for both at
-//! their ends.
+//! Weights of these fields are products of the jaw's opening and of the shape, so they are written for both
+//! at their ends.
 
 use glam::DVec3;
 

@@ -60,8 +60,8 @@ fn all_names_of_arkit_and_the_sounds_of_speech_are_controls() {
         let control = &pack.controls().controls()[index];
         assert_eq!((control.min, control.max, control.default), (0.0, 1.0, 0.0), "{name}");
         assert!(control.group.is_some(), "{name} has no group");
-        // Of the skin each moves something, but eyes that look aside; silence and lips that are closed already
-        // move by a trace.
+        // Each moves some skin, but eyes that look aside; silence and lips that are closed already move by a
+        // trace.
         let apart = ["eyeLookIn", "eyeLookOut"].iter().any(|start| name.starts_with(start));
         let least = if name == "viseme_sil" || name == "mouthClose" { 0.005 } else { 0.1 };
         let moved = posed(&pack, &[(&name, 1.0)]);
