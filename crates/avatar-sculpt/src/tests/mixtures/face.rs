@@ -16,10 +16,13 @@ use crate::{
 /// Weights by the names of the 52 shapes.
 pub(super) type Weights = BTreeMap<String, f64>;
 
+/// Moved vertices and their displacements.
+type Moves = Vec<(usize, DVec3)>;
+
 /// The face that mixtures are made of.
 pub(super) struct Face {
     /// Name, weight and moved vertices of every shape.
-    pub(super) moved: Vec<(String, Weight, Vec<(usize, DVec3)>)>,
+    pub(super) moved: Vec<(String, Weight, Moves)>,
     pub(super) triangles: Vec<[usize; 3]>,
     /// Triangles of the skin around each eye, left first.
     lids: [Vec<[usize; 3]>; 2],
@@ -41,7 +44,7 @@ pub(super) fn face() -> &'static Face {
     FACE.get_or_init(|| {
         let m = skin();
         let moved = arkit::moved(sculpture());
-        let sparse = |d: &Vec<DVec3>| -> Vec<(usize, DVec3)> {
+        let sparse = |d: &Vec<DVec3>| -> Moves {
             d.iter().copied().enumerate().filter(|(_, d)| *d != DVec3::ZERO).collect()
         };
         let moved = moved.iter().filter(|s| s.stem == "MarsienneSkin");
