@@ -36,8 +36,8 @@ pub struct View {
 pub enum Framing {
     /// All parts.
     Whole,
-    /// Head and shoulders of a face with a bust ([`Pack::head`]), which leaves the picture at its lower edge as
-    /// in a photograph; all parts of any other avatar.
+    /// Head and shoulders of a face with a bust ([`Pack::head`]), which leaves the picture at its lower edge
+    /// as in a photograph; all parts of any other avatar.
     Portrait,
     /// The head of an avatar with a body ([`Pack::face`]); all parts of an avatar that is no more than a
     /// head.

@@ -32,7 +32,8 @@ pub const IRISES: [Iris; 4] = [
 /// Radius of the pupil as a share of the iris.
 const PUPIL: f64 = 0.37;
 
-/// From this share of the iris's radius on the ball is behind the lids, wherever it looks: 115° from its axis.
+/// From this share of the iris's radius on the ball is behind the lids, wherever it looks: 115° from its
+/// axis.
 const UNSEEN: f64 = 5.2;
 
 /// Light that the lids leave to the eyeball while it looks ahead, over the eyeball's picture.

@@ -165,7 +165,8 @@ pub fn edge(half: &mut Half, loops: &mut Loops) {
     }
 }
 
-/// Adds the neckline of the top, from the front to the back: a row on the skin, and two that rise to the cloth.
+/// Adds the neckline of the top, from the front to the back: a row on the skin, and two that rise to the
+/// cloth.
 pub fn neckline(half: &mut Half) {
     const COUNT: usize = 62;
     const FINE: usize = 400;
