@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 const PHASE_SPREAD: f32 = 0.12;
 /// Where the cut is not quite even, as a fraction of the length.
 const CUT_SPREAD: f32 = 0.05;
-/// Densities between which strands grow to their full length and thickness, and what shares of these the first
-/// ones have: hairlines begin with fine hair.
+/// Densities between which strands grow to their full length and thickness, and what shares of these the
+/// first ones have: hairlines begin with fine hair.
 const HAIRLINE: [f32; 2] = [0.1, 0.85];
 const HAIRLINE_LENGTH: f32 = 0.3;
 const HAIRLINE_THICKNESS: f32 = 0.2;
@@ -206,8 +206,8 @@ impl Comber<'_> {
         let off = place - self.parting;
         let along = |[away, up, forward]: [f32; 3], aside: Vec3| aside * away + Vec3::new(0.0, up, forward);
         let mut bind = if root.region == Region::Scalp {
-            // Before the crown away from the parting on both sides, behind it all around. A jump at the parting
-            // is what makes it one.
+            // Before the crown away from the parting on both sides, behind it all around. A jump at the
+            // parting is what makes it one.
             let aside = Vec3::new(off.x, 0.0, off.z.min(0.0)).normalize_or(Vec3::X);
             // What grows above the forehead would fall over the eyes.
             let square = (off.z / ((1.0 - CROWN) * self.depth)).clamp(0.0, 1.0).powi(2);

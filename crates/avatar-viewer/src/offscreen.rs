@@ -111,8 +111,8 @@ impl Offscreen {
         Ok(Self { gpu, model, avatar, state: FaceState::new(pack), samples, look, canvas: None })
     }
 
-    /// Draws hair by so many wide strands, where the quality is one for adapters on which each costs much: for
-    /// many small pictures.
+    /// Draws hair by so many wide strands, where the quality is one for adapters on which each costs much:
+    /// for many small pictures.
     pub(crate) fn sketch_hair(&mut self, strands: u32) {
         let detail = self.look.hair_detail(&self.gpu.info);
         if detail.share < 1.0 {

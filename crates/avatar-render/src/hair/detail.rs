@@ -68,8 +68,8 @@ impl Default for HairDetail {
 const LOW_SHARE: f32 = 0.25;
 
 impl HairDetail {
-    /// What goes with a quality: fewer and wider strands in those for adapters where each costs much. A share,
-    /// so that what a pack says of their number still counts.
+    /// What goes with a quality: fewer and wider strands in those for adapters where each costs much. A
+    /// share, so that what a pack says of their number still counts.
     pub fn of_quality(quality: Quality) -> Self {
         let share = match quality {
             Quality::Plain | Quality::Low => LOW_SHARE,
