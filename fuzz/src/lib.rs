@@ -19,13 +19,13 @@ mod texts;
 pub use mutate::mutate_json;
 pub use packed::{SEPARATOR, glb_of};
 pub use scenes::{bvh, collada, fbx, glb, gltf, md5, obj, target, vrm};
-pub use texts::{clips, controls, hair, materials, pack, picture, poses, rig, shapes};
+pub use texts::{clips, controls, hair, identity, materials, pack, picture, poses, rig, shapes};
 
 /// What a target does with an input.
 pub type Run = fn(&[u8]);
 
 /// All targets by their names, which are also those of their folders in `corpus` and `regressions`.
-pub const TARGETS: [(&str, Run); 18] = [
+pub const TARGETS: [(&str, Run); 19] = [
     ("gltf", gltf),
     ("glb", glb),
     ("vrm", vrm),
@@ -42,6 +42,7 @@ pub const TARGETS: [(&str, Run); 18] = [
     ("materials", materials),
     ("hair", hair),
     ("shapes", shapes),
+    ("identity", identity),
     ("pack", pack),
     ("picture", picture),
 ];

@@ -4,7 +4,7 @@ use crate::exercise::{act, within_memory};
 use crate::packed::{files, text_and_bytes};
 use avatar_groom::Hair;
 use avatar_look::Materials;
-use avatar_pack::{MemorySource, Pack, Textures, raw_files};
+use avatar_pack::{Identity, MemorySource, Pack, Textures, raw_files};
 use pose_anim::{ClipSet, ControlTable, PoseSet, Recording};
 use pose_book::{ClipBook, PoseBook};
 use rig_core::{RawRig, Rig};
@@ -207,6 +207,28 @@ pub fn shapes(data: &[u8]) {
             let again = Pack::load(&MemorySource { files: files.into_iter().collect() });
             let list = again.as_ref().map(Pack::further_shapes).map_err(ToString::to_string);
             assert_eq!(list, Ok(pack.further_shapes()));
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `identity.toml`, for the golden pack. Other people are made of it; it is written back and read again.
+pub fn identity(data: &[u8]) {
+    let mut source = golden();
+    source.files.insert("identity.toml".to_owned(), data.to_vec());
+    match within_memory(data.len(), "the reader", || Pack::load(&source)) {
+        Ok(pack) => {
+            let Some(identity) = pack.identity() else { panic!("axes that were read are lost") };
+            let written = identity.to_toml();
+            assert_eq!(Identity::from_toml(&written).as_ref(), Ok(identity), "written as {written}");
+            let textures = Textures::default();
+            let ends = [-1.0, 1.0].map(|end| vec![end; identity.axes.len()]);
+            for values in [identity.draw(data.len() as u64)].into_iter().chain(ends) {
+                match pack.with_identity(&values) {
+                    Ok(person) => act(&person, &textures),
+                    Err(error) => drop(error.to_string()),
+                }
+            }
         }
         Err(error) => drop(error.to_string()),
     }

@@ -56,7 +56,8 @@ pub enum PackProblem {
         /// Offset of the first bad byte.
         offset: usize,
     },
-    /// `controls.toml`, `shapes.toml`, `identity.toml`, `poses.toml` or `clips.toml` is not as its format demands.
+    /// `controls.toml`, `shapes.toml`, `identity.toml`, `poses.toml` or `clips.toml` is not as its format
+    /// demands.
     #[error("{0}")]
     Toml(TomlError),
     /// `materials.toml` is not as its format demands.

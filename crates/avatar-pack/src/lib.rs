@@ -42,8 +42,8 @@
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and
 //! an index buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally
 //! `controls.toml`, `shapes.toml` with `shapes.raw` ([`FurtherShapes`]), `poses.toml`, `clips.toml`,
-//! `identity.toml` ([`Identity`]), `materials.toml` and `hair.toml`. This crate opens no files itself: a [`Source`] does, be it a folder, an
-//! archive, a web server or bytes in the program.
+//! `identity.toml` ([`Identity`]), `materials.toml` and `hair.toml`. This crate opens no files itself: a
+//! [`Source`] does, be it a folder, an archive, a web server or bytes in the program.
 //!
 //! ```
 //! use avatar_pack::{Pack, Source, SourceError};

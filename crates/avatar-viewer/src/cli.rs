@@ -79,8 +79,8 @@ pub(crate) struct PackArg {
     #[arg(long, value_name = "FILE", requires = "pack")]
     pub(crate) with: Vec<PathBuf>,
     /// Make another person of the avatar: this axis of its identity to a value from -1 to 1 (`info` lists the
-    /// axes), or all axes and the colours of skin, irises and hair as a number draws them; may be repeated, the
-    /// later one counts
+    /// axes), or all axes and the colours of skin, irises and hair as a number draws them; may be repeated,
+    /// the later one counts
     #[arg(long, value_name = "AXIS=VALUE|seed:NUMBER", allow_hyphen_values = true)]
     pub(crate) identity: Vec<IdentityArg>,
 }

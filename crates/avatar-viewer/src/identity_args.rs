@@ -47,9 +47,8 @@ pub(crate) fn person(pack: Pack, args: &[IdentityArg]) -> Result<Pack> {
                 drawn = Some(*seed);
             }
             IdentityArg::Axis { name, value } => {
-                let axis = identity
-                    .index(name)
-                    .ok_or_else(|| unknown("axis of identity", name, identity.names()))?;
+                let axis =
+                    identity.index(name).ok_or_else(|| unknown("face axis", name, identity.names()))?;
                 if !(-1.0..=1.0).contains(value) {
                     let range = format!("--identity {name}: expected a number from -1 to 1, found {value}");
                     return Err(usage(range));

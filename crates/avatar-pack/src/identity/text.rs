@@ -134,6 +134,9 @@ impl Reader {
             let Some(place) = self.places.get(share.name()) else {
                 let mut known: Vec<&str> = self.places.keys().map(String::as_str).collect();
                 known.sort_unstable();
+                if known.is_empty() {
+                    return Err(share.error("no axis before there is one", quote(share.name())));
+                }
                 return Err(share.unknown_name(share.name(), "an earlier axis, of", known));
             };
             let expected = format!("a number from {} to {most}", -most);

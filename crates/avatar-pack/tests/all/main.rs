@@ -9,6 +9,7 @@ mod further;
 mod gaze;
 mod growth;
 mod hair;
+mod identity;
 mod levels;
 mod materials;
 mod pack;

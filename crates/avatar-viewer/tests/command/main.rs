@@ -15,6 +15,7 @@ mod contract;
 mod convert;
 mod expected_data;
 mod hair;
+mod identity;
 mod import;
 mod levels;
 mod look;
