@@ -42,6 +42,7 @@ impl Colors {
     /// on its way in and out, which absorbs as the wavelength to the power of −3.33 (S. Jacques, "Skin
     /// Optics", 1998), here at 600, 550 and 490 nm; a little comes back from above it. Numbers out of range
     /// and NaN count as the nearest one.
+    #[expect(clippy::manual_clamp, reason = "NaN becomes a number")]
     pub fn skin_with(melanin: f32) -> [f32; 3] {
         // Skin without melanin, the share that never reaches it, and absorption relative to red.
         let (bare, above, absorption) = ([0.73, 0.44, 0.325], [0.038, 0.027, 0.021], [1.0, 1.336, 1.963]);

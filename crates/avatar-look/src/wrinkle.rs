@@ -18,14 +18,15 @@ impl Wrinkle {
 
     /// How strongly the place is wrinkled with these weights of shapes: 0 to 1. Shapes that there are no
     /// weights of count as at rest.
+    #[expect(clippy::manual_clamp, reason = "NaN becomes 0")]
     pub fn weight(&self, weights: &[f32]) -> f32 {
         let of_one = |(shape, gain): &(usize, f32)| gain * weights.get(*shape).copied().unwrap_or(0.0);
-        // NaN becomes 0.
         self.shapes.iter().map(of_one).sum::<f32>().max(0.0).min(1.0)
     }
 
     /// The share of that at a point at bind pose: 1 within the inner third of the radius, 0 beyond it, smooth
     /// between. The twin of `wrinkled` in the shader `deform.wgsl`.
+    #[expect(clippy::manual_clamp, reason = "NaN becomes 0")]
     pub fn reach(&self, point: Vec3) -> f32 {
         let near = (1.5 * (1.0 - self.center.distance(point) / self.radius)).max(0.0).min(1.0);
         near * near * (3.0 - 2.0 * near)
