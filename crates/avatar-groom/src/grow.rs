@@ -11,7 +11,7 @@ pub struct Triangle {
 }
 
 /// How far strands keep from the skin, as a fraction of its height.
-pub const MARGIN: f32 = 0.006;
+pub const MARGIN: f32 = 0.009;
 
 /// Length of the first segment by that of an even one.
 pub const FIRST_SEGMENT: f32 = 0.15;

@@ -137,10 +137,10 @@ impl Style {
             gravity: 0.35,
             comb: [0.7, 0.15, 0.15],
             edge: [0.7, 0.1, 0.1],
-            tuck: 0.2,
+            tuck: 0.0,
             parting: 0.05,
             hold: 0.4,
-            volume: 0.025,
+            volume: 0.04,
             noise: 0.2,
             ..Self::STRAND
         },
@@ -156,7 +156,7 @@ impl Style {
             gravity: 0.8,
             comb: [1.0, 0.15, -0.15],
             edge: [0.4, 0.4, -0.9],
-            tuck: 0.2,
+            tuck: 0.0,
             parting: 0.05,
             hold: 0.0,
             volume: 0.035,
@@ -170,7 +170,7 @@ impl Style {
     };
     /// Over the shoulders, parted in the middle.
     pub const LONG: Self = Self {
-        scalp: RegionStyle { length: 1.4, parting: 0.0, tuck: 0.15, cut: -0.18, ..Self::BOB.scalp },
+        scalp: RegionStyle { length: 1.1, parting: 0.0, tuck: 0.0, cut: -0.1, ..Self::BOB.scalp },
         ..Self::SHORT
     };
     /// Curls around the head.
@@ -181,7 +181,7 @@ impl Style {
             gravity: 0.6,
             comb: [0.8, 0.2, -0.1],
             edge: [0.6, 0.3, -0.5],
-            tuck: 0.1,
+            tuck: 0.0,
             curl_radius: 0.03,
             curl_turns: 3.0,
             clump: 0.9,

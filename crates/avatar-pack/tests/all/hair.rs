@@ -99,10 +99,10 @@ fn brows_and_lashes_grow_where_they_are_painted_and_nowhere_else() {
         assert_eq!(region, painted, "{pixel}");
         counts[region as usize] += 1;
     }
-    // By the sums of the painted values, taken elsewhere: 0.8011, 0.001655 and 0.000116 of the head's height
+    // By the sums of the painted values, taken elsewhere: 0.8011, 0.00225 and 0.000116 of the head's height
     // squared.
     let scalp = 50_000.0 * 0.8011;
-    let expected = [scalp, 50_000.0 * 0.001655 * 4.0, 50_000.0 * 0.000116 * 16.0];
+    let expected = [scalp, 50_000.0 * 0.00225 * 4.0, 50_000.0 * 0.000116 * 16.0];
     for (count, expected) in counts.into_iter().zip(expected) {
         let count = f64::from(count);
         assert!((count - expected).abs() < 0.05 * expected + 1.0, "{counts:?}, expected {expected}");

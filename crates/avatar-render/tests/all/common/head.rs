@@ -8,6 +8,7 @@ use avatar_render::{
     AvatarModel, AvatarState, Camera, HairDetail, Image, Light, PartBones, PartDesc, PartTextures, Quality,
     Scene, Style as Manner, linear_from_srgb8,
 };
+use glam::Vec3;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -34,7 +35,7 @@ pub(crate) const CROPPED: Style = Style {
         hold: 1.0,
         volume: 0.01,
         clump: 0.35,
-        noise: 0.15,
+        noise: 0.1,
         ..Style::SHORT.scalp
     },
     ..Style::SHORT
@@ -48,6 +49,7 @@ pub(crate) const COMBED_BACK: Style = Style {
         edge: [0.9, 0.35, -0.75],
         tuck: 0.0,
         volume: 0.03,
+        noise: 0.1,
         ..Style::BOB.scalp
     },
     ..Style::BOB
@@ -145,6 +147,15 @@ impl Head {
 /// The weights of the skin's shapes: all that a model of the skin alone has.
 pub(crate) fn weights_of_skin<'a>(pack: &Pack, face: &'a FaceState) -> &'a [f32] {
     &face.weights()[pack.parts()[0].shapes()]
+}
+
+/// How deep a strand of the built-in head may be under the skin at a point, as a share of the head's height.
+///
+/// The grid that strands are kept outside of is coarser than the rims of ears: there they may dip in, by
+/// a third of a centimetre.
+pub(crate) fn most_depth(point: Vec3) -> f32 {
+    let by_ear = point.x.abs() > 4.5 && (-1.0..2.5).contains(&point.y) && (-8.0..-2.5).contains(&point.z);
+    if by_ear { 0.014 } else { 0.005 }
 }
 
 /// What the adapter at hand does not decide about: low quality.
