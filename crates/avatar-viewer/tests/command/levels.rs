@@ -61,7 +61,7 @@ fn auto_goes_by_height_where_many_pictures_are_drawn() {
     let told = finish(viewer().args(["deform", "--gpu", "--out"]).arg(folder.path().join("skin.obj"))).stderr;
     // A graphics card draws the whole face.
     let expected = if told.contains(", Cpu)") { "3" } else { "0" };
-    let film = |frames: &str, options: &[&str]| {
+    let of_hair = |hair: &str, frames: &str, options: &[&str]| {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let out = folder.path().join("face.png");
         let mut command = viewer();
@@ -76,15 +76,16 @@ fn auto_goes_by_height_where_many_pictures_are_drawn() {
             "--samples",
             "1",
         ]);
+        command.args(["--hair", hair, "--hair-density", "0.02"]);
         finish(command.args(["--fps", "60", "--duration", frames]).args(options).arg("--out").arg(&out)).ok();
         std::fs::read(out).expect("a film")
     };
+    let film = |frames: &str, options: &[&str]| of_hair("off", frames, options);
     let (long, short) = ("1", "0.9");
     assert!(film(long, &["--lod", "auto"]) == film(long, &["--lod", expected]));
     assert!(film(long, &["--lod", "3"]) != film(long, &["--lod", "0"]));
     assert!(film(short, &["--lod", "auto"]) == film(short, &["--lod", "0"]));
-    let haired = ["--hair", "short", "--hair-density", "0.02"];
-    let with = |lod: &str| film(long, &[&haired[..], &["--lod", lod]].concat());
+    let with = |lod: &str| of_hair("short", long, &["--lod", lod]);
     assert!(with("auto") == with("0"));
 }
 

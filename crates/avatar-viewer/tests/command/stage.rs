@@ -5,7 +5,7 @@ use crate::common::{finish, has_adapter, viewer};
 use avatar_pack::{Pack, Textures};
 use avatar_render::headless::{GpuOptions, open_blocking, render_image};
 use avatar_render::{AvatarState, HairDetail, Light, Quality};
-use avatar_stage::{BACKGROUND, DefaultFace, NamedView, Performer, SAMPLES, portrait, upload};
+use avatar_stage::{BACKGROUND, DefaultFace, Framing, NamedView, Performer, SAMPLES, View, portrait, upload};
 
 #[test]
 fn a_picture_made_with_the_library_is_that_of_the_viewer() {
@@ -23,7 +23,8 @@ fn a_picture_made_with_the_library_is_that_of_the_viewer() {
         face.press(pose).expect("a pose");
         face.advance(f64::INFINITY).expect("time passes");
         avatar.set(&gpu.queue, face.bones(), face.weights()).expect("they fit");
-        let scene = view.view().scene(face.pack(), 160.0 / 120.0, BACKGROUND, Light::studio());
+        let portrait_of = View { framing: Framing::Portrait, ..view.view() };
+        let scene = portrait_of.scene(face.pack(), 160.0 / 120.0, BACKGROUND, Light::studio());
         if view == NamedView::Front {
             assert_eq!(scene, portrait(face.pack(), 160.0 / 120.0));
         }
