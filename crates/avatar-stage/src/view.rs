@@ -163,8 +163,8 @@ fn with_shoulders(head: Bounds) -> Bounds {
     Bounds { min: head.min - Vec3::Y * 0.14 * height, max: head.max + Vec3::Y * 0.04 * height }
 }
 
-/// [`Framing::Portrait`] from the front, before [`BACKGROUND`], in the light of a studio, for a picture of this
-/// aspect (width by height).
+/// [`Framing::Portrait`] from the front, before [`BACKGROUND`], in the light of a studio, for a picture of
+/// this aspect (width by height).
 pub fn portrait(pack: &Pack, aspect: f32) -> Scene {
     let view = View { framing: Framing::Portrait, ..View::FRONT };
     view.scene(pack, aspect, BACKGROUND, Light::studio())

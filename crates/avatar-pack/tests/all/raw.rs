@@ -119,9 +119,7 @@ fn an_avatar_that_went_through_glb_is_the_same_in_all_poses() {
     let all: Vec<usize> = (0..FACE_PARTS.len()).collect();
     for pose in poses(&pack) {
         let mut values = pack.controls().defaults();
-        for (name, value) in &pose {
-            values[pack.controls().index(name).expect("a control")] = *value;
-        }
+        pose.iter().for_each(|(name, v)| values[pack.controls().index(name).expect("a control")] = *v);
         let mut state = FaceState::new(&pack);
         state.pose(&pack, &values).expect("a pose");
         let effective = state.effective().to_vec();

@@ -61,7 +61,7 @@ pub(super) struct HandCamera {
 }
 
 impl HandCamera {
-    pub(super) const START: Self = Self { view: View::FRONT };
+    pub(super) const START: Self = Self { view: View { framing: Framing::Portrait, ..View::FRONT } };
 
     /// Moves as the user wants.
     pub(super) fn apply(&mut self, wanted: CameraMove) {
@@ -76,7 +76,7 @@ impl HandCamera {
     /// Goes to a place.
     fn go(&mut self, place: Place) {
         self.view = match place {
-            Place::View(view) => view.view(),
+            Place::View(view) => View { framing: Framing::Portrait, ..view.view() },
             Place::Face => View { distance: 1.0, pan: [0.0; 2], framing: Framing::Face, ..self.view },
         };
     }
