@@ -151,11 +151,12 @@ pub(crate) fn weights_of_skin<'a>(pack: &Pack, face: &'a FaceState) -> &'a [f32]
 
 /// How deep a strand of the built-in head may be under the skin at a point, as a share of the head's height.
 ///
-/// The grid that strands are kept outside of is coarser than the rims of ears: there they may dip in, by
-/// a third of a centimetre.
+/// The grid that strands are kept outside of is coarser than the rims of ears and the edges of shoulders:
+/// there they may dip in, by a third of a centimetre.
 pub(crate) fn most_depth(point: Vec3) -> f32 {
-    let by_ear = point.x.abs() > 4.5 && (-1.0..2.5).contains(&point.y) && (-8.0..-2.5).contains(&point.z);
-    if by_ear { 0.014 } else { 0.005 }
+    let by_ear = point.x.abs() > 4.5 && (-1.3..3.2).contains(&point.y) && (-10.0..-2.2).contains(&point.z);
+    let on_shoulder = point.y < -15.0;
+    if by_ear || on_shoulder { 0.014 } else { 0.005 }
 }
 
 /// What the adapter at hand does not decide about: low quality.
