@@ -35,7 +35,7 @@ pub(crate) const CROPPED: Style = Style {
         hold: 1.0,
         volume: 0.01,
         clump: 0.35,
-        noise: 0.1,
+        noise: 0.15,
         ..Style::SHORT.scalp
     },
     ..Style::SHORT
@@ -49,7 +49,6 @@ pub(crate) const COMBED_BACK: Style = Style {
         edge: [0.9, 0.35, -0.75],
         tuck: 0.0,
         volume: 0.03,
-        noise: 0.1,
         ..Style::BOB.scalp
     },
     ..Style::BOB
