@@ -28,7 +28,39 @@ function expectedOf(path) {
     }));
 }
 
-async function threeReads(bytes, expected) {
+// All vertices where mixtures take them at 1, which the targets of their names have to do alone, where
+// export_glb wrote them beside the file; and how far three.js may be from them.
+const farthestTarget = 1e-5;
+function compareTargets(path, scene) {
+    const file = path.replace(/glb$/, 'targets.tsv');
+    if (!existsSync(file)) return;
+    const buffer = readFileSync(path.replace(/glb$/, 'targets.f32'));
+    const numbers = new Float32Array(buffer.buffer, buffer.byteOffset, buffer.byteLength / 4);
+    const at = new Vector3();
+    let [worst, moving, vertices] = [0, 0, 0];
+    for (const line of readFileSync(file, 'utf8').trim().split('\n')) {
+        const [name, part, first] = line.split('\t');
+        const object = scene.getObjectByName(part);
+        const target = object.morphTargetDictionary?.[name];
+        object.morphTargetInfluences?.fill(0);
+        if (target !== undefined) object.morphTargetInfluences[target] = 1;
+        moving += target !== undefined ? 1 : 0;
+        for (let vertex = 0; vertex < object.geometry.attributes.position.count; vertex += 1) {
+            object.getVertexPosition(vertex, at);
+            at.toArray().forEach((x, i) => {
+                const off = Math.abs(x - numbers[Number(first) + 3 * vertex + i]);
+                if (!(off <= farthestTarget)) throw new Error(`${name}, vertex ${vertex} of ${part} is off by ${off}`);
+                worst = Math.max(worst, off);
+            });
+            vertices += 1;
+        }
+        object.morphTargetInfluences?.fill(0);
+    }
+    console.log(`three.js agrees on ${moving} targets of mixtures, ${vertices} vertices, to within ${worst}`);
+}
+
+async function threeReads(path, bytes) {
+    const expected = expectedOf(path);
     const loader = new GLTFLoader().register(noPictures);
     const gltf = await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
     const found = { meshes: 0, skinned: 0, shapes: 0, clips: gltf.animations.length, vertices: 0 };
@@ -68,6 +100,9 @@ async function threeReads(bytes, expected) {
         });
     }
     if (compared < expected.size) throw new Error(`${expected.size} parts in poses expected, ${compared} found`);
+    mixer.stopAllAction();
+    gltf.scene.updateMatrixWorld(true);
+    compareTargets(path, gltf.scene);
     if (compared > 0) console.log(`three.js agrees on ${compared} parts in poses to within ${worst}`);
     return found;
 }
@@ -82,7 +117,7 @@ for (const path of process.argv.slice(2)) {
     errors.slice(0, 10).forEach(error => console.error(`${name}: ${error.code} ${error.pointer}: ${error.message}`));
     failures += errors.length;
     try {
-        const found = await threeReads(bytes, expectedOf(path));
+        const found = await threeReads(path, bytes);
         const counts = Object.entries(found).map(([what, count]) => `${count} ${what}`).join(', ');
         console.log(`${name}: ${errors.length} errors, ${issues.numWarnings} warnings; three.js: ${counts}`);
     } catch (error) {

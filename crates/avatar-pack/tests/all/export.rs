@@ -10,8 +10,10 @@
 use crate::common::{folder, golden, shared};
 use avatar_exchange::{AlphaMode, Node, RawScene, Scene, ScenePart, Transform, Trs, glb, gltf};
 use avatar_mesh::{Winding, raw};
-use avatar_pack::{FaceState, Import, MemorySource, Pack, Part, Textures, export};
+use avatar_pack::{FaceState, Import, MemorySource, Pack, Part, ShapeSet, Textures, export};
 use glam::Vec3;
+use pose_anim::{ControlTable, PoseSet};
+use std::collections::BTreeSet;
 
 /// Differences are parts of the avatar's size: single precision tells 1e-7 of it.
 const TOLERANCE: f32 = 1e-6;
@@ -55,7 +57,15 @@ fn comes_back(source: &MemorySource) -> Worst {
         worst.rig = worst.rig.max(of_axes).max(of_place);
     }
     assert!(worst.rig <= TOLERANCE, "{}", worst.rig);
-    assert_eq!(import.pack.shapes(), pack.shapes());
+    // Behind the shapes of each part are the targets of mixtures.
+    let count = |number: usize| pack.parts()[number].mesh.shapes.len();
+    let own = |number: usize| import.pack.parts()[number].first_shape..;
+    let own: Vec<String> = (0..pack.parts().len())
+        .flat_map(|number| import.pack.shapes()[own(number)][..count(number)].to_vec())
+        .collect();
+    let expected: Vec<String> =
+        pack.parts().iter().flat_map(|part| pack.shapes()[part.shapes()].to_vec()).collect();
+    assert_eq!(own, expected);
     let names: Vec<_> = pack.poses().iter().map(|pose| pose.name.clone()).collect();
     assert_eq!(import.pack.motion().expect("clips").clips(), names);
     assert_eq!(import.pack.palette().len(), pack.palette().len());
@@ -66,7 +76,8 @@ fn comes_back(source: &MemorySource) -> Worst {
         assert_eq!(found.mesh.uvs, part.mesh.uvs, "{}", part.name);
         let offsets =
             |mesh: &avatar_mesh::Mesh| mesh.shapes.iter().map(|s| s.positions.clone()).collect::<Vec<_>>();
-        assert_eq!(offsets(&found.mesh), offsets(&part.mesh), "{}", part.name);
+        let shapes = part.mesh.shapes.len();
+        assert_eq!(offsets(&found.mesh)[..shapes], offsets(&part.mesh), "{}", part.name);
         let turned = Winding::of(&part.mesh).is_inside_out();
         let triangle = |[a, b, c]: [u32; 3]| if turned { [a, c, b] } else { [a, b, c] };
         assert!(part.mesh.triangles.iter().copied().map(triangle).eq(found.mesh.triangles.iter().copied()));
@@ -260,4 +271,99 @@ fn a_skeleton_alone_comes_back() {
     assert!(scene.skins.is_empty());
     let second = again(&scene);
     assert_eq!(second.pack.rig().names(), first.pack.rig().names());
+}
+
+/// What glTF 2.0 says in sections 3.7.2.2 and 3.7.3.3 of a target at weight 1, at rest: its offsets added,
+/// and joints that move nothing. Written here by itself, so that nothing of this library but the reader of
+/// GLB takes part.
+fn at_weight_1(mesh: &avatar_mesh::Mesh, name: &str) -> Option<(Vec<Vec3>, Vec<Vec3>)> {
+    let shape = mesh.shapes.iter().find(|shape| shape.name == name)?;
+    let (mut positions, mut normals) = (mesh.positions.clone(), mesh.normals.clone());
+    shape.positions.iter().for_each(|(vertex, offset)| positions[vertex] += offset);
+    shape.normals.iter().flat_map(|offsets| offsets.iter()).for_each(|(v, offset)| normals[v] += offset);
+    Some((positions, normals.into_iter().map(Vec3::normalize_or_zero).collect()))
+}
+
+/// Every name of ARKit and every sound is a target that shows what the control shows, in all parts.
+#[test]
+fn mixtures_are_targets_for_programs_without_mixtures() {
+    let pack = Pack::load(&marsienne()).expect("a pack");
+    let bytes = glb::write_raw(&export(&pack, &Textures::default())).expect("a valid scene");
+    let scene = gltf::read("a.glb", &bytes, &mut |_| Err(String::new())).expect("a scene");
+    let mixtures: Vec<String> =
+        pack.further_shapes().expect("shapes").mixtures.iter().map(|m| m.name.clone()).collect();
+    for name in ShapeSet::ArKit.names().iter().chain(ShapeSet::Visemes.names()) {
+        let is_there = |part: &ScenePart| part.mesh.shapes.iter().any(|shape| shape.name == *name);
+        assert!(scene.parts.iter().any(is_there), "{name}");
+    }
+    let size = pack.bounds().map(|bounds| (bounds.max - bounds.min).max_element()).expect("vertices");
+    let (mut worst, mut worst_normal, mut moving) = (0.0f32, 0.0f32, 0);
+    for name in &mixtures {
+        let mut values = pack.controls().defaults();
+        values[pack.controls().index(name).expect("a control")] = 1.0;
+        let mut state = FaceState::new(&pack);
+        state.pose(&pack, &values).expect("a pose");
+        for (number, part) in scene.parts.iter().enumerate() {
+            let expected = state.deform(&pack, number).expect("a part");
+            let (positions, normals) = match at_weight_1(&part.mesh, name) {
+                Some(moved) => moved,
+                None => (part.mesh.positions.clone(), part.mesh.normals.clone()),
+            };
+            assert_eq!(positions.len(), expected.positions.len());
+            let off = positions.iter().zip(&expected.positions).map(|(a, b)| (*a - *b).abs().max_element());
+            worst = off.fold(worst, f32::max);
+            let off = normals.iter().zip(&expected.normals).map(|(a, b)| (*a - *b).abs().max_element());
+            worst_normal = off.fold(worst_normal, f32::max);
+            moving += usize::from(positions != part.mesh.positions);
+        }
+    }
+    println!(
+        "{moving} targets of {} mixtures: positions {worst:e} of {size}, normals {worst_normal:e}",
+        mixtures.len()
+    );
+    assert!(moving > mixtures.len(), "{moving}");
+    assert!(worst <= 1e-5 && worst_normal <= 1e-5, "{worst} {worst_normal}");
+}
+
+/// Read again, the face is posed by joints or by a target, and neither moves the other: the name alone shows
+/// what the mixture shows, and poses of joints leave the targets at rest.
+#[test]
+fn targets_of_mixtures_double_nothing_that_is_read_again() {
+    let pack = Pack::load(&marsienne()).expect("a pack");
+    let import = again(&export(&pack, &Textures::default()));
+    let deformed = |pack: &Pack, set: &[(&str, f32)]| {
+        let mut values = pack.controls().defaults();
+        for (name, value) in set {
+            values[pack.controls().index(name).expect(name)] = *value;
+        }
+        let mut state = FaceState::new(pack);
+        state.pose(pack, &values).expect("a pose");
+        (0..pack.parts().len()).map(|part| state.deform(pack, part).expect("a part").positions).collect()
+    };
+    let worst = |a: Vec<Vec<Vec3>>, b: Vec<Vec<Vec3>>| {
+        let parts = a.iter().zip(&b).inspect(|(a, b)| assert_eq!(a.len(), b.len()));
+        parts.flat_map(|(a, b)| a.iter().zip(b)).fold(0.0f32, |worst, (a, b)| worst.max(a.distance(*b)))
+    };
+    for name in ["jawOpen", "eyeBlinkLeft", "eyeLookInRight", "viseme_U", "viseme_PP"] {
+        let off = worst(deformed(&pack, &[(name, 1.0)]), deformed(&import.pack, &[(name, 1.0)]));
+        assert!(off <= 2e-5, "{name}: {off}");
+    }
+    let of_joint = [("jaw.open", 13.0)];
+    let jaw = import.pack.parts().iter().position(|part| part.name == "lower-jaw").expect("a part");
+    let (own, other): (Vec<Vec<Vec3>>, Vec<Vec<Vec3>>) =
+        (deformed(&pack, &of_joint), deformed(&import.pack, &of_joint));
+    let off = worst(vec![own[jaw].clone()], vec![other[jaw].clone()]);
+    assert!(off <= 2e-5, "the jaw's joint: {off}");
+    let mixed: BTreeSet<&str> =
+        pack.further_shapes().expect("shapes").mixtures.iter().map(|mixture| mixture.name.as_str()).collect();
+    for pose in PoseSet::default_face(&ControlTable::default_face()).iter() {
+        let Some(pose) = import.pack.poses().get(&pose.name) else { continue };
+        for (control, value) in &pose.values {
+            let name = import.pack.controls().controls()[*control].name.as_str();
+            assert!(*value == 0.0 || !mixed.contains(name), "{}: {name} = {value}", pose.name);
+        }
+    }
+    // Written once more, there is no mixture left to be made a target of.
+    let once_more = again(&export(&import.pack, &import.textures));
+    assert_eq!(once_more.pack.shapes(), import.pack.shapes());
 }

@@ -1,21 +1,21 @@
 //! An avatar as a scene, for files of interchange formats: the way back from `import`.
 
+mod baked;
+mod clips;
+
 use crate::import::wrap_of;
 use crate::textures::decode;
 use crate::{Pack, Part, PartImages, Textures};
 use avatar_exchange::{
-    AlphaMode, Channel, ChannelTarget, Clip, Finding, Interpolation, Material, Node, Note, RawScene, Scene,
-    SceneImage, ScenePart, Skin, TextureRef, ToonMaterial, Transform, Trs, UvSet,
+    AlphaMode, Finding, Material, Node, Note, RawScene, Scene, SceneImage, ScenePart, Skin, TextureRef,
+    ToonMaterial, Transform, Trs, UvSet,
 };
 use avatar_look::{Alpha, Lighting, Standard};
-use avatar_mesh::{Mesh, PartKind, Skinning, Winding};
+use avatar_mesh::{Mesh, PartKind, Shape, Skinning, Winding};
 use glam::{Affine3A, DAffine3, DQuat, Vec3};
 use image::{ImageFormat, Rgba, RgbaImage};
-use pose_anim::{Drive, Pose};
 use std::borrow::Cow;
-use std::collections::BTreeSet;
 use std::io::Cursor;
-use std::ops::Range;
 
 /// Makes a scene of an avatar.
 ///
@@ -23,10 +23,13 @@ use std::ops::Range;
 /// * All parts share one skin, the pack's palette; vertices of a rigid part have all their weight on its one
 ///   bone. So no vertex is moved into another space and rounded there: a reader that does as glTF 2.0 says
 ///   has the avatar's own numbers.
-/// * Shapes are morph targets, their weights at rest what the controls' defaults make of them; of
-///   [`Pack::sliders`] that is all that is left.
+/// * Shapes are morph targets, their weights at rest what the controls' defaults make of them; of the
+///   drivers of [`Pack::sliders`] that is all that is left.
+/// * Each mixture is one more target of its name, behind the shapes of each part that it moves: all that it
+///   does at 1, by bones, shapes and correctives. So programs that know names of shapes alone have all
+///   52 of ARKit and the visemes. Joints and shapes stay as well, so that a face is posed by either.
 /// * Each pose is a clip with one key at 0 s: where its controls and the couplings take joints and shapes
-///   from the defaults.
+///   from the defaults. Mixtures act by joints and shapes there, and their own targets rest.
 /// * Parts whose triangles contradict their normals are turned around, as for drawing.
 /// * Looks are glTF's metallic-roughness model: colour, relief, occlusion, roughness from gloss. Textures are
 ///   PNG.
@@ -43,25 +46,33 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
         scene.skins.push(Skin { name: "palette".to_owned(), joints, inverse_binds });
     }
     let mut images = Images::default();
-    let rest = posed(pack, &pack.controls().defaults()).map_or_else(Vec::new, |(_, weights)| weights);
+    let rest = clips::posed(pack, &pack.controls().defaults()).map_or_else(Vec::new, |(_, weights)| weights);
     let mut shapes_of_nodes = Vec::new();
+    let mut baked = baked::baked(pack, baked::MOST_BYTES);
     for (number, part) in pack.parts().iter().enumerate() {
         let node = scene.nodes.len();
-        let weights = rest.get(part.shapes()).unwrap_or_default().to_vec();
+        let targets = baked.of_parts.get_mut(number).map(std::mem::take).unwrap_or_default();
+        let mut weights = rest.get(part.shapes()).unwrap_or_default().to_vec();
+        let resting = vec![0.0; targets.len()];
+        weights.extend(&resting);
         let local = place(pack, part);
         scene.nodes.push(Node { name: part.name.clone(), weights, local, ..Node::default() });
-        let mesh = mesh(pack, part);
+        let mesh = mesh(pack, part, targets);
         let material = material(pack, textures, number, &mut images, &mut scene.notes);
         scene.parts.push(ScenePart {
             material: Some(scene.materials.len()),
             ..ScenePart::skinned(&part.name, node, mesh, 0)
         });
         scene.materials.push(material);
-        shapes_of_nodes.push((node, part.shapes()));
+        shapes_of_nodes.push(clips::ShapesOfNode { node, shapes: part.shapes(), resting });
     }
     scene.images = images.encoded;
-    scene.clips = clips(pack, &scene.nodes, &shapes_of_nodes, &mut scene.notes);
+    scene.clips = clips::clips(pack, &scene.nodes, &shapes_of_nodes, &mut scene.notes);
     let mut note = |text: &str| scene.notes.push(Note::new("the avatar", Finding::left_out(text)));
+    if !baked.left_out.is_empty() {
+        let (count, first) = (baked.left_out.len(), &baked.left_out[0]);
+        note(&format!("{count} mixtures are left out, {first:?} first: their targets are too large"));
+    }
     note("controls, couplings and times of poses are left out");
     if pack.sliders().is_some() {
         note("sliders are left out: in-between and corrective shapes have weights of their own");
@@ -126,13 +137,14 @@ fn place(pack: &Pack, part: &Part) -> Transform {
     Transform::Trs(Trs { scale, ..Trs::default() })
 }
 
-/// The mesh as a scene has it: its shapes with the names that they have in the pack, and triangles that agree
-/// with their normals.
-fn mesh(pack: &Pack, part: &Part) -> Mesh {
+/// The mesh as a scene has it: its shapes with the names that they have in the pack, further targets behind
+/// them, and triangles that agree with their normals.
+fn mesh(pack: &Pack, part: &Part, targets: Vec<Shape>) -> Mesh {
     let mut mesh = part.mesh.clone();
     for (shape, name) in mesh.shapes.iter_mut().zip(&pack.shapes()[part.shapes()]) {
         shape.name.clone_from(name);
     }
+    mesh.shapes.extend(targets);
     if Winding::of(&mesh).is_inside_out() {
         mesh.triangles.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
     }
@@ -147,82 +159,6 @@ fn mesh(pack: &Pack, part: &Part) -> Mesh {
         });
     }
     mesh
-}
-
-/// Joints and weights where control values take them, after the couplings.
-fn posed(pack: &Pack, values: &[f32]) -> Option<(Vec<Affine3A>, Vec<f32>)> {
-    let mut effective = vec![0.0; values.len()];
-    pack.binding().couple(values, &mut effective);
-    let (mut locals, mut weights) = (pack.rig().locals(), vec![0.0; pack.shapes().len()]);
-    match pack.sliders() {
-        None => pack.binding().apply(&effective, &mut locals, &mut weights).ok()?,
-        Some(sliders) => {
-            sliders.mix(pack.controls(), &mut effective);
-            let mut values = vec![0.0; sliders.names.len()];
-            pack.binding().apply(&effective, &mut locals, &mut values).ok()?;
-            sliders.follow_controls(&effective, &mut values);
-            sliders.run(&values, &mut weights).ok()?;
-        }
-    }
-    Some((locals.as_slice().to_vec(), weights))
-}
-
-fn clips(pack: &Pack, nodes: &[Node], shapes: &[(usize, Range<usize>)], notes: &mut Vec<Note>) -> Vec<Clip> {
-    let driven: BTreeSet<usize> = (pack.controls().controls().iter())
-        .filter_map(|control| match &control.drives {
-            Drive::Joint { joint, .. } => Some(pack.rig().joint(joint)?.index()),
-            _ => None,
-        })
-        .collect();
-    let mut clips = Vec::new();
-    for pose in &pack.poses().poses {
-        match clip(pack, pose, nodes, &driven, shapes) {
-            Some(clip) => clips.push(clip),
-            None => {
-                let place = format!("pose {:?}", pose.name);
-                notes.push(Note::new(place, Finding::left_out("does not fit the controls, and is left out")));
-            }
-        }
-    }
-    clips
-}
-
-/// One key for everything that controls move, be it at rest or not: programs that mix clips need them all.
-fn clip(
-    pack: &Pack,
-    pose: &Pose,
-    nodes: &[Node],
-    driven: &BTreeSet<usize>,
-    shapes: &[(usize, Range<usize>)],
-) -> Option<Clip> {
-    let mut values = pack.controls().defaults();
-    for (control, value) in &pose.values {
-        *values.get_mut(*control)? = *value;
-    }
-    let (locals, weights) = posed(pack, &values)?;
-    let mut channels = Vec::new();
-    let mut key = |node: usize, target: ChannelTarget, values: Vec<f32>| {
-        channels.push(Channel {
-            node,
-            target,
-            interpolation: Interpolation::Linear,
-            times: vec![0.0],
-            values,
-        });
-    };
-    for &joint in driven {
-        let (bind, local) = (pack.rig().parent_from_joint().get(joint)?, locals.get(joint)?);
-        let Transform::Trs(rest) = nodes.get(joint)?.local else { continue };
-        let moved = trs(widen(*bind) * widen(*local));
-        // The joint at rest is at rest to the bit.
-        let rotation = if moved.rotation == -rest.rotation { rest.rotation } else { moved.rotation };
-        key(joint, ChannelTarget::Translation, moved.translation.to_array().to_vec());
-        key(joint, ChannelTarget::Rotation, rotation.to_array().to_vec());
-    }
-    for (node, shapes) in shapes.iter().filter(|(_, shapes)| !shapes.is_empty()) {
-        key(*node, ChannelTarget::Weights, weights.get(shapes.clone())?.to_vec());
-    }
-    Some(Clip { name: pose.name.clone(), channels })
 }
 
 fn material<'a>(
