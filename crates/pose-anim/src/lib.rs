@@ -142,4 +142,5 @@ pub use player::Player;
 pub use player_crowd::PlayerCrowd;
 pub use pose::{Pose, PoseSet, Timing};
 pub use recording::{Recording, RecordingError};
+pub use soft_limit::soft_sum;
 pub use text::{DEFAULT_CONTROLS_TOML, DEFAULT_POSES_TOML};

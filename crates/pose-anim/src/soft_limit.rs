@@ -49,6 +49,29 @@ pub(crate) fn soft_limit(base: Jet, offset: Jet, range: Range) -> Jet {
     base + Jet::rest(sign) * kept
 }
 
+/// As [`soft_limit`], of numbers without derivatives, for layers of another kind than players: `base +
+/// offset`, bent where it would leave `min` to `max`, twice continuously differentiable in both. An offset
+/// of 0 leaves the base as it is, to the last bit. Where a number is NaN, so is the result.
+///
+/// ```
+/// use pose_anim::soft_sum;
+/// assert_eq!(soft_sum(0.5, 0.2, 0.0, 2.0), 0.7);
+/// assert_eq!(soft_sum(1.5, 4.0, 0.0, 2.0), 2.0);
+/// ```
+pub fn soft_sum(base: f64, offset: f64, min: f64, max: f64) -> f64 {
+    let width = max - min;
+    if offset == 0.0 || width <= 0.0 {
+        return base;
+    }
+    let (up, down) = (max - base, base - min);
+    let (room, back) = if offset > 0.0 { (up, down) } else { (down, up) };
+    let knee = KNEE * width;
+    if back >= knee && room >= knee && 2.0 * offset.abs() <= room {
+        return base + offset;
+    }
+    soft_limit(Jet::rest(base), Jet::rest(offset), Range { min, max }).value
+}
+
 /// `r(x / width)`.
 fn smooth(x: Jet, width: f64) -> Jet {
     // The step as a function of x, by the chain rule with the derivatives of x in time.
@@ -95,6 +118,16 @@ mod tests {
         assert_eq!(plain(-2.0, -7.0), -2.0);
         assert_eq!(plain(-2.0, 1.0), -1.0);
         assert_eq!(plain(0.5, 5.0), 3.0);
+    }
+
+    #[test]
+    fn sums_of_numbers_are_those_of_states() {
+        for base in [-2.5, -2.0, -1.9, -1.0, 0.5, 2.5, 2.9, 3.0, 3.5] {
+            for offset in [-7.0, -1.0, -0.1, 0.0, 0.1, 0.6, 2.0, 9.0] {
+                let sum = soft_sum(base, offset, RANGE.min, RANGE.max);
+                assert!((sum - plain(base, offset)).abs() < 1e-12, "{base} {offset} {sum}");
+            }
+        }
     }
 
     #[test]
