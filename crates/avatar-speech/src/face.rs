@@ -1,0 +1,253 @@
+use crate::mouth::{Articulator, Mouth};
+use crate::params::ARTICULATORS;
+use crate::viseme::{VISEMES, Viseme};
+use pose_anim::{ControlTable, face};
+
+/// How an avatar is made to speak: what its controls allow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Means {
+    /// Shapes named as ARKit's: jaw, lips and tongue each at its own times.
+    ArKit,
+    /// Shapes named as Oculus's visemes.
+    Visemes,
+    /// The five mouths of VRM: `aa`, `ih`, `ou`, `ee`, `oh`.
+    Vrm,
+    /// A jaw alone.
+    Jaw,
+    /// Nothing: the avatar has no mouth that could move.
+    Nothing,
+}
+
+/// How much of speech a face shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Amounts {
+    /// Movements of jaw, lips and tongue, 0 to 1. Lips close at any amount.
+    pub mouth: f32,
+    /// Movements of the brows with loud syllables, 0 to 1.
+    pub brows: f32,
+}
+
+impl Default for Amounts {
+    fn default() -> Self {
+        Self { mouth: 1.0, brows: 1.0 }
+    }
+}
+
+/// What moves a control.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Articulator(usize),
+    Visemes(Shares),
+    Viseme(usize),
+    Brows(f64),
+    /// Nothing does: it is only held back.
+    Nothing,
+}
+
+/// A control that speech moves or holds back.
+#[derive(Clone, Copy, Debug)]
+struct Wire {
+    control: usize,
+    source: Source,
+    default: f64,
+    full: f64,
+    /// Share by which lips that are held take away what the face does otherwise.
+    yields: f64,
+}
+
+/// The way from a [`Mouth`] to the controls of one avatar.
+#[derive(Clone, Debug)]
+pub struct SpeechMap {
+    means: Means,
+    wires: Vec<Wire>,
+}
+
+/// Visemes that one mouth stands for, each with its weight.
+type Shares = &'static [(Viseme, f64)];
+
+/// The mouths of VRM, by the names of their controls, and what they share in each viseme.
+const VRM: [(&[&str], Shares); 5] = [
+    (&["expression.aa", "expression.a"], &[(Viseme::Aa, 0.9), (Viseme::KK, 0.12), (Viseme::TH, 0.08)]),
+    (
+        &["expression.ih", "expression.i"],
+        &[
+            (Viseme::I, 0.75),
+            (Viseme::SS, 0.4),
+            (Viseme::DD, 0.3),
+            (Viseme::NN, 0.25),
+            (Viseme::KK, 0.15),
+            (Viseme::FF, 0.12),
+            (Viseme::TH, 0.25),
+        ],
+    ),
+    (&["expression.ou", "expression.u"], &[(Viseme::U, 0.9), (Viseme::CH, 0.45), (Viseme::RR, 0.4)]),
+    (&["expression.ee", "expression.e"], &[(Viseme::E, 0.75), (Viseme::SS, 0.15), (Viseme::DD, 0.1)]),
+    (&["expression.oh", "expression.o"], &[(Viseme::O, 0.85), (Viseme::RR, 0.12)]),
+];
+
+/// Shapes that part the lips, which lips that are held have to overcome: how much of them is taken away.
+/// Measured on the built-in face, where all its poses leave less than 2 % of the mouth's width.
+const PARTING: [(&str, f64); 24] = [
+    (face::JAW_OPEN, 1.0),
+    ("jawOpen", 1.0),
+    ("tongueOut", 1.0),
+    ("mouthFunnel", 1.0),
+    ("mouthUpperUpLeft", 1.0),
+    ("mouthUpperUpRight", 1.0),
+    ("mouthLowerDownLeft", 1.0),
+    ("mouthLowerDownRight", 1.0),
+    (face::SMILE, 0.7),
+    ("mouthOpen", 1.0),
+    ("expression.happy", 0.7),
+    ("expression.joy", 0.7),
+    ("expression.fun", 0.7),
+    ("expression.relaxed", 0.7),
+    ("expression.angry", 0.7),
+    ("expression.sad", 0.7),
+    ("expression.sorrow", 0.7),
+    ("expression.surprised", 0.9),
+    ("expression.aa", 1.0),
+    ("expression.ih", 1.0),
+    ("expression.ou", 1.0),
+    ("expression.ee", 1.0),
+    ("expression.oh", 1.0),
+    ("mouthClose", 0.0),
+];
+
+/// The fewest shapes of a set that are enough to speak with.
+const ENOUGH_ARTICULATORS: usize = 5;
+const ENOUGH_VISEMES: usize = 6;
+const ENOUGH_VRM: usize = 3;
+
+impl SpeechMap {
+    /// The map for an avatar with these controls: ARKit's shapes if it has enough of them, else visemes, else
+    /// the mouths of VRM, else a jaw.
+    pub fn new(controls: &ControlTable) -> Self {
+        let mut wires = Vec::new();
+        let articulators: Vec<_> = Articulator::ALL
+            .into_iter()
+            .filter_map(|articulator| Some((articulator, of_articulator(controls, articulator)?)))
+            .collect();
+        let visemes: Vec<_> = Viseme::ALL
+            .into_iter()
+            .filter_map(|viseme| Some((viseme, controls.index(&format!("viseme_{}", viseme.name()))?)))
+            .collect();
+        let vrm: Vec<_> = (VRM.iter())
+            .filter_map(|(names, visemes)| {
+                Some((*visemes, names.iter().find_map(|name| controls.index(name))?))
+            })
+            .collect();
+        let jaw = of_articulator(controls, Articulator::JawOpen);
+        let means = if articulators.len() >= ENOUGH_ARTICULATORS {
+            for (articulator, found) in articulators {
+                let source = Source::Articulator(articulator as usize);
+                wires.extend(found.into_iter().flatten().map(|control| (control, source)));
+            }
+            Means::ArKit
+        } else if visemes.len() >= ENOUGH_VISEMES {
+            wires.extend(
+                visemes.into_iter().map(|(viseme, control)| (control, Source::Viseme(viseme.index()))),
+            );
+            Means::Visemes
+        } else if vrm.len() >= ENOUGH_VRM {
+            wires.extend(vrm.into_iter().map(|(visemes, control)| (control, Source::Visemes(visemes))));
+            Means::Vrm
+        } else if let Some(jaw) = jaw {
+            let source = Source::Articulator(Articulator::JawOpen as usize);
+            wires.extend(jaw.into_iter().flatten().map(|control| (control, source)));
+            Means::Jaw
+        } else {
+            Means::Nothing
+        };
+        let brows = [("browInnerUp", 1.0), ("browOuterUpLeft", 0.6), ("browOuterUpRight", 0.6)];
+        if means != Means::Nothing {
+            wires.extend(
+                brows.iter().filter_map(|(name, share)| Some((controls.index(name)?, Source::Brows(*share)))),
+            );
+            let parting = PARTING.iter().filter(|(_, share)| *share > 0.0);
+            for index in parting.filter_map(|(name, _)| controls.index(name)) {
+                if !wires.iter().any(|(control, _)| *control == index) {
+                    wires.push((index, Source::Nothing));
+                }
+            }
+        }
+        let wire = |(control, source): (usize, Source)| {
+            let entry = controls.controls().get(control)?;
+            let yields =
+                PARTING.iter().find(|(name, _)| *name == entry.name).map_or(0.0, |(_, share)| *share);
+            let yields = if matches!(source, Source::Viseme(_)) { 1.0 } else { yields };
+            let (default, full) = (f64::from(entry.default), f64::from(entry.max));
+            // A control without room above its default cannot show anything.
+            (full > default).then_some(Wire { control, source, default, full, yields })
+        };
+        Self { means, wires: wires.into_iter().filter_map(wire).collect() }
+    }
+
+    /// What the avatar speaks with.
+    pub fn means(&self) -> Means {
+        self.means
+    }
+
+    /// The controls that speech moves or holds back.
+    pub fn controls(&self) -> impl Iterator<Item = usize> + '_ {
+        self.wires.iter().map(|wire| wire.control)
+    }
+
+    /// Lays a mouth over the values of a face, in the order of its controls. Of what the face does already,
+    /// lips that are held take away what would part them; to the rest `x` the weight `y` of speech is added
+    /// as `x + y − xy`, in shares of the way from the default to the maximum: so values stay within their
+    /// ranges, and the result is as smooth as both are. Values that are missing are passed over. Allocates
+    /// nothing.
+    pub fn apply(&self, mouth: &Mouth, amounts: Amounts, values: &mut [f32]) {
+        let share = |amount: f32| if amount > 0.0 { f64::from(amount.min(1.0)) } else { 0.0 };
+        let (of_mouth, of_brows) = (share(amounts.mouth), share(amounts.brows));
+        let held = 1.0 - (1.0 - mouth.closed) * (1.0 - mouth.bitten);
+        for wire in &self.wires {
+            let Some(value) = values.get_mut(wire.control) else { continue };
+            let wanted = match wire.source {
+                Source::Articulator(index) => of_mouth * mouth.articulators[index],
+                Source::Viseme(index) => of_mouth * mouth.visemes[index],
+                Source::Visemes(shares) => {
+                    of_mouth
+                        * shares
+                            .iter()
+                            .map(|(viseme, share)| share * mouth.visemes[viseme.index()])
+                            .sum::<f64>()
+                }
+                Source::Brows(share) => of_brows * share * mouth.brows,
+                Source::Nothing => 0.0,
+            };
+            let room = wire.full - wire.default;
+            let own = (f64::from(*value) - wire.default) / room * (1.0 - wire.yields * held);
+            *value = (wire.default + room * (own + wanted - own * wanted)) as f32;
+        }
+    }
+
+    /// Weights of Oculus's visemes, in the order of [`Viseme::ALL`].
+    pub fn oculus(mouth: &Mouth) -> [f32; VISEMES] {
+        mouth.visemes.map(|weight| weight as f32)
+    }
+
+    /// Weights of ARKit's shapes by their names.
+    pub fn arkit(mouth: &Mouth) -> impl Iterator<Item = (&'static str, f32)> + use<> {
+        let weights: [f64; ARTICULATORS] = mouth.articulators;
+        Articulator::ALL.into_iter().zip(weights).flat_map(|(articulator, weight)| {
+            articulator.names().iter().map(move |name| (*name, weight as f32))
+        })
+    }
+}
+
+/// The controls of an articulator; of the jaw, the bone before the shape.
+fn of_articulator(controls: &ControlTable, articulator: Articulator) -> Option<[Option<usize>; 2]> {
+    if articulator == Articulator::JawOpen
+        && let Some(bone) = controls.index(face::JAW_OPEN)
+    {
+        return Some([Some(bone), None]);
+    }
+    let mut found = [None; 2];
+    for (slot, name) in found.iter_mut().zip(articulator.names()) {
+        *slot = controls.index(name);
+    }
+    found.iter().any(Option::is_some).then_some(found)
+}

@@ -1,0 +1,6 @@
+//! Tests of the crate from outside.
+
+mod formats;
+mod hostile;
+mod motion;
+mod with_expressions;

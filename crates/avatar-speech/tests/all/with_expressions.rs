@@ -1,0 +1,116 @@
+//! A mouth laid over the values of a face.
+
+use avatar_speech::{Amounts, Articulator, Means, Mouth, Speech, SpeechMap, Timeline, Viseme};
+use pose_anim::ControlTable;
+use proptest::prelude::*;
+
+fn table(names: &[&str]) -> ControlTable {
+    let text: String =
+        names.iter().map(|name| format!("[[control]]\nname = {name:?}\nshape = {name:?}\n")).collect();
+    ControlTable::from_toml(&text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn arkit_names() -> Vec<&'static str> {
+    Articulator::ALL
+        .into_iter()
+        .flat_map(|articulator| articulator.names())
+        .copied()
+        .chain(["browInnerUp"])
+        .collect()
+}
+
+fn mouth_of(viseme: Viseme) -> Mouth {
+    let mut weights = [0.0; 15];
+    weights[viseme.index()] = 1.0;
+    Mouth::of_visemes(&weights, 0.5)
+}
+
+#[test]
+fn what_an_avatar_has_is_used() {
+    let visemes: Vec<String> = Viseme::ALL.iter().map(|viseme| format!("viseme_{}", viseme.name())).collect();
+    let visemes: Vec<&str> = visemes.iter().map(String::as_str).collect();
+    let vrm = ["expression.aa", "expression.ih", "expression.ou", "expression.ee", "expression.oh"];
+    for (names, means) in [
+        (arkit_names(), Means::ArKit),
+        (visemes.clone(), Means::Visemes),
+        (vrm.to_vec(), Means::Vrm),
+        (vec!["jawOpen", "something"], Means::Jaw),
+        (vec!["something"], Means::Nothing),
+        ([arkit_names(), visemes].concat(), Means::ArKit),
+    ] {
+        let controls = table(&names);
+        let map = SpeechMap::new(&controls);
+        assert_eq!(map.means(), means, "{names:?}");
+        let mut values = controls.defaults();
+        map.apply(&mouth_of(Viseme::Aa), Amounts::default(), &mut values);
+        let moved = values.iter().any(|value| *value > 0.3);
+        assert_eq!(moved, means != Means::Nothing, "{names:?}: {values:?}");
+        // Lips that are closed leave the mouth of any avatar at rest, but for what presses it together.
+        let mut values = controls.defaults();
+        map.apply(&mouth_of(Viseme::PP), Amounts::default(), &mut values);
+        for (name, value) in names.iter().zip(&values) {
+            let is_pressing =
+                ["mouthPress", "mouthRoll", "viseme_PP"].iter().any(|part| name.starts_with(part));
+            assert!(*value == 0.0 || is_pressing, "{name}: {value}");
+        }
+    }
+    // The default table has degrees: 0.62 of the jaw's 20.
+    let controls = ControlTable::default_face();
+    let map = SpeechMap::new(&controls);
+    let mut values = controls.defaults();
+    map.apply(&mouth_of(Viseme::Aa), Amounts::default(), &mut values);
+    let jaw = controls.index("jaw.open").unwrap();
+    let most = controls.controls()[jaw].max;
+    assert!((values[jaw] / most - 0.62).abs() < 1e-5, "{}", values[jaw]);
+}
+
+#[test]
+fn an_amount_of_nothing_changes_nothing() {
+    let controls = table(&arkit_names());
+    let map = SpeechMap::new(&controls);
+    let mut values = vec![0.25; controls.len()];
+    map.apply(&mouth_of(Viseme::Aa), Amounts { mouth: 0.0, brows: 0.0 }, &mut values);
+    assert!(values.iter().all(|value| (value - 0.25).abs() < 1e-7), "{values:?}");
+    // Shorter slices and amounts that are no numbers.
+    map.apply(&mouth_of(Viseme::Aa), Amounts { mouth: f32::NAN, brows: 9.0 }, &mut [0.1; 2]);
+}
+
+proptest! {
+    /// Any expression and any sound stay in range; while lips are closed, what parts them is at rest.
+    #[test]
+    fn expressions_and_speech_stay_in_range(
+        expression in proptest::collection::vec(0.0_f32..=1.0, 22),
+        secs in 0.0_f64..1.0,
+        amount in 0.0_f32..=1.0,
+    ) {
+        let names = arkit_names();
+        let controls = table(&names);
+        let map = SpeechMap::new(&controls);
+        let timeline = Timeline::read("_ 90\nm 80\na 120\nf 60\no 90\ns 50\np 70\ni 100\nS 90\nu 120", None).unwrap();
+        let speech = Speech::new(&timeline);
+        let mouth = speech.at(secs);
+        let mut values: Vec<f32> = expression.iter().copied().cycle().take(controls.len()).collect();
+        map.apply(&mouth, Amounts { mouth: amount, brows: amount }, &mut values);
+        prop_assert!(values.iter().all(|value| (0.0..=1.0).contains(value)));
+        if mouth.closed == 1.0 {
+            for name in ["jawOpen", "mouthFunnel", "mouthUpperUpLeft", "mouthLowerDownRight", "tongueOut"] {
+                let index = controls.index(name).unwrap();
+                prop_assert!(values[index].abs() < 1e-6, "{name}: {}", values[index]);
+            }
+        }
+    }
+}
+
+#[test]
+fn no_frame_allocates() {
+    let controls = table(&arkit_names());
+    let map = SpeechMap::new(&controls);
+    let speech = Speech::new(&Timeline::read("m 80\na 120\nf 60\no 90", None).unwrap());
+    let mut values = controls.defaults();
+    let used = allocation_counter::measure(|| {
+        for frame in 0..100 {
+            map.apply(&speech.at(f64::from(frame) / 200.0), Amounts::default(), &mut values);
+        }
+    });
+    assert_eq!(used.count_total, 0);
+}
