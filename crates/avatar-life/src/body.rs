@@ -104,6 +104,8 @@ impl Motion {
 pub(crate) struct Pupils {
     luminance: f64,
     interest: f64,
+    /// Millimetres in a lit room.
+    in_room: f64,
     follow: Follow<1>,
 }
 
@@ -112,9 +114,11 @@ impl Pupils {
         let mut pupils = Self {
             luminance: p::ROOM_LUMINANCE,
             interest: 0.0,
+            in_room: 0.0,
             follow: Follow::at([0.0], [0.0], p::PUPIL_RATE, 0.0),
         };
-        pupils.follow = Follow::at([pupils.goal()], [0.0], p::PUPIL_RATE, 0.0);
+        pupils.in_room = pupils.goal();
+        pupils.follow = Follow::at([pupils.in_room], [0.0], p::PUPIL_RATE, 0.0);
         pupils
     }
 
@@ -136,6 +140,11 @@ impl Pupils {
             self.interest = interest.clamp(-1.0, 1.0);
             self.follow.lead([self.goal()], [0.0], now);
         }
+    }
+
+    /// Millimetres in a lit room, without interest.
+    pub(crate) fn in_room(&self) -> f64 {
+        self.in_room
     }
 
     /// Millimetres.

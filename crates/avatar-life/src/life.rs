@@ -226,7 +226,7 @@ impl Life {
         put(BrowRight, brow(0.7 * inner + 0.3 * right));
         put(Breath, air);
         let wide = self.pupils.value(now) + p::PUPIL_UNREST * unrest;
-        let in_room = 4.9 - 3.0 * libm::tanh(0.4 * libm::log10(p::ROOM_LUMINANCE));
+        let in_room = self.pupils.in_room();
         let wide = in_room + pupils * (wide - in_room);
         put(Pupils, (wide - in_room) / 6.0);
         self.pupil_mm = wide;

@@ -1,12 +1,13 @@
 //! All numbers of human behaviour, with where they come from.
 //!
 //! - Andrist, Mutlu & Gleicher 2013, *Conversational gaze aversion for virtual agents*.
-//! - Argyle & Cook 1976, *Gaze and mutual gaze*: listeners look at who speaks 75 % of the time, speakers 40 %.
+//! - Argyle & Cook 1976, *Gaze and mutual gaze*: listeners look at who speaks 75 % of the time, speakers
+//!   40 %.
 //! - Bahill, Adler & Stark 1975, *Most naturally occurring human saccades have magnitudes of 15 degrees or
 //!   less*.
 //! - Bahill, Clark & Stark 1975, *The main sequence, a tool for studying human eye movements*.
-//! - Bentivoglio et al. 1997, *Analysis of blink rate patterns in normal subjects*: 17 a minute at rest, 26 in
-//!   conversation, 4.5 while reading.
+//! - Bentivoglio et al. 1997, *Analysis of blink rate patterns in normal subjects*: 17 a minute at rest, 26
+//!   in conversation, 4.5 while reading.
 //! - Carpenter 1988, *Movements of the eyes*.
 //! - Collewijn, van der Steen & Steinman 1985, *Human eye movements associated with blinks and prolonged
 //!   eyelid closure*.
@@ -21,8 +22,8 @@
 //! - Moon & Spencer 1944, *On the Stiles-Crawford effect*: the pupil by luminance.
 //! - Robinson 1965, *The mechanics of human smooth pursuit eye movement*.
 //! - Stern, Boyer & Schroeder 1994, *Blink rate: a possible measure of fatigue*.
-//! - Tobin et al. 1983, *Breathing patterns: normal subjects*: about 17 breaths a minute, the way in about 0.4
-//!   of the time.
+//! - Tobin et al. 1983, *Breathing patterns: normal subjects*: about 17 breaths a minute, the way in about
+//!   0.4 of the time.
 //! - Zee, Fitzgibbon & Optican 1992, *Saccade-vergence interactions in humans*.
 
 /// How much of each part is shown, from 0 (not at all) to 1. What is out of this range is taken as its end,
@@ -306,8 +307,8 @@ pub(crate) const BROW_PER_DEGREE: f64 = 0.012;
 pub(crate) const UPPER_LID_PER_DEGREE: f64 = -0.3;
 pub(crate) const LOWER_LID_PER_DEGREE: f64 = 0.12;
 
-/// The pupil: `4.9 − 3 tanh(0.4 log₁₀ L)` mm for a luminance of L cd/m² (Moon & Spencer 1944), the millimetres
-/// of full interest and of restlessness, and the rate at which it follows.
+/// The pupil: `4.9 − 3 tanh(0.4 log₁₀ L)` mm for a luminance of L cd/m² (Moon & Spencer 1944), the
+/// millimetres of full interest and of restlessness, and the rate at which it follows.
 pub(crate) const PUPIL_INTEREST: f64 = 0.6;
 pub(crate) const PUPIL_UNREST: f64 = 0.15;
 pub(crate) const PUPIL_RATE: f64 = 6.0;

@@ -29,33 +29,33 @@ pub(crate) enum Channel {
 
 pub(crate) const CHANNELS: usize = 12;
 
-/// One control, and what moves it.
-#[derive(Clone, Debug)]
+/// One control, and what moves it. Small, since each of many faces goes through its own in each frame.
+#[derive(Clone, Copy, Debug)]
 struct Wire {
-    control: usize,
-    min: f64,
-    max: f64,
-    /// Where lids are closed.
-    closed: Option<f64>,
-    terms: Vec<Term>,
+    control: u32,
+    min: f32,
+    max: f32,
+    /// Whether lids are closed where it is at its largest.
+    closes: bool,
+    term: Term,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Term {
     channel: Channel,
-    factor: f64,
     /// Whether only what is positive counts: of two controls for one axis, one for each direction.
     is_one_sided: bool,
+    factor: f32,
 }
 
 /// A factor for a channel.
 fn all(channel: Channel, factor: f64) -> Term {
-    Term { channel, factor, is_one_sided: false }
+    Term { channel, factor: factor as f32, is_one_sided: false }
 }
 
 /// One side of a channel: of two controls, one for each direction.
 fn one(channel: Channel, factor: f64) -> Term {
-    Term { channel, factor, is_one_sided: true }
+    Term { channel, factor: factor as f32, is_one_sided: true }
 }
 
 /// Weight within which one of two opposite shapes sets in.
@@ -187,14 +187,17 @@ impl Wiring {
         }
     }
 
+    /// The wire of a control, which is new if the control has none yet. Each has one term at most: no name
+    /// is asked for twice.
     fn wire(&mut self, controls: &ControlTable, name: &str) -> Option<&mut Wire> {
-        let control = controls.index(name)?;
+        let index = controls.index(name)?;
+        let control = u32::try_from(index).ok()?;
         let place = match self.wires.iter().position(|wire| wire.control == control) {
             Some(place) => place,
             None => {
-                let range = controls.controls().get(control)?;
-                let (min, max) = (range.min.into(), range.max.into());
-                self.wires.push(Wire { control, min, max, closed: None, terms: Vec::new() });
+                let range = controls.controls().get(index)?;
+                let term = all(Channel::Closed, 0.0);
+                self.wires.push(Wire { control, min: range.min, max: range.max, closes: false, term });
                 self.wires.len() - 1
             }
         };
@@ -203,47 +206,45 @@ impl Wiring {
 
     fn add(&mut self, controls: &ControlTable, name: &str, term: Term) -> bool {
         let wire = self.wire(controls, name);
-        wire.map(|wire| wire.terms.push(term)).is_some()
+        wire.map(|wire| wire.term = term).is_some()
     }
 
     fn close(&mut self, controls: &ControlTable, name: &str) -> bool {
         let wire = self.wire(controls, name);
-        wire.map(|wire| wire.closed = Some(wire.max)).is_some()
+        wire.map(|wire| wire.closes = true).is_some()
     }
 
     /// The controls that are moved.
     pub(crate) fn controls(&self) -> impl ExactSizeIterator<Item = usize> {
-        self.wires.iter().map(|wire| wire.control)
+        self.wires.iter().map(|wire| wire.control as usize)
     }
 
     /// Values of all controls, with life on top; both slices have an entry for each control.
     pub(crate) fn apply(&self, channels: &[f64; CHANNELS], below: &[f32], out: &mut [f32]) {
         out.copy_from_slice(below);
         for wire in &self.wires {
-            if let Some(slot) = out.get_mut(wire.control) {
+            if let Some(slot) = out.get_mut(wire.control as usize) {
                 *slot = wire.value(channels, f64::from(*slot)) as f32;
             }
         }
     }
 
     pub(crate) fn value(&self, channels: &[f64; CHANNELS], control: usize, below: f64) -> f64 {
-        let wire = self.wires.iter().find(|wire| wire.control == control);
+        let wire = self.wires.iter().find(|wire| wire.control as usize == control);
         wire.map_or(below, |wire| wire.value(channels, below))
     }
 }
 
 impl Wire {
     fn value(&self, channels: &[f64; CHANNELS], below: f64) -> f64 {
-        let mut offset = 0.0;
-        for Term { channel, factor, is_one_sided } in &self.terms {
-            let by = factor * channels[*channel as usize];
-            // `x r(x)` is as smooth at 0 as the step `r` is.
-            offset += if *is_one_sided { by.max(0.0) * step(by / GENTLE) } else { by };
-        }
-        let value = soft_sum(below, offset, self.min, self.max);
-        match self.closed {
-            Some(closed) => value + channels[Channel::Closed as usize] * (closed - value),
-            None => value,
+        let Term { channel, is_one_sided, factor } = self.term;
+        let by = f64::from(factor) * channels[channel as usize];
+        // `x r(x)` is as smooth at 0 as the step `r` is.
+        let offset = if is_one_sided { by.max(0.0) * step(by / GENTLE) } else { by };
+        let value = soft_sum(below, offset, self.min.into(), self.max.into());
+        match self.closes {
+            true => value + channels[Channel::Closed as usize] * (f64::from(self.max) - value),
+            false => value,
         }
     }
 }

@@ -1,6 +1,7 @@
 use crate::face_args::FaceArgs;
 use crate::hair_args::HairArgs;
 use crate::identity_args::IdentityArg;
+use crate::life_args::LifeArgs;
 use crate::lod_args::LodArgs;
 use crate::look_args::LookArgs;
 use crate::numbers::{count, positive};
@@ -110,7 +111,8 @@ pub(crate) struct RenderArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(group(ArgGroup::new("motion").required(true).args(["script", "clip"])))]
+#[command(group(ArgGroup::new("motion").args(["script", "clip"])))]
+#[command(group(ArgGroup::new("moving").required(true).multiple(true).args(["script", "clip", "life"])))]
 pub(crate) struct RecordArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
@@ -121,10 +123,13 @@ pub(crate) struct RecordArgs {
     /// Clip of the avatar's file or clips.toml, as `info` lists them; or a face tracker's recording, FILE.csv
     #[arg(long, value_name = "NAME")]
     pub(crate) clip: Option<String>,
+    #[command(flatten)]
+    pub(crate) life: LifeArgs,
     /// Frames per second, up to 240 (GIF: 50): 30, 12.5 or 30000/1001
     #[arg(long, default_value = "30", allow_hyphen_values = true, value_name = "RATE")]
     pub(crate) fps: Rate,
-    /// Seconds [default: until the script's last motion has come to rest, or the clip's end]
+    /// Seconds [default: until the script's last motion has come to rest, or the clip's end; 10 of a life
+    /// alone]
     #[arg(long, value_parser = positive, allow_hyphen_values = true, value_name = "SECONDS")]
     pub(crate) duration: Option<f64>,
     #[command(flatten)]
@@ -233,10 +238,12 @@ pub(crate) struct TraceArgs {
     pub(crate) pack: PackArg,
     /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5
     /// wink-left"
-    #[arg(long, allow_hyphen_values = true)]
-    pub(crate) script: String,
+    #[arg(long, allow_hyphen_values = true, required_unless_present = "life")]
+    pub(crate) script: Option<String>,
+    #[command(flatten)]
+    pub(crate) life: LifeArgs,
     /// After all values, also each control's velocity (CONTROL') and acceleration (CONTROL''), per second
-    #[arg(long)]
+    #[arg(long, conflicts_with = "life")]
     pub(crate) derivatives: bool,
     /// Rows per second
     #[arg(long, default_value = "240", value_parser = positive, allow_hyphen_values = true, value_name = "RATE")]

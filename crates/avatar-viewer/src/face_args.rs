@@ -1,10 +1,11 @@
 use crate::clips::{self, FoundClip};
+use crate::life_args::LifeArgs;
 use crate::numbers::{finite, seconds};
 use crate::standard;
 use crate::usage::{self, unknown};
 use anyhow::Result;
 use avatar_pack::{FaceState, MotionAt, Pack};
-use clap::{ArgMatches, Args};
+use clap::{ArgGroup, ArgMatches, Args};
 use glam::Affine3A;
 use pose_anim::{Control, Drive};
 use rig_core::{Axis, Elementary, JointId, product};
@@ -12,6 +13,7 @@ use std::str::FromStr;
 
 /// A face state on the command line: a pose, then single controls and joints.
 #[derive(Clone, Debug, Default, Args)]
+#[command(group(ArgGroup::new("timed").args(["clip", "life"]).multiple(true)))]
 pub(crate) struct FaceArgs {
     /// Pose to start from, or a mixture: "smile:0.5 wink-left"
     #[arg(long, value_name = "NAME")]
@@ -27,8 +29,10 @@ pub(crate) struct FaceArgs {
     /// recording, FILE.csv; what --set and --rotate concern is theirs
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
-    /// Seconds from the clip's beginning
-    #[arg(long, value_name = "SECONDS", requires = "clip", default_value_t = 0.0, value_parser = seconds, allow_hyphen_values = true)]
+    #[command(flatten)]
+    life: LifeArgs,
+    /// Seconds from the beginning of the clip and of the life
+    #[arg(long, value_name = "SECONDS", requires = "timed", default_value_t = 0.0, value_parser = seconds, allow_hyphen_values = true)]
     time: f32,
 }
 
@@ -112,6 +116,11 @@ impl FaceChoice {
         Ok(Self::of_values(values).with_motion(set))
     }
 
+    /// The values of all controls, before couplings and single settings.
+    pub(crate) fn values_mut(&mut self) -> &mut [f32] {
+        &mut self.values
+    }
+
     /// A clip of a file at a time, only to be described.
     pub(crate) fn of_clip(pack: &Pack, clip: &str, time_secs: f64) -> Self {
         let start = vec![format!("clip={clip}"), format!("time={time_secs}")];
@@ -163,7 +172,8 @@ impl FaceChoice {
 impl FaceArgs {
     /// Whether any face but that at rest is asked for.
     pub(crate) fn is_given(&self) -> bool {
-        self.pose.is_some() || !self.set.is_empty() || !self.rotate.is_empty() || self.clip.is_some()
+        let is_posed = self.pose.is_some() || !self.set.is_empty() || !self.rotate.is_empty();
+        is_posed || self.clip.is_some() || self.life.is_given()
     }
 
     /// Looks all names up. `matches` tells the order in which options were given: where `--set` and
@@ -184,6 +194,12 @@ impl FaceArgs {
             driven_later.push((joint_of(pack, control), position));
         }
         self.start_from_clip(pack, &mut choice)?;
+        if let Some(mut life) = self.life.begin(pack) {
+            life.live(self.time.into(), &mut choice.values)?;
+            let time = format!("time={}", self.time);
+            choice.start.retain(|entry| *entry != time);
+            choice.start.extend([life.describe(), time]);
+        }
         for (rotation, position) in self.rotate.iter().zip(positions("rotate")) {
             let joint = pack.rig().joint(&rotation.joint);
             let joint = joint.ok_or_else(|| {

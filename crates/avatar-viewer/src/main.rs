@@ -20,6 +20,7 @@ mod threads;
 mod reading;
 mod adapter;
 mod clips;
+mod life_args;
 mod face_args;
 mod identity_args;
 mod picture_args;

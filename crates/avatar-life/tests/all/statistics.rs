@@ -90,7 +90,8 @@ fn an_hour_of_each_preset() {
     });
 }
 
-/// Bentivoglio et al. 1997: 17 blinks a minute at rest, 26 in conversation; who is tense or tired blinks more.
+/// Bentivoglio et al. 1997: 17 blinks a minute at rest, 26 in conversation; who is tense or tired blinks
+/// more.
 /// Evinger et al. 1991, VanderWerf et al. 2003: down in 75 to 100 ms, up in about twice that, down faster.
 fn blinks(style: &Style, hour: &Hour) {
     let name = style.name;

@@ -12,6 +12,9 @@ use anyhow::{Result, bail};
 /// More frames than this are a slip of the keyboard, not a wish.
 const MAX_FRAMES: u64 = 1_000_000;
 
+/// Seconds of a life that nothing else ends.
+const LIFE_SECS: f64 = 10.0;
+
 pub(super) fn run(args: &RecordArgs) -> Result<()> {
     let target =
         FilmTarget::check(&args.out, args.format.as_deref(), args.size, args.fps, args.picture.background.0)?;
@@ -25,7 +28,7 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
         (None, Some(script), _) => through(args.fps, script.rest_secs(&pack)?),
         (None, None, Some(clip)) if clip.repeats() => args.fps.frames_before(clip.duration_secs(&pack)),
         (None, None, Some(clip)) => through(args.fps, clip.duration_secs(&pack)),
-        (None, None, None) => 1,
+        (None, None, None) => args.fps.frames_before(LIFE_SECS),
     };
     if frames > MAX_FRAMES {
         return Err(usage(format!(
@@ -41,12 +44,16 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
     let mut progress = Progress::new("frame", frames);
     let (pack, background) = (&pack, args.picture.background.0);
     let take = Take { pack, size: args.size, background, rate: args.fps, frames };
+    let mut life = args.life.begin(pack);
     let at = |secs| {
-        let face = match (&mut motion, &clip) {
+        let mut face = match (&mut motion, &clip) {
             (Some(motion), _) => FaceChoice::of_values(motion.at(secs)?.values().to_vec()),
             (None, Some(clip)) => FaceChoice::of_found(clip, pack, secs)?,
             (None, None) => FaceChoice::of_values(pack.controls().defaults()),
         };
+        if let Some(life) = &mut life {
+            life.live(secs, face.values_mut())?;
+        }
         Ok((face, view))
     };
     take.shoot(&mut offscreen, &mut film, at, |done| {

@@ -1,5 +1,6 @@
 use crate::cli::TraceArgs;
 use crate::ending;
+use crate::life_args::Living;
 use crate::output::{Contents, OutputFile};
 use crate::script::Script;
 use crate::usage::usage;
@@ -15,14 +16,15 @@ pub(super) fn run(args: &TraceArgs) -> Result<()> {
     ending::format(&args.out, None, &[("csv", ())], "")?;
     let out = OutputFile::check(&args.out, Contents::Text)?;
     let pack = super::open(&args.pack)?.load_pack()?;
-    let script = Script::parse(&args.script, &pack)?;
+    let script = Script::parse(args.script.as_deref().unwrap_or_default(), &pack)?;
+    let mut life = args.life.begin(&pack);
     // The product may lie a rounding error below a whole number of ticks.
     let last_row = (args.duration * args.hz * (1.0 + 1e-12)).floor();
     if last_row > MAX_ROWS {
         return Err(usage(format!("expected at most {MAX_ROWS} rows, found --hz × --duration = {last_row}")));
     }
     let rows = Rows { hz: args.hz, last: last_row as u64, derivatives: args.derivatives };
-    out.stream(|out| trace(&pack, &script, &rows, out))
+    out.stream(|out| trace(&pack, &script, &mut life, &rows, out))
 }
 
 /// Which rows and columns to print.
@@ -32,7 +34,13 @@ struct Rows {
     derivatives: bool,
 }
 
-fn trace(pack: &Pack, script: &Script, rows: &Rows, out: &mut dyn Write) -> Result<()> {
+fn trace(
+    pack: &Pack,
+    script: &Script,
+    life: &mut Option<Living>,
+    rows: &Rows,
+    out: &mut dyn Write,
+) -> Result<()> {
     let mut motion = script.motion(pack);
     write!(out, "t")?;
     let suffixes: &[&str] = if rows.derivatives { &["", "'", "''"] } else { &[""] };
@@ -46,7 +54,11 @@ fn trace(pack: &Pack, script: &Script, rows: &Rows, out: &mut dyn Write) -> Resu
         let t = row as f64 / rows.hz;
         let player = motion.at(t)?;
         write!(out, "{t}")?;
-        let columns = [player.values(), player.velocities(), player.accelerations()];
+        let mut values = player.values().to_vec();
+        if let Some(life) = life {
+            life.live(t, &mut values)?;
+        }
+        let columns = [&values[..], player.velocities(), player.accelerations()];
         for number in columns.iter().take(suffixes.len()).copied().flatten() {
             // The sum turns −0 into 0.
             write!(out, ",{}", number + 0.0)?;
