@@ -24,9 +24,9 @@ impl Anchor {
         anchor
     }
 
-    /// Straight ahead, as far as a camera is.
+    /// Straight ahead, where someone is who is talked to.
     pub(crate) fn ahead() -> Self {
-        Self::new([0.0, 0.0, 0.8], [0.0; 3], [0.0; 2], 0.0)
+        Self::new([0.0, 0.0, p::PARTNER_METRES], [0.0; 3], [0.0; 2], 0.0)
     }
 
     /// In this direction (degrees to the character's left and up), so many metres away.

@@ -238,8 +238,8 @@ impl Gaze {
                     let moved = |axis: usize| position[axis] + velocity[axis] * (now - told);
                     (Some(place), Target { position: std::array::from_fn(moved), ..target })
                 }
-                // Someone before it, as far as a camera is.
-                None => (None, Target::face([0.0, 0.0, 0.8])),
+                // Someone who is talked to.
+                None => (None, Target::face([0.0, 0.0, p::PARTNER_METRES])),
             };
             let offset = [chance.normal(), chance.normal()].map(|by| target.size * by.clamp(-1.5, 1.5));
             return (Anchor::on(&target.position, &target.velocity, offset, now), place, stay);

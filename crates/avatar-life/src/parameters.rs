@@ -116,7 +116,7 @@ const CALM: Style = Style {
     contact: 0.8,
     glance_degrees: 6.0,
     head_share: 0.6,
-    sway_degrees: 0.9,
+    sway_degrees: 1.6,
     breaths_per_min: 13.0,
     breath_depth: 1.0,
 };
@@ -132,7 +132,7 @@ impl Style {
             contact: 0.65,
             glance_degrees: 9.0,
             head_share: 0.75,
-            sway_degrees: 1.6,
+            sway_degrees: 2.6,
             breaths_per_min: 15.0,
             ..CALM
         },
@@ -146,7 +146,7 @@ impl Style {
             contact: 0.55,
             glance_degrees: 5.0,
             head_share: 0.5,
-            sway_degrees: 1.1,
+            sway_degrees: 1.8,
             breaths_per_min: 12.5,
             breath_depth: 1.2,
             ..CALM
@@ -159,7 +159,7 @@ impl Style {
             contact: 0.45,
             glance_degrees: 9.0,
             head_share: 0.5,
-            sway_degrees: 1.3,
+            sway_degrees: 2.0,
             breaths_per_min: 16.0,
             breath_depth: 0.8,
             ..CALM
@@ -170,7 +170,7 @@ impl Style {
             fixation_secs: 0.65,
             contact: 0.9,
             glance_degrees: 5.0,
-            sway_degrees: 1.2,
+            sway_degrees: 2.0,
             blinks_per_min: 15.0,
             ..CALM
         },
@@ -259,6 +259,8 @@ pub(crate) const PUPILS_APART: f64 = 0.063;
 /// Degrees of glances are at most this; up and down are this share of sideways.
 pub(crate) const GLANCE_MOST: f64 = 28.0;
 pub(crate) const GLANCE_UPRIGHT: f64 = 0.55;
+/// Metres to someone who is talked to, where no target says where that is.
+pub(crate) const PARTNER_METRES: f64 = 1.2;
 /// Metres at which a glance to nowhere ends.
 pub(crate) const GLANCE_METRES: [f64; 2] = [0.9, 3.0];
 /// While thinking: degrees sideways, up, and seconds of a look away (Andrist et al. 2013: mostly up).

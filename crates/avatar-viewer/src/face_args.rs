@@ -1,5 +1,5 @@
 use crate::clips::{self, FoundClip};
-use crate::life_args::LifeArgs;
+use crate::life_args::{LifeArgs, Living};
 use crate::numbers::{finite, seconds};
 use crate::standard;
 use crate::usage::{self, unknown};
@@ -9,6 +9,7 @@ use clap::{ArgGroup, ArgMatches, Args};
 use glam::Affine3A;
 use pose_anim::{Control, Drive};
 use rig_core::{Axis, Elementary, JointId, product};
+use std::borrow::Cow;
 use std::str::FromStr;
 
 /// A face state on the command line: a pose, then single controls and joints.
@@ -101,6 +102,8 @@ pub(crate) struct FaceChoice {
     start: Vec<String>,
     /// The rotations among `locals`, in those words.
     rotations: Vec<String>,
+    /// What lies over the values, and under single settings.
+    life: Option<Living>,
 }
 
 impl FaceChoice {
@@ -116,9 +119,14 @@ impl FaceChoice {
         Ok(Self::of_values(values).with_motion(set))
     }
 
-    /// The values of all controls, before couplings and single settings.
-    pub(crate) fn values_mut(&mut self) -> &mut [f32] {
-        &mut self.values
+    /// The same choice, with life on top.
+    pub(crate) fn with_life(self, life: Option<Living>) -> Self {
+        Self { life, ..self }
+    }
+
+    /// The life on top, without which the choice goes on.
+    pub(crate) fn take_life(&mut self) -> Option<Living> {
+        self.life.take()
     }
 
     /// A clip of a file at a time, only to be described.
@@ -145,6 +153,11 @@ impl FaceChoice {
                 entries.push(format!("{}={value}", control.name));
             }
         }
+        if let Some(life) = &self.life {
+            let is_new = |entry: &String| !entry.starts_with("time=");
+            entries.retain(is_new);
+            entries.extend(life.describe());
+        }
         entries.extend(self.rotations.iter().map(|rotation| format!("rotate={rotation}")));
         entries.join("; ")
     }
@@ -158,12 +171,21 @@ impl FaceChoice {
 
     /// Brings the state into this choice.
     pub(crate) fn apply(&self, pack: &Pack, state: &mut FaceState) -> Result<()> {
+        self.apply_with(self.life.as_ref(), pack, state)
+    }
+
+    /// The same with this life on top, or none.
+    pub(crate) fn apply_with(&self, life: Option<&Living>, pack: &Pack, state: &mut FaceState) -> Result<()> {
         let set = |values: &mut [f32]| {
             for &(control, value) in &self.settings {
                 values[control] = value;
             }
         };
-        state.pose_with(pack, &self.values, set, &self.locals)?;
+        let mut values = Cow::Borrowed(&self.values);
+        if let Some(life) = life {
+            life.over(&self.values, values.to_mut())?;
+        }
+        state.pose_with(pack, &values, set, &self.locals)?;
         state.set_weights(&self.weights);
         Ok(())
     }
@@ -194,11 +216,9 @@ impl FaceArgs {
             driven_later.push((joint_of(pack, control), position));
         }
         self.start_from_clip(pack, &mut choice)?;
-        if let Some(mut life) = self.life.begin(pack) {
-            life.live(self.time.into(), &mut choice.values)?;
-            let time = format!("time={}", self.time);
-            choice.start.retain(|entry| *entry != time);
-            choice.start.extend([life.describe(), time]);
+        choice.life = self.life.begin(pack);
+        if let Some(life) = &mut choice.life {
+            life.go_to(self.time.into())?;
         }
         for (rotation, position) in self.rotate.iter().zip(positions("rotate")) {
             let joint = pack.rig().joint(&rotation.joint);

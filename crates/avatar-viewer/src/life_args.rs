@@ -53,27 +53,32 @@ impl LifeArgs {
 pub(crate) struct Living {
     life: Life,
     seed: u64,
-    below: Vec<f32>,
 }
 
 impl Living {
     /// The life of this style and seed from its beginning.
     pub(crate) fn new(pack: &Pack, style: Style, seed: u64) -> Self {
-        Self { life: Life::new(pack.controls(), style, seed), seed, below: Vec::new() }
+        Self { life: Life::new(pack.controls(), style, seed), seed }
     }
 
-    /// Puts life at a time, which is not before that of the last call, on top of values of all controls.
-    pub(crate) fn live(&mut self, secs: f64, values: &mut [f32]) -> Result<()> {
-        self.life
-            .advance((secs - self.life.time_secs()).max(0.0))
-            .map_err(|error| usage(error.to_string()))?;
-        self.below.clear();
-        self.below.extend_from_slice(values);
-        Ok(self.life.apply(&self.below, values)?)
+    /// Goes on to a time, which is not before that of the last call.
+    pub(crate) fn go_to(&mut self, secs: f64) -> Result<()> {
+        self.advance((secs - self.life.time_secs()).max(0.0))
     }
 
-    /// The life as the options of the command line say it.
-    pub(crate) fn describe(&self) -> String {
-        format!("life={}; seed={}", self.life.style().name, self.seed)
+    /// Lets time pass.
+    pub(crate) fn advance(&mut self, secs: f64) -> Result<()> {
+        self.life.advance(secs).map_err(|error| usage(format!("--time: {error}")))
+    }
+
+    /// Values of all controls, with life on top.
+    pub(crate) fn over(&self, below: &[f32], out: &mut [f32]) -> Result<()> {
+        Ok(self.life.apply(below, out)?)
+    }
+
+    /// The life as options of the command line say it.
+    pub(crate) fn describe(&self) -> [String; 3] {
+        let Self { life, seed } = self;
+        [format!("life={}", life.style().name), format!("seed={seed}"), format!("time={}", life.time_secs())]
     }
 }

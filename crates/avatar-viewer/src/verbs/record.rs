@@ -46,15 +46,15 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
     let take = Take { pack, size: args.size, background, rate: args.fps, frames };
     let mut life = args.life.begin(pack);
     let at = |secs| {
-        let mut face = match (&mut motion, &clip) {
+        let face = match (&mut motion, &clip) {
             (Some(motion), _) => FaceChoice::of_values(motion.at(secs)?.values().to_vec()),
             (None, Some(clip)) => FaceChoice::of_found(clip, pack, secs)?,
             (None, None) => FaceChoice::of_values(pack.controls().defaults()),
         };
         if let Some(life) = &mut life {
-            life.live(secs, face.values_mut())?;
+            life.go_to(secs)?;
         }
-        Ok((face, view))
+        Ok((face.with_life(life.clone()), view))
     };
     take.shoot(&mut offscreen, &mut film, at, |done| {
         if interrupts.came() {

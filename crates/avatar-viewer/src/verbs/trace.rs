@@ -56,7 +56,8 @@ fn trace(
         write!(out, "{t}")?;
         let mut values = player.values().to_vec();
         if let Some(life) = life {
-            life.live(t, &mut values)?;
+            life.go_to(t)?;
+            life.over(player.values(), &mut values)?;
         }
         let columns = [&values[..], player.velocities(), player.accelerations()];
         for number in columns.iter().take(suffixes.len()).copied().flatten() {

@@ -24,6 +24,7 @@ impl App {
                 self.play(clip);
             }
             Action::PlayOrPause => self.act_on_panel(event_loop, self.play_or_pause()),
+            Action::Life => self.session.face.toggle_life(),
             Action::Record => {
                 let wanted = match self.session.face.recorded_secs() {
                     Some(_) => Panel::Edit(Edit::StopRecording),

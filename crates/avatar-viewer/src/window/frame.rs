@@ -41,7 +41,7 @@ impl App {
             self.act(event_loop, Action::Panel(avatar_panel::Action::Edit(Edit::StopRecording)));
         }
         let is_at_rest = !self.session.face.moves();
-        let has_more = self.presenter.draw_miniature(&self.session, is_at_rest)?;
+        let has_more = self.presenter.draw_miniature(&self.session, !self.session.face.acts())?;
 
         let mut actions = Vec::new();
         let mut painted = self.lay_out(&mut actions);

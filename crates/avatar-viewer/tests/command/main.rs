@@ -18,6 +18,7 @@ mod hair;
 mod identity;
 mod import;
 mod levels;
+mod life;
 mod look;
 mod mirrored;
 mod outputs;

@@ -2,7 +2,9 @@ mod file_motion;
 mod playing;
 
 use crate::face_args::FaceChoice;
+use crate::life_args::Living;
 use anyhow::Result;
+use avatar_life::Style;
 use avatar_pack::Pack;
 use avatar_stage::Performer;
 use file_motion::FileMotion;
@@ -25,11 +27,14 @@ pub(in crate::window) struct Face {
     /// Names and lengths in seconds of the file's clips.
     pub(in crate::window) file_clips: Vec<(String, f64)>,
     pub(in crate::window) recording: Option<Recording>,
+    /// What the face does by itself, and room for values with it on top.
+    life: Option<Living>,
+    lived: Vec<f32>,
 }
 
 impl Face {
     /// A face at rest that starts as the command line says.
-    pub(in crate::window) fn new(mut pack: Pack, start: FaceChoice) -> Result<Self> {
+    pub(in crate::window) fn new(mut pack: Pack, mut start: FaceChoice) -> Result<Self> {
         pack.set_poses(PoseSet::default())?;
         pack.set_clips(ClipSet::default())?;
         let file_clips = pack.motion().map_or_else(Vec::new, |motion| {
@@ -39,6 +44,7 @@ impl Face {
             };
             motion.clips().into_iter().map(named).collect()
         });
+        let life = start.take_life();
         let mut performer = Performer::new(pack);
         performer.jump_to(&start.start_values())?;
         Ok(Self {
@@ -49,6 +55,8 @@ impl Face {
             motion: None,
             file_clips,
             recording: None,
+            life,
+            lived: Vec::new(),
         })
     }
 
@@ -81,6 +89,9 @@ impl Face {
         // Elapsed times are neither negative nor NaN, the only errors there are.
         let _ = self.performer.advance(secs);
         self.advance_motion(secs);
+        if let Some(life) = &mut self.life {
+            let _ = life.advance(secs);
+        }
         if let Some(recording) = &mut self.recording {
             recording.secs += secs;
         }
@@ -88,6 +99,11 @@ impl Face {
 
     /// Whether frames have to follow each other.
     pub(in crate::window) fn moves(&self) -> bool {
+        self.acts() || self.life.is_some()
+    }
+
+    /// Whether it does something that it was told.
+    pub(in crate::window) fn acts(&self) -> bool {
         let is_led = self.motion.as_ref().is_some_and(FileMotion::moves);
         !self.performer.is_at_rest() || is_led || self.is_playing() || self.recording.is_some()
     }
@@ -97,10 +113,24 @@ impl Face {
         if self.pose_motion()? {
             return Ok(());
         }
-        match &self.start {
-            Some(start) => self.performer.pose_with(|pack, _, state| start.apply(pack, state)),
-            None => Ok(self.performer.pose_with(|pack, values, state| state.pose(pack, values))?),
-        }
+        let Self { start, performer, life, lived, .. } = self;
+        performer.pose_with(|pack, values, state| match (start, life) {
+            (Some(start), life) => start.apply_with(life.as_ref(), pack, state),
+            (None, Some(life)) => {
+                lived.resize(values.len(), 0.0);
+                life.over(values, lived)?;
+                Ok(state.pose(pack, lived)?)
+            }
+            (None, None) => Ok(state.pose(pack, values)?),
+        })
+    }
+
+    /// Begins to live calmly, or is still again.
+    pub(in crate::window) fn toggle_life(&mut self) {
+        self.life = match self.life {
+            Some(_) => None,
+            None => Some(Living::new(self.pack(), Style::default(), 0)),
+        };
     }
 
     /// The shown face, as options of the command line would say it.
@@ -109,8 +139,8 @@ impl Face {
             (Some(motion), _) if motion.is_wanted() => {
                 FaceChoice::of_clip(self.pack(), &motion.name, motion.time_secs)
             }
-            (_, Some(start)) => start.clone(),
-            _ => FaceChoice::of_values(self.performer.values().to_vec()),
+            (_, Some(start)) => start.clone().with_life(self.life.clone()),
+            _ => FaceChoice::of_values(self.performer.values().to_vec()).with_life(self.life.clone()),
         }
     }
 
