@@ -1,5 +1,7 @@
 //! A frame of a speaking face: the mouth at a time, laid over the values of its controls.
 
+#![allow(clippy::panic, reason = "a bench may panic")]
+
 use avatar_speech::{Amounts, Cue, Speech, SpeechMap, Timeline, Viseme};
 use divan::{Bencher, black_box};
 use pose_anim::ControlTable;

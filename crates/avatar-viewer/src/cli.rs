@@ -52,6 +52,8 @@ pub(crate) enum Verb {
     Render(RenderArgs),
     /// Records a film of poses being pressed, or of a clip: frame k shows the face at k / fps seconds
     Record(RecordArgs),
+    /// Films a face that speaks
+    Speak(SpeakArgs),
     /// Renders all poses, labelled, from the front and three-quarter
     Sheet(SheetArgs),
     /// Prints joint matrices and blend weights as JSON
@@ -112,7 +114,7 @@ pub(crate) struct RenderArgs {
 
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("motion").args(["script", "clip"])))]
-#[command(group(ArgGroup::new("moving").required(true).multiple(true).args(["script", "clip", "life"])))]
+#[command(group(ArgGroup::new("moving").required(true).multiple(true).args(["script", "clip", "life", "visemes"])))]
 pub(crate) struct RecordArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
@@ -123,13 +125,39 @@ pub(crate) struct RecordArgs {
     /// Clip of the avatar's file or clips.toml, as `info` lists them; or a face tracker's recording, FILE.csv
     #[arg(long, value_name = "NAME")]
     pub(crate) clip: Option<String>,
+    /// Sounds that the face speaks, with their times (docs/speech.md), on top of the script or clip
+    #[arg(long, value_name = "FILE")]
+    pub(crate) visemes: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) life: LifeArgs,
+    #[command(flatten)]
+    pub(crate) film: FilmArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SpeakArgs {
+    #[command(flatten)]
+    pub(crate) pack: PackArg,
+    /// Sounds with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival or MBROLA labels, marks
+    /// of cloud services, subtitles (docs/speech.md)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) visemes: PathBuf,
+    /// Pose that the face has while it speaks, or a mixture: "smile:0.3"
+    #[arg(long, value_name = "NAME")]
+    pub(crate) expression: Option<String>,
+    #[command(flatten)]
+    pub(crate) life: LifeArgs,
+    #[command(flatten)]
+    pub(crate) film: FilmArgs,
+}
+
+/// What a film is made of, beside its motion.
+#[derive(Debug, Args)]
+pub(crate) struct FilmArgs {
     /// Frames per second, up to 240 (GIF: 50): 30, 12.5 or 30000/1001
     #[arg(long, default_value = "30", allow_hyphen_values = true, value_name = "RATE")]
     pub(crate) fps: Rate,
-    /// Seconds [default: until the script's last motion has come to rest, or the clip's end; 10 of a life
-    /// alone]
+    /// Seconds [default: until the last motion has come to rest, or the clip's end; 10 of a life alone]
     #[arg(long, value_parser = positive, allow_hyphen_values = true, value_name = "SECONDS")]
     pub(crate) duration: Option<f64>,
     #[command(flatten)]
@@ -238,8 +266,11 @@ pub(crate) struct TraceArgs {
     pub(crate) pack: PackArg,
     /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5
     /// wink-left"
-    #[arg(long, allow_hyphen_values = true, required_unless_present = "life")]
+    #[arg(long, allow_hyphen_values = true, required_unless_present_any = ["life", "visemes"])]
     pub(crate) script: Option<String>,
+    /// Sounds that the face speaks, with their times (docs/speech.md), on top of the script
+    #[arg(long, value_name = "FILE", conflicts_with = "derivatives")]
+    pub(crate) visemes: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) life: LifeArgs,
     /// After all values, also each control's velocity (CONTROL') and acceleration (CONTROL''), per second

@@ -1,6 +1,7 @@
 use crate::clips::{self, FoundClip};
 use crate::life_args::{LifeArgs, Living};
 use crate::numbers::{finite, seconds};
+use crate::speech::Spoken;
 use crate::standard;
 use crate::usage::{self, unknown};
 use anyhow::Result;
@@ -10,11 +11,12 @@ use glam::Affine3A;
 use pose_anim::{Control, Drive};
 use rig_core::{Axis, Elementary, JointId, product};
 use std::borrow::Cow;
+use std::path::PathBuf;
 use std::str::FromStr;
 
 /// A face state on the command line: a pose, then single controls and joints.
 #[derive(Clone, Debug, Default, Args)]
-#[command(group(ArgGroup::new("timed").args(["clip", "life"]).multiple(true)))]
+#[command(group(ArgGroup::new("timed").args(["clip", "life", "visemes"]).multiple(true)))]
 pub(crate) struct FaceArgs {
     /// Pose to start from, or a mixture: "smile:0.5 wink-left"
     #[arg(long, value_name = "NAME")]
@@ -30,9 +32,13 @@ pub(crate) struct FaceArgs {
     /// recording, FILE.csv; what --set and --rotate concern is theirs
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
+    /// Sounds that the face speaks, with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival or
+    /// MBROLA labels, marks of cloud services, subtitles (docs/speech.md). They add to --pose, --clip and --set
+    #[arg(long, value_name = "FILE")]
+    visemes: Option<PathBuf>,
     #[command(flatten)]
     life: LifeArgs,
-    /// Seconds from the beginning of the clip and of the life
+    /// Seconds from the beginning of the clip, of the speech and of the life
     #[arg(long, value_name = "SECONDS", requires = "timed", default_value_t = 0.0, value_parser = seconds, allow_hyphen_values = true)]
     time: f32,
 }
@@ -162,6 +168,12 @@ impl FaceChoice {
         entries.join("; ")
     }
 
+    /// The same choice with the mouth of a speech at a time.
+    pub(crate) fn speaking(mut self, spoken: &Spoken, secs: f64) -> Self {
+        spoken.say(secs, &mut self.values);
+        self
+    }
+
     /// Control values with the single settings in place: where a window's motion starts.
     pub(crate) fn start_values(&self) -> Vec<f32> {
         let mut values = self.values.clone();
@@ -195,7 +207,7 @@ impl FaceArgs {
     /// Whether any face but that at rest is asked for.
     pub(crate) fn is_given(&self) -> bool {
         let is_posed = self.pose.is_some() || !self.set.is_empty() || !self.rotate.is_empty();
-        is_posed || self.clip.is_some() || self.life.is_given()
+        is_posed || self.clip.is_some() || self.visemes.is_some() || self.life.is_given()
     }
 
     /// Looks all names up. `matches` tells the order in which options were given: where `--set` and
@@ -216,6 +228,7 @@ impl FaceArgs {
             driven_later.push((joint_of(pack, control), position));
         }
         self.start_from_clip(pack, &mut choice)?;
+        self.speak(pack, &mut choice)?;
         choice.life = self.life.begin(pack);
         if let Some(life) = &mut choice.life {
             life.go_to(self.time.into())?;
@@ -259,6 +272,26 @@ impl FaceArgs {
         let weights: Vec<_> = at.weights.into_iter().filter(|(shape, _)| !is_shape_set(*shape)).collect();
         choice.locals.extend(locals);
         choice.weights = weights;
+        Ok(())
+    }
+
+    /// Adds what is spoken. Controls that speech concerns and that were set are part of the expression that it
+    /// adds to, so that lips close all the same.
+    fn speak(&self, pack: &Pack, choice: &mut FaceChoice) -> Result<()> {
+        let Some(path) = &self.visemes else { return Ok(()) };
+        let spoken = Spoken::read(path, pack)?;
+        let (under, exact): (Vec<_>, Vec<_>) =
+            choice.settings.iter().partition(|(control, _)| spoken.concerns(*control));
+        choice.settings = exact;
+        choice.start.push(format!("visemes={}", path.display()));
+        if self.clip.is_none() {
+            choice.start.push(format!("time={}", self.time));
+        }
+        for (control, value) in under {
+            choice.values[control] = value;
+            choice.start.push(format!("{}={value}", pack.controls().controls()[control].name));
+        }
+        spoken.say(self.time.into(), &mut choice.values);
         Ok(())
     }
 

@@ -21,6 +21,7 @@ mod reading;
 mod adapter;
 mod clips;
 mod life_args;
+mod speech;
 mod face_args;
 mod identity_args;
 mod picture_args;

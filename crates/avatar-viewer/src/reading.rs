@@ -68,6 +68,11 @@ pub(crate) fn text_bytes_within(folder: &Path, name: &str) -> Result<Vec<u8>, Un
     file_within(folder, name, MAX_TEXT_BYTES)
 }
 
+/// The bytes of a text, in whatever encoding.
+pub(crate) fn text_bytes(path: &Path) -> Result<Vec<u8>, Unread> {
+    read_at_most(path, MAX_TEXT_BYTES)
+}
+
 /// A text that may not be there.
 pub(crate) fn text(path: &Path) -> anyhow::Result<Option<String>> {
     text_of(path, read_at_most(path, MAX_TEXT_BYTES))

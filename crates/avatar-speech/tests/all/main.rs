@@ -1,4 +1,5 @@
 //! Tests of the crate from outside.
+#![allow(clippy::panic, clippy::unwrap_used, clippy::expect_used, reason = "a test may panic")]
 
 mod formats;
 mod hostile;

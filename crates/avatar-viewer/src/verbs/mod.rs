@@ -31,6 +31,7 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
     match verb {
         Verb::Render(args) => render::run(&args, matches),
         Verb::Record(args) => record::run(&args),
+        Verb::Speak(args) => record::speak(&args),
         Verb::Sheet(args) => sheet::run(&args),
         Verb::Bones(args) => bones::run(&args, matches),
         Verb::Deform(args) => deform::run(&args, matches),

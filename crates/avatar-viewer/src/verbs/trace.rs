@@ -3,6 +3,7 @@ use crate::ending;
 use crate::life_args::Living;
 use crate::output::{Contents, OutputFile};
 use crate::script::Script;
+use crate::speech::Spoken;
 use crate::usage::usage;
 use anyhow::Result;
 use avatar_pack::Pack;
@@ -18,13 +19,14 @@ pub(super) fn run(args: &TraceArgs) -> Result<()> {
     let pack = super::open(&args.pack)?.load_pack()?;
     let script = Script::parse(args.script.as_deref().unwrap_or_default(), &pack)?;
     let mut life = args.life.begin(&pack);
+    let spoken = args.visemes.as_deref().map(|path| Spoken::read(path, &pack)).transpose()?;
     // The product may lie a rounding error below a whole number of ticks.
     let last_row = (args.duration * args.hz * (1.0 + 1e-12)).floor();
     if last_row > MAX_ROWS {
         return Err(usage(format!("expected at most {MAX_ROWS} rows, found --hz × --duration = {last_row}")));
     }
     let rows = Rows { hz: args.hz, last: last_row as u64, derivatives: args.derivatives };
-    out.stream(|out| trace(&pack, &script, &mut life, &rows, out))
+    out.stream(|out| trace(&pack, &script, spoken.as_ref(), &mut life, &rows, out))
 }
 
 /// Which rows and columns to print.
@@ -37,6 +39,7 @@ struct Rows {
 fn trace(
     pack: &Pack,
     script: &Script,
+    spoken: Option<&Spoken>,
     life: &mut Option<Living>,
     rows: &Rows,
     out: &mut dyn Write,
@@ -55,9 +58,12 @@ fn trace(
         let player = motion.at(t)?;
         write!(out, "{t}")?;
         let mut values = player.values().to_vec();
+        if let Some(spoken) = spoken {
+            spoken.say(t, &mut values);
+        }
         if let Some(life) = life {
             life.go_to(t)?;
-            life.over(player.values(), &mut values)?;
+            life.over(&values.clone(), &mut values)?;
         }
         let columns = [&values[..], player.velocities(), player.accelerations()];
         for number in columns.iter().take(suffixes.len()).copied().flatten() {
