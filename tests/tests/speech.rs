@@ -71,8 +71,8 @@ impl Face {
         state.deform(&self.pack, self.skin).unwrap()
     }
 
-    /// The widest opening between the lips: at each tenth of a unit across the mouth the narrowest of the pairs
-    /// that lie behind each other there, and of these the largest.
+    /// The widest opening between the lips: at each tenth of a unit across the mouth the narrowest of the
+    /// pairs that lie behind each other there, and of these the largest.
     fn gap(&self, values: &[f32]) -> f32 {
         let posed = self.deformed(values);
         let mut narrowest = std::collections::BTreeMap::new();

@@ -138,8 +138,8 @@ pub(crate) struct RecordArgs {
 pub(crate) struct SpeakArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
-    /// Sounds with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival or MBROLA labels, marks
-    /// of cloud services, subtitles (docs/speech.md)
+    /// Sounds with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival or MBROLA labels,
+    /// marks of cloud services, subtitles (docs/speech.md)
     #[arg(long, value_name = "FILE")]
     pub(crate) visemes: PathBuf,
     /// Pose that the face has while it speaks, or a mixture: "smile:0.3"

@@ -32,8 +32,9 @@ pub(crate) struct FaceArgs {
     /// recording, FILE.csv; what --set and --rotate concern is theirs
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
-    /// Sounds that the face speaks, with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival or
-    /// MBROLA labels, marks of cloud services, subtitles (docs/speech.md). They add to --pose, --clip and --set
+    /// Sounds that the face speaks, with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival
+    /// or MBROLA labels, marks of cloud services, subtitles (docs/speech.md). They add to --pose, --clip and
+    /// --set
     #[arg(long, value_name = "FILE")]
     visemes: Option<PathBuf>,
     #[command(flatten)]
@@ -275,8 +276,8 @@ impl FaceArgs {
         Ok(())
     }
 
-    /// Adds what is spoken. Controls that speech concerns and that were set are part of the expression that it
-    /// adds to, so that lips close all the same.
+    /// Adds what is spoken. Controls that speech concerns and that were set are part of the expression that
+    /// it adds to, so that lips close all the same.
     fn speak(&self, pack: &Pack, choice: &mut FaceChoice) -> Result<()> {
         let Some(path) = &self.visemes else { return Ok(()) };
         let spoken = Spoken::read(path, pack)?;

@@ -28,5 +28,6 @@ mod record;
 mod safety;
 mod shapes;
 mod snapshots;
+mod speech;
 mod stage;
 mod words;
