@@ -23,7 +23,7 @@ pub const LID_RADIUS: f64 = 2.03;
 pub const LID_INNER_RADIUS: f64 = EYE_REACH + 0.015;
 
 /// Where the lids end, measured from the eye's centre: the inner and the outer corner.
-pub const CANTHUS_INNER: DVec2 = DVec2::new(-1.42, -0.20);
+pub const CANTHUS_INNER: DVec2 = DVec2::new(-1.54, -0.20);
 /// See [`CANTHUS_INNER`].
 pub const CANTHUS_OUTER: DVec2 = DVec2::new(1.64, 0.22);
 
@@ -50,7 +50,7 @@ pub fn lid_margin(s: f64, upper: bool) -> DVec2 {
     // The upper arch peaks a little to the inner side, the lower one to the outer: an almond, not an ellipse.
     let skewed = if upper { pow(s, 0.86) } else { pow(s, 1.22) };
     let arch = pow(4.0 * skewed * (1.0 - skewed), if upper { 0.62 } else { 0.72 });
-    DVec2::new(at.x, at.y + arch * if upper { 0.52 } else { -0.57 })
+    DVec2::new(at.x, at.y + arch * if upper { 0.58 } else { -0.57 })
 }
 
 /// The line between the lips: a point for `u` from the midline (0) to the corner (1), seen from the front.

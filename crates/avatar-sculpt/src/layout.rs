@@ -15,11 +15,11 @@ use crate::{
 const ACROSS: [(f64, f64); 5] =
     [(0.0, 0.0), (0.9, 0.48), (1.35, 0.69), (2.1, 0.86), (3.141_592_653_589_793_6, 0.998)];
 /// Elevation → height in the image. The crown stays off the edge: smaller versions of the image repeat across
-/// it.
+/// it. So does the bust's edge from the swept parts, whose colours would run onto the top.
 const DOWN: [(f64, f64); 9] = [
-    (-5.2, 0.893),
-    (-3.6, 0.865),
-    (-2.5, 0.79),
+    (-5.2, 0.850),
+    (-3.6, 0.828),
+    (-2.5, 0.785),
     (-1.4, 0.75),
     (-0.95, 0.705),
     (0.0, 0.37),
@@ -27,6 +27,10 @@ const DOWN: [(f64, f64); 9] = [
     (1.0, 0.075),
     (1.6, 0.012),
 ];
+
+/// Elevation → width in the image. In front of the chest turns are narrow: at the whole width smaller
+/// versions of the image, chosen by the width, would mix skin from above and below into the top.
+const WIDTH: [(f64, f64); 4] = [(-5.2, 0.4), (-1.75, 0.42), (-0.95, 1.0), (1.6, 1.0)];
 
 /// Below this height the picture holds only swept parts.
 pub const STRIP_TOP: f64 = 0.9;
@@ -38,8 +42,8 @@ const SOCKET: (f64, f64, f64, f64) = (0.64, 0.905, 0.14, 0.085);
 const EAR: (f64, f64, f64, f64) = (0.79, 0.905, 0.20, 0.085);
 
 /// By how much the cloth lies lower in the picture than skin in its place would: between the two is room, so
-/// that none of the one's colour is drawn onto the other.
-const HEM_GAP: f64 = 0.006;
+/// that none of the one's colour is drawn onto the other, even in the small pictures that are made of it.
+const HEM_GAP: f64 = 0.03;
 
 /// Whether a triangle with these corners belongs to the top: a row of vertices lies on its neckline.
 #[must_use]
@@ -90,5 +94,5 @@ fn sheet(mut places: [Place; 3]) -> [DVec2; 3] {
     if let Some(k) = places.iter().position(|p| pole(p.t)) {
         places[k].phi = 0.5 * (places[(k + 1) % 3].phi + places[(k + 2) % 3].phi);
     }
-    places.map(|p| DVec2::new(0.5 + 0.5 * curve(&ACROSS, p.phi), curve(&DOWN, p.t)))
+    places.map(|p| DVec2::new(0.5 + 0.5 * curve(&ACROSS, p.phi) * curve(&WIDTH, p.t), curve(&DOWN, p.t)))
 }

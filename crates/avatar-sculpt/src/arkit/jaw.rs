@@ -78,8 +78,8 @@ pub(super) fn tongue_room(spot: &Spot) -> DVec3 {
 
 /// Height of the tongue's middle over where it lies, along the depth that it has reached: it climbs over the
 /// lower teeth and lip, and hangs down in front of them.
-const CLIMB: [(f64, f64); 7] =
-    [(-0.5, 0.0), (1.2, 0.35), (2.6, 1.0), (4.3, 1.12), (5.2, 1.0), (5.9, 0.6), (6.4, 0.0)];
+const CLIMB: [(f64, f64); 8] =
+    [(-0.5, 0.0), (1.2, 0.35), (2.6, 1.0), (4.3, 1.12), (5.2, 1.0), (5.9, 0.6), (6.4, 0.0), (7.1, -1.1)];
 /// Height of the middle of the tongue at rest.
 const TONGUE_Y: f64 = -6.42;
 
@@ -87,7 +87,7 @@ const TONGUE_Y: f64 = -6.42;
 pub(super) fn tongue_out(p: DVec3) -> DVec3 {
     // All of it comes forward, the tip the most, and becomes thin.
     let s = smooth(-0.9, 2.8, p.z);
-    let forward = 0.9 + 2.6 * s;
+    let forward = 0.9 + 3.05 * s;
     let thin = 0.55 * s * (p.y - TONGUE_Y);
     TONGUE_DROP + DVec3::new(-0.16 * p.x * s, curve(&CLIMB, p.z + forward) - thin, forward)
 }

@@ -23,7 +23,7 @@ pub(super) fn add_cheeks_and_brow(d: f64, q: DVec3) -> f64 {
 /// Sockets around the eyes, and the lids as a ball that rests in them.
 pub(super) fn add_eyes(d: f64, q: DVec3) -> f64 {
     let socket = ellipsoid(q, EYE + DVec3::new(-0.08, 0.06, 2.6), DVec3::new(2.0, 1.38, 1.66));
-    let inner = ball(q, DVec3::new(1.75, 0.05, 3.72), 0.58);
+    let inner = ball(q, DVec3::new(1.68, 0.05, 3.72), 0.58);
     let d = carve(carve(d, socket, 1.15), inner, 0.8);
     // The lids' ball sits a trace high, so that the upper lid passes in front of the lower one, and a second
     // swelling keeps the fold above the lid clear of the eye when the lid comes down and the fold is drawn

@@ -15,14 +15,24 @@ use crate::{
 #[must_use]
 pub fn colour(site: &Site, complexion: &Complexion) -> DVec3 {
     match site.node.patch {
-        Patch::Mouth => rgb(132, 56, 54)
-            .lerp(rgb(170, 84, 78), smooth(0.1, 0.3, site.node.own.x))
-            .lerp(rgb(128, 48, 46), smooth(0.4, 0.9, site.node.own.x)),
+        Patch::Mouth => mouth(site),
         Patch::Socket => lid_edge(site),
         Patch::Ear => ear(site),
         Patch::Lash => rgb(15, 11, 10),
         Patch::Sheet => sheet(site, complexion),
     }
+}
+
+/// The walls of the mouth: pale and mottled behind the lips, darker toward the throat. A deeper red would be a
+/// bare one in the shade.
+fn mouth(site: &Site) -> DVec3 {
+    let deep = site.node.own.x;
+    let wall = rgb(138, 70, 66)
+        .lerp(rgb(172, 104, 96), smooth(0.1, 0.3, deep))
+        .lerp(rgb(112, 62, 58), smooth(0.4, 0.9, deep));
+    let folds = fbm(site.p * DVec3::new(1.2, 3.5, 2.4), 3);
+    let blood = fbm(site.p * 1.4 + DVec3::splat(11.0), 3);
+    (wall * (1.0 + 0.16 * folds)).lerp(rgb(150, 74, 70), (0.45 * blood).clamp(0.0, 0.4))
 }
 
 /// The bare complexion. Faces have zones: yellow over the bone of the forehead, red from ear to ear over the
@@ -44,7 +54,7 @@ fn complexion(p: DVec3) -> DVec3 {
         + 0.45 * bell3(q, DVec3::new(2.4, -6.6, 3.7), DVec3::new(1.4, 1.4, 1.4));
     c = c.lerp(rgb(176, 152, 128), 0.40 * cool.min(1.0));
     let under = bell3(q, EYE + DVec3::new(-0.5, -1.25, 1.6), DVec3::new(1.5, 0.55, 1.2));
-    c = c.lerp(rgb(164, 112, 112), 0.16 * under);
+    c = c.lerp(rgb(176, 122, 112), 0.12 * under);
     c = c.lerp(rgb(138, 140, 146), 0.13 * veins(q));
     let fine = fbm(p * 7.0, 2);
     c * (1.0 + 0.06 * mottle + 0.045 * fine) + DVec3::new(0.016, -0.005, -0.008) * fbm(p * 2.2, 2)
@@ -123,7 +133,7 @@ fn eyes(site: &Site, c: DVec3) -> DVec3 {
     let before_end = smooth(1.08, 0.90, s);
     if site.node.lower {
         let line = smooth(0.05, 0.0, lid) * lerp(0.10, 0.55, smooth(0.1, 0.9, s));
-        let shade = 0.20 * smooth(0.35, 0.05, lid) * smooth(0.2, 1.0, s);
+        let shade = 0.14 * smooth(0.30, 0.05, lid) * smooth(0.2, 1.0, s);
         return c.lerp(rgb(126, 84, 70), shade * before_end).lerp(rgb(52, 32, 30), line * before_end);
     }
     let shade = 0.55 * smooth(0.62, 0.12, lid) * smooth(-0.1, 0.25, s);
@@ -168,7 +178,7 @@ fn ear(site: &Site) -> DVec3 {
     let own = site.node.own.x;
     let base = complexion(site.p);
     let rim = bell(own - 0.40, 0.12);
-    base.lerp(rgb(204, 116, 96), 0.16 + 0.22 * rim).lerp(rgb(140, 76, 60), 0.5 * smooth(0.70, 0.92, own))
+    base.lerp(rgb(204, 122, 100), 0.06 + 0.12 * rim).lerp(rgb(140, 82, 64), 0.42 * smooth(0.70, 0.92, own))
 }
 
 /// Ambient occlusion: light 1, shade 0. Measured on the meshes; what hair-thin parts would add is drawn.
@@ -186,7 +196,7 @@ pub fn occlusion(site: &Site, baked: &Baked) -> DVec3 {
             let crease = bell3(q, DVec3::ZERO, DVec3::new(0.34, 0.62, 0.6));
             // The hollow below the lower lid is shallow, and light comes to it from the cheek.
             let under = bell3(site.node.p, EYE + DVec3::new(0.0, -1.45, 1.4), DVec3::new(1.9, 0.6, 1.2));
-            let open = lerp(open, 1.0, 0.55 * under * smooth(0.2, 0.6, site.node.lid));
+            let open = lerp(open, 1.0, 0.8 * under * smooth(0.06, 0.35, site.node.lid));
             open * (1.0 - 0.36 * crease) - 0.18 * lash_shade(site)
         }
     };

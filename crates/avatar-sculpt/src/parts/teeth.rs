@@ -149,7 +149,7 @@ pub fn is_tongue(uv: DVec2) -> bool {
     uv.y > 0.75
 }
 
-/// The tongue: a flat drop with a furrow along its middle.
+/// The tongue: flat and blunt, with a furrow along its middle.
 fn tongue(part: &mut Part) {
     const ROWS: usize = 17;
     const COLUMNS: usize = 25;
@@ -158,7 +158,9 @@ fn tongue(part: &mut Part) {
         let lat = PI * r as f64 / (ROWS - 1) as f64;
         let lon = if c == COLUMNS - 1 { 0.0 } else { 2.0 * PI * c as f64 / (COLUMNS - 1) as f64 };
         let ring = if r == 0 || r == ROWS - 1 { 0.0 } else { sin(lat) };
-        let (x, y) = (ring * cos(lon), ring * sin(lon));
+        // Seen from above it is broad up to a blunt tip, from the side it thins out toward it.
+        let broad = if ring == 0.0 { 0.0 } else { pow(ring, 0.72) };
+        let (x, y) = (broad * cos(lon), ring * sin(lon));
         let furrow = 0.10 * crate::math::bell(x, 0.2) * y.max(0.0);
         let p = centre + DVec3::new(1.36 * x, 0.66 * y - furrow, 1.85 * cos(lat));
         (p, DVec2::new(c as f64 / (COLUMNS - 1) as f64, 0.76 + 0.22 * r as f64 / (ROWS - 1) as f64))

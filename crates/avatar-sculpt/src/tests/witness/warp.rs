@@ -6,9 +6,9 @@ use glam::DVec3;
 /// stand for their mirror images, too.
 const LANDMARKS: [(&str, [f64; 3], [f64; 3]); 27] = [
     ("centre of the eye", [0.308, 7.284, 1.245], [3.27, 0.25, 1.447]),
-    ("inner corner of the eye", [0.180, 7.267, 1.380], [1.85, 0.05, 2.88]),
+    ("inner corner of the eye", [0.180, 7.267, 1.380], [1.73, 0.05, 2.88]),
     ("outer corner of the eye", [0.466, 7.285, 1.335], [4.91, 0.47, 2.62]),
-    ("margin of the upper lid", [0.308, 7.350, 1.435], [3.38, 0.78, 3.40]),
+    ("margin of the upper lid", [0.308, 7.350, 1.435], [3.38, 0.84, 3.38]),
     ("margin of the lower lid", [0.308, 7.204, 1.425], [3.38, -0.31, 3.39]),
     ("brow, inner end", [0.120, 7.450, 1.500], [1.25, 2.22, 4.05]),
     ("brow, peak", [0.337, 7.502, 1.423], [3.90, 2.80, 3.10]),
