@@ -47,6 +47,8 @@ mod drafts;
 #[cfg(feature = "default-face")]
 mod default_face;
 
+/// The crate that knows what faces do by themselves.
+pub use avatar_life;
 /// The crate that reads packs.
 pub use avatar_pack;
 /// The crate that draws, with [`wgpu`] and [`glam`] as it was built

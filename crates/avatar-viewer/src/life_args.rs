@@ -58,16 +58,27 @@ pub(crate) struct Living {
 impl Living {
     /// The life of this style and seed from its beginning.
     pub(crate) fn new(pack: &Pack, style: Style, seed: u64) -> Self {
-        Self { life: Life::new(pack.controls(), style, seed), seed }
+        Self::of(Life::new(pack.controls(), style, seed), seed)
+    }
+
+    /// A life that was made with this seed.
+    pub(crate) fn of(life: Life, seed: u64) -> Self {
+        Self { life, seed }
+    }
+
+    /// What it was made with.
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The life itself.
+    pub(crate) fn into_life(self) -> Life {
+        self.life
     }
 
     /// Goes on to a time, which is not before that of the last call.
     pub(crate) fn go_to(&mut self, secs: f64) -> Result<()> {
-        self.advance((secs - self.life.time_secs()).max(0.0))
-    }
-
-    /// Lets time pass.
-    pub(crate) fn advance(&mut self, secs: f64) -> Result<()> {
+        let secs = (secs - self.life.time_secs()).max(0.0);
         self.life.advance(secs).map_err(|error| usage(format!("--time: {error}")))
     }
 

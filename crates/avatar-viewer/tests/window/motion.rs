@@ -1,7 +1,7 @@
 //! Frames in motion: drafts that follow each other smoothly where software draws, and the whole picture at
 //! rest.
 
-use crate::desk::{Desk, can_run, difference, key_of, render};
+use crate::desk::{Desk, PATIENCE, can_run, difference, key_of, render};
 use image::RgbImage;
 use std::time::{Duration, Instant};
 
@@ -85,4 +85,33 @@ fn pictures_a_second() {
         desk.key("Escape");
         desk.closes();
     }
+}
+
+/// The face lives from one press of the key to the next, and then is what it was.
+#[test]
+fn a_face_lives_until_it_is_told_to_be_still() {
+    if !can_run() {
+        return;
+    }
+    let size = ["--size", "320x240"];
+    let mut desk = Desk::open(&size);
+    let at_rest = render(&size);
+    desk.shows(&at_rest, "at first");
+    desk.key("shift+l");
+    let differs_from = |desk: &mut Desk, other: &RgbImage| {
+        let start = Instant::now();
+        loop {
+            let picture = desk.picture();
+            if difference(&picture, other) != Some(0) {
+                return picture;
+            }
+            assert!(start.elapsed() < PATIENCE, "the face keeps still");
+        }
+    };
+    let living = differs_from(&mut desk, &at_rest);
+    differs_from(&mut desk, &living);
+    desk.key("shift+l");
+    desk.shows(&at_rest, "still again");
+    desk.key("Escape");
+    desk.closes();
 }

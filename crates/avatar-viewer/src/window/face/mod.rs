@@ -4,7 +4,7 @@ mod playing;
 use crate::face_args::FaceChoice;
 use crate::life_args::Living;
 use anyhow::Result;
-use avatar_life::Style;
+use avatar_life::{Life, Style};
 use avatar_pack::Pack;
 use avatar_stage::Performer;
 use file_motion::FileMotion;
@@ -27,9 +27,8 @@ pub(in crate::window) struct Face {
     /// Names and lengths in seconds of the file's clips.
     pub(in crate::window) file_clips: Vec<(String, f64)>,
     pub(in crate::window) recording: Option<Recording>,
-    /// What the face does by itself, and room for values with it on top.
-    life: Option<Living>,
-    lived: Vec<f32>,
+    /// Which life it lives.
+    seed: u64,
 }
 
 impl Face {
@@ -47,6 +46,8 @@ impl Face {
         let life = start.take_life();
         let mut performer = Performer::new(pack);
         performer.jump_to(&start.start_values())?;
+        let seed = life.as_ref().map_or(0, Living::seed);
+        performer.set_life(life.map(Living::into_life))?;
         Ok(Self {
             performer,
             start: Some(start),
@@ -55,8 +56,7 @@ impl Face {
             motion: None,
             file_clips,
             recording: None,
-            life,
-            lived: Vec::new(),
+            seed,
         })
     }
 
@@ -89,9 +89,6 @@ impl Face {
         // Elapsed times are neither negative nor NaN, the only errors there are.
         let _ = self.performer.advance(secs);
         self.advance_motion(secs);
-        if let Some(life) = &mut self.life {
-            let _ = life.advance(secs);
-        }
         if let Some(recording) = &mut self.recording {
             recording.secs += secs;
         }
@@ -99,7 +96,7 @@ impl Face {
 
     /// Whether frames have to follow each other.
     pub(in crate::window) fn moves(&self) -> bool {
-        self.acts() || self.life.is_some()
+        self.acts() || self.performer.life().is_some()
     }
 
     /// Whether it does something that it was told.
@@ -113,24 +110,28 @@ impl Face {
         if self.pose_motion()? {
             return Ok(());
         }
-        let Self { start, performer, life, lived, .. } = self;
-        performer.pose_with(|pack, values, state| match (start, life) {
-            (Some(start), life) => start.apply_with(life.as_ref(), pack, state),
-            (None, Some(life)) => {
-                lived.resize(values.len(), 0.0);
-                life.over(values, lived)?;
-                Ok(state.pose(pack, lived)?)
+        let life = self.life();
+        match &self.start {
+            Some(start) => {
+                self.performer.pose_with(|pack, _, state| start.apply_with(life.as_ref(), pack, state))
             }
-            (None, None) => Ok(state.pose(pack, values)?),
-        })
+            None => Ok(self.performer.pose_with(|pack, values, state| state.pose(pack, values))?),
+        }
+    }
+
+    /// The life that it lives, as the command line says it.
+    fn life(&self) -> Option<Living> {
+        self.performer.life().map(|life| Living::of(life.clone(), self.seed))
     }
 
     /// Begins to live calmly, or is still again.
     pub(in crate::window) fn toggle_life(&mut self) {
-        self.life = match self.life {
+        let life = match self.performer.life() {
             Some(_) => None,
-            None => Some(Living::new(self.pack(), Style::default(), 0)),
+            None => Some(Life::new(self.controls(), Style::default(), self.seed)),
         };
+        // Only the life of another avatar would be an error.
+        let _ = self.performer.set_life(life);
     }
 
     /// The shown face, as options of the command line would say it.
@@ -139,8 +140,8 @@ impl Face {
             (Some(motion), _) if motion.is_wanted() => {
                 FaceChoice::of_clip(self.pack(), &motion.name, motion.time_secs)
             }
-            (_, Some(start)) => start.clone().with_life(self.life.clone()),
-            _ => FaceChoice::of_values(self.performer.values().to_vec()).with_life(self.life.clone()),
+            (_, Some(start)) => start.clone().with_life(self.life()),
+            _ => FaceChoice::of_values(self.performer.values().to_vec()).with_life(self.life()),
         }
     }
 

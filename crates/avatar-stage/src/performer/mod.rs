@@ -1,3 +1,6 @@
+mod living;
+
+use avatar_life::{Life, LifeError};
 use avatar_look::Materials;
 use avatar_pack::{ContentsError, FaceError, FaceState, Gaze, Pack};
 use avatar_render::avatar_groom::Hair;
@@ -60,6 +63,9 @@ pub enum PerformerError {
     /// Another number of values than there are controls, or a value that is not finite.
     #[error(transparent)]
     Jump(#[from] JumpError),
+    /// A life of an avatar with other controls, or a step that is too long for it.
+    #[error(transparent)]
+    Life(#[from] LifeError),
     /// Control values that do not become a face.
     #[error(transparent)]
     Face(#[from] FaceError),
@@ -92,6 +98,10 @@ pub struct Performer {
     found: Vec<(usize, f32)>,
     /// A pose that is filled anew for each press of single controls.
     single: Pose,
+    /// What the face does by itself.
+    life: Option<Life>,
+    /// Values of the controls with life on top.
+    shown: Vec<f32>,
 }
 
 /// A clip that was started.
@@ -118,6 +128,8 @@ impl Performer {
             targets: Vec::with_capacity(pack.controls().len()),
             found: Vec::with_capacity(GAZE_CONTROLS),
             single: Pose::new("single controls", Vec::with_capacity(GAZE_CONTROLS)),
+            life: None,
+            shown: layers.values().to_vec(),
             layers,
             state,
             pack,
@@ -177,7 +189,7 @@ impl Performer {
     pub fn jump_to(&mut self, values: &[f32]) -> Result<(), PerformerError> {
         self.layers.jump_to(values)?;
         self.playing = None;
-        Ok(self.state.pose(&self.pack, self.layers.values())?)
+        self.pose()
     }
 
     /// Plays a clip of the pack from its start.
@@ -289,14 +301,17 @@ impl Performer {
     /// Lets time pass, and poses the face.
     ///
     /// # Errors
-    /// A time step that is negative or NaN; then nothing changes.
+    /// A time step that is negative or NaN, or longer than a day for a face that lives; then nothing changes.
     pub fn advance(&mut self, dt_secs: f64) -> Result<(), PerformerError> {
+        if let Some(life) = &mut self.life {
+            life.advance(dt_secs)?;
+        }
         self.layers.advance(dt_secs)?;
-        Ok(self.state.pose(&self.pack, self.layers.values())?)
+        self.pose()
     }
 
     /// Poses the face in another way than by its values alone, until the next [`Self::advance`]: `pose` gets
-    /// the pack, the values of the controls and the state to be posed.
+    /// the pack, the values of the controls as they are shown and the state to be posed.
     ///
     /// # Errors
     /// What `pose` returns.
@@ -304,10 +319,10 @@ impl Performer {
         &mut self,
         pose: impl FnOnce(&Pack, &[f32], &mut FaceState) -> Result<(), E>,
     ) -> Result<(), E> {
-        pose(&self.pack, self.layers.values(), &mut self.state)
+        pose(&self.pack, &self.shown, &mut self.state)
     }
 
-    /// Whether all controls have arrived.
+    /// Whether all controls have arrived, whatever the face does by itself.
     pub fn is_at_rest(&self) -> bool {
         self.layers.is_at_rest()
     }
@@ -322,7 +337,7 @@ impl Performer {
         self.state.weights()
     }
 
-    /// Values of the controls as they are now, in degrees or as weights, before couplings.
+    /// Values of the controls as they are now, in degrees or as weights, without life and before couplings.
     pub fn values(&self) -> &[f32] {
         self.layers.values()
     }
