@@ -110,7 +110,7 @@ impl Face {
         if self.pose_motion()? {
             return Ok(());
         }
-        let life = self.life();
+        let life = self.start.as_ref().and_then(|_| self.life());
         match &self.start {
             Some(start) => {
                 self.performer.pose_with(|pack, _, state| start.apply_with(life.as_ref(), pack, state))
