@@ -13,6 +13,9 @@ pub struct Triangle {
 /// How far strands keep from the skin, as a fraction of its height.
 pub const MARGIN: f32 = 0.009;
 
+/// By how much further out strands are pushed than they are inside: the way out of an ear is rarely straight.
+pub const DEEPER: f32 = 2.2;
+
 /// Length of the first segment by that of an even one.
 pub const FIRST_SEGMENT: f32 = 0.15;
 
@@ -135,10 +138,15 @@ pub(crate) fn grow_to(
             _ => ((next - start).dot(normal), normal),
         };
         let least = margin * (4.0 * t).min(1.0) + lift * (3.0 * t).min(1.0);
-        next += outward * (least - distance).max(0.0);
-        direction = (next - before).normalize_or(direction);
-        // Pushed back, the segment gets shorter: at its full length it would be inside again.
-        before += direction * step.min(next.distance(before));
+        next += outward * (least - distance.min(distance * DEEPER)).max(0.0);
+        // Pushed back, the segment keeps its length by what leads along the skin: as far out as it is, it has
+        // to stay. It may get shorter, since at its full length it would be inside again.
+        let out = outward * (next - before).dot(outward);
+        let along = next - before - out;
+        let left = (step * step - out.length_squared()).max(0.0) / along.length_squared().max(1e-30);
+        let segment = out + along * left.min(1.0).sqrt();
+        direction = segment.normalize_or(direction);
+        before += direction * step.min(segment.length());
         phase = turn.rotate(phase);
         let side = direction.cross(beside).normalize_or(normal);
         points[i] = before + (beside * phase.x + side * phase.y) * (radius * (3.0 * t).min(1.0));

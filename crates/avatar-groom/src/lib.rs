@@ -27,6 +27,8 @@ mod roots;
 
 mod pseudonormal;
 mod shoulders;
+mod grid;
+mod creases;
 mod field;
 mod groom;
 mod grow;
@@ -35,11 +37,12 @@ mod plant;
 mod swing;
 
 pub use density::DensityMap;
-pub use field::{Field, Near, OTHER_BONES};
+pub use field::{Field, Near};
+pub use grid::OTHER_BONES;
 pub use groom::{Groom, PlantedStrand};
 pub use grow::{
-    COMBED_REACH, CURL_SHARE, FIRST_SEGMENT, LOCK_REACH, MARGIN, STEP_SUM, Triangle, grow, grow_guide,
-    offset_from_head,
+    COMBED_REACH, CURL_SHARE, DEEPER, FIRST_SEGMENT, LOCK_REACH, MARGIN, STEP_SUM, Triangle, grow,
+    grow_guide, offset_from_head,
 };
 pub use hair::Hair;
 pub use placed_toml::TomlError;

@@ -21,6 +21,9 @@ const HAIRLINE_THICKNESS: f32 = 0.2;
 const CROWN: f32 = 0.36;
 /// How far before the crown the hairline is combed in its own way, as a share of the head's depth.
 const TEMPLE: f32 = 0.15;
+/// How deep in a crease, as behind an ear, hair may grow, in cells of the field: further in, strands would
+/// have to go through the walls.
+const DEEPEST_ROOT: f32 = 1.0;
 /// How often the length to the cut is halved.
 const CUT_STEPS: usize = 9;
 
@@ -52,7 +55,10 @@ impl Groom {
         let height = bounds.size().y.max(1e-6);
         let middle = (bounds.min.x + bounds.max.x) * 0.5;
         let crown = bounds.min.z + CROWN * bounds.size().z;
-        let roots = scatter_on(skin, bounds, density, eyes, &style, strands, seed);
+        let mut roots = scatter_on(skin, bounds, density, eyes, &style, strands, seed);
+        let head_bone = head_bone(skin, &roots);
+        let field = Field::around(skin, bounds, head_bone);
+        roots.retain(|root| has_room(&field, root, position(skin, root)));
         let positions: Vec<Vec3> = roots.iter().map(|root| position(skin, root)).collect();
         let parting = middle + style.scalp.parting * height;
         let guides = guides::choose(&roots);
@@ -62,7 +68,6 @@ impl Groom {
             _ => 1.0,
         };
         let guide_of = guides::assign(&roots, &positions, &guides, side);
-        let head_bone = head_bone(skin, &roots);
         let comber = Comber {
             skin,
             eyes,
@@ -84,7 +89,7 @@ impl Groom {
         };
         let mut groom = Self {
             strands: roots.into_iter().zip(guide_of).enumerate().map(planted).collect(),
-            field: Field::around(skin, bounds, head_bone),
+            field,
             head_bone,
             strands_per_square: strands,
             guides,
@@ -167,6 +172,11 @@ fn length_without_variation(root: &Root, style: &Style, height: f32) -> f32 {
 fn length(root: &Root, style: &Style, height: f32) -> f32 {
     let variation = style.region(root.region).length_variation;
     length_without_variation(root, style, height) * (1.0 - variation * root.random[0])
+}
+
+/// Whether a strand of the scalp can leave the crease that it grows in.
+fn has_room(field: &Field, root: &Root, place: Vec3) -> bool {
+    root.region != Region::Scalp || field.at(place).distance > -DEEPEST_ROOT * field.cell
 }
 
 /// How far hair has come into its own at a root: 0 where it begins, 1 where the map is dense.

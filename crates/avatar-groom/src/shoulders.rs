@@ -4,7 +4,7 @@ use avatar_mesh::Bounds;
 use glam::Vec3;
 
 /// How far around the head shoulders count, as shares of the head's size: beside, below and before it.
-const REACH: Vec3 = Vec3::new(0.4, 0.15, 0.1);
+const REACH: Vec3 = Vec3::new(0.4, 0.35, 0.1);
 
 /// The head's box, larger by these shares as far as there is skin.
 pub(crate) fn with_shoulders(head: Bounds, skin: Bounds) -> Bounds {

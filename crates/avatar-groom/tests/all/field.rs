@@ -82,6 +82,85 @@ fn a_field_knows_its_side_where_the_skin_is_open_and_where_it_is_folded() {
     }
 }
 
+/// Two balls of radius 1 that are one skin, their middles this far from the origin to both sides.
+const APART: f32 = 0.9;
+
+fn two_balls() -> Mesh {
+    let mut mesh = ball(Vec3::ZERO);
+    for p in &mut mesh.positions {
+        // The seam is one.
+        p.x = if p.x.abs() < 1e-6 { 0.0 } else { p.x };
+        p.z = if p.x == 0.0 { (1.0 - p.y * p.y).max(0.0).sqrt().copysign(p.z) } else { p.z };
+        // Where a ray from between the balls leaves the one that it goes to.
+        let aside = APART * p.x.abs();
+        *p *= aside + (1.0 - APART * APART + aside * aside).sqrt();
+    }
+    mesh
+}
+
+#[test]
+fn creases_are_filled_as_far_as_a_ball_gets_stuck_in_them() {
+    let field = Field::new(&two_balls(), 0);
+    // A ball that lies in the crease touches both balls: its middle is this far from the axis.
+    let radius = 2.0 * field.cell;
+    let middle = ((1.0 + radius).powi(2) - APART * APART).sqrt();
+    let skin = (1.0 - APART * APART).sqrt();
+    for around in 0u8..24 {
+        let (sin, cos) = (f32::from(around) * 0.26).sin_cos();
+        let at = |x: f32, off_axis: f32| field.at(Vec3::new(x, off_axis * cos, off_axis * sin)).distance;
+        for share in [0.0, 0.2, 0.4, 0.6] {
+            let off_axis = skin + share * (middle - skin);
+            let expected = radius - (middle - off_axis);
+            let found = at(0.0, off_axis);
+            // Two thirds of a cell less is filled everywhere; smoothing fills a little more.
+            let off = (found - expected) / field.cell;
+            assert!((-0.5..0.66).contains(&off), "{off_axis}: {found} {expected}");
+        }
+        assert!(at(0.0, skin) < -1.2 * field.cell, "the skin itself is deep in what is filled");
+        // Wide places and those outside keep their distance.
+        let off = Vec2::new(APART - 0.5, 1.1).length() - 1.0;
+        assert!(off > radius && (at(0.5, 1.1) - off).abs() < 0.2 * field.cell, "{} {off}", at(0.5, 1.1));
+        assert!((at(APART, 1.1) - 0.1).abs() < 0.15 * field.cell);
+    }
+}
+
+#[test]
+fn what_is_thin_is_not_smoothed_away() {
+    // A plate, some two cells thick, as the rims of ears are.
+    let half = Vec3::new(1.0, 1.0, 0.03);
+    let corner = |i: u8| half * Vec3::from([0, 1, 2].map(|axis| if i >> axis & 1 == 1 { 1.0 } else { -1.0 }));
+    let sides = [[0, 2, 1, 3], [4, 5, 6, 7], [0, 1, 4, 5], [2, 6, 3, 7], [0, 4, 2, 6], [1, 3, 5, 7]];
+    let plate = Mesh {
+        positions: (0..8).map(corner).collect(),
+        triangles: sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*c, *b, *d]]).collect(),
+        ..Mesh::default()
+    };
+    let field = Field::new(&plate, 0);
+    for place in places(500, 0.9) {
+        let place = Vec3::new(place.x, place.y, place.z * 0.1);
+        let expected = place.z.abs() - half.z;
+        let found = field.at(place).distance;
+        // No less thick than it is by more than a fifth of a cell, and thicker by a part of one.
+        let off = (found - expected) / field.cell;
+        assert!((-0.9..0.2).contains(&off), "{place}: {found} {expected}");
+    }
+}
+
+#[test]
+fn no_hair_grows_in_creases_that_it_cannot_leave() {
+    let mesh = two_balls();
+    let groom = hairy(&mesh, style(RegionStyle { parting: -9.0, ..Style::LONG.scalp }));
+    let off_crease = |root: &avatar_groom::Root| {
+        let x: f32 = (0..3).map(|i| mesh.positions[root.corners[i] as usize].x * root.barycentric[i]).sum();
+        x.abs()
+    };
+    let between = |least: f32, most: f32| {
+        groom.strands().iter().filter(|s| (least..most).contains(&off_crease(&s.root))).count()
+    };
+    assert_eq!(between(0.0, 0.01), 0);
+    assert!(between(0.2, 0.25) > 20, "{}", between(0.2, 0.25));
+}
+
 #[test]
 fn broken_meshes_have_a_field_too() {
     let mut broken = ball(Vec3::ZERO);

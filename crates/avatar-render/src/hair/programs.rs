@@ -5,7 +5,7 @@ use crate::gpu::program::{Constant, Module, Program, Value};
 use crate::gpu::vec4_texture::VEC4S_PER_ROW;
 use crate::hair::uniforms::{GROW_WORKGROUP_SIZE, IS_GUIDE, NO_GUIDE, REGION_COUNT};
 use crate::view::shaders::{AMBIENT, BRDF, FRAME, HAIR_SHADOW, OUTPUT, SHADOW, SHADOW_MAPS};
-use avatar_groom::{CURL_SHARE, FIRST_SEGMENT, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
+use avatar_groom::{CURL_SHARE, DEEPER, FIRST_SEGMENT, OTHER_BONES, Region, SEGMENTS, STEP_SUM};
 
 const HAIR: Module = Module {
     text: include_str!("shaders/hair.wgsl"),
@@ -27,6 +27,7 @@ fn growth() -> Vec<Constant> {
         ("FIRST_SEGMENT", Value::Float(FIRST_SEGMENT)),
         ("STEP_SUM", Value::Float(STEP_SUM as f32)),
         ("CURL_SHARE", Value::Float(CURL_SHARE)),
+        ("DEEPER", Value::Float(DEEPER)),
         ("IS_GUIDE", Value::Count(IS_GUIDE)),
         ("NO_GUIDE", Value::Count(NO_GUIDE)),
         ("SCALP", Value::Count(Region::Scalp as u32)),

@@ -76,12 +76,12 @@ fn strands_at_one_sample_are_nearer_to_many_samples_than_plain_lines_at_four() {
             gains.push((name, yaw, ours, plain));
         }
     }
-    for (name, yaw, ours, plain) in &gains {
-        assert!(ours > plain, "{name}, yaw {yaw}: {ours} at one sample, {plain} of plain lines at four");
+    for (name, yaw, ours, plain) in gains {
+        assert!(
+            ours > plain + 0.015,
+            "{name}, yaw {yaw}: {ours} at one sample, {plain} of plain lines at four"
+        );
     }
-    // Parted short hair from the front, most of which is the fine hair of the hairline, gains the least.
-    let gain = gains.iter().map(|(_, _, ours, plain)| ours - plain).sum::<f64>() / gains.len() as f64;
-    assert!(gain > 0.03, "{gain} over all heads");
 }
 
 #[test]
@@ -136,14 +136,10 @@ fn far_heads_have_a_quarter_of_the_strands_and_look_alike() {
             };
             let (area, light) = (area(&fewer) / area(&full), light(&fewer) / light(&full));
             println!("{name}, {samples} samples, yaw {yaw}: area {area}, light {light}");
-            // Wider strands reach a little beyond the outline of the hair; at four samples the thinnest are
-            // widened as well.
-            let most = if samples == 1 { 0.05 } else { 0.07 };
-            assert!((area - 1.0).abs() < most, "{name}, {samples} samples, yaw {yaw}: area {area}");
-            // All strands of a model stand more evenly than some of them, which leave a few more gaps. In
-            // locks more so: strands of a lock hide one another, and thin ones are widened where there are
-            // four samples.
-            assert!((light - 1.0).abs() < 0.2, "{name}, {samples} samples, yaw {yaw}: light {light}");
+            // Wider strands reach a little beyond the outline of the hair.
+            assert!((area - 1.0).abs() < 0.05, "{name}, {samples} samples, yaw {yaw}: area {area}");
+            // All strands of a model stand more evenly than some of them, which leave a few more gaps.
+            assert!((light - 1.0).abs() < 0.06, "{name}, {samples} samples, yaw {yaw}: light {light}");
         }
     }
 }

@@ -84,6 +84,8 @@ fn strand_main(@builtin(vertex_index) corner: u32, @builtin(instance_index) stra
     out.color = target_color(strand_light(point, color, open), 1.0).rgb;
     out.pixels = ribbon.pixels;
     out.off = ribbon.off;
-    out.random = random.z;
+    // By the golden ratio, and none of the root's numbers: those say where a strand lies, and strands that
+    // lie side by side would choose the same samples.
+    out.random = f32((strand * 2654435769u) >> 8u) * (1.0 / 16777216.0);
     return out;
 }

@@ -85,10 +85,13 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
             skin.distance = dot(next - start, normal);
         }
         let least = margin * min(4.0 * t, 1.0) + lift * min(3.0 * t, 1.0);
-        next += skin.outward * max(least - skin.distance, 0.0);
-        // A segment that is pushed out of the skin gets shorter: at its full length it would end inside
-        // again.
-        let segment = next - before;
+        next += skin.outward * max(least - min(skin.distance, skin.distance * DEEPER), 0.0);
+        // A segment that is pushed out of the skin keeps its length by what leads along the skin, since it
+        // has to stay as far out as it is. It may get shorter: at its full length it would end inside again.
+        let out_part = skin.outward * dot(next - before, skin.outward);
+        let along = next - before - out_part;
+        let left = max(step * step - dot(out_part, out_part), 0.0) / max(dot(along, along), 1e-30);
+        let segment = out_part + along * sqrt(min(left, 1.0));
         let segment2 = dot(segment, segment);
         let segment_length = sqrt(max(segment2, 1e-30));
         direction = select(direction, segment * (1.0 / segment_length), segment2 > 1e-20);

@@ -15,7 +15,8 @@ fn swung(grid: FieldGrid, placed: vec3f, offset: vec3f, grown_shares: vec2f, lea
     for (var i = 0; i < 3; i++) {
         let near = field_at(grid, at + moved(pose.others[0], at) * shares.x + moved(pose.others[1], at) * shares.y);
         shares = near.shares;
-        at += normalize_or(near.outward, vec3f(0.0, 1.0, 0.0)) * (max(least - near.distance, 0.0) * firmness);
+        let push = max(least - min(near.distance, near.distance * DEEPER), 0.0) * firmness;
+        at += normalize_or(near.outward, vec3f(0.0, 1.0, 0.0)) * push;
     }
     return at;
 }

@@ -8,7 +8,6 @@ use avatar_render::{
     AvatarModel, AvatarState, Camera, HairDetail, Image, Light, PartBones, PartDesc, PartTextures, Quality,
     Scene, Style as Manner, linear_from_srgb8,
 };
-use glam::Vec3;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -146,16 +145,6 @@ impl Head {
 /// The weights of the skin's shapes: all that a model of the skin alone has.
 pub(crate) fn weights_of_skin<'a>(pack: &Pack, face: &'a FaceState) -> &'a [f32] {
     &face.weights()[pack.parts()[0].shapes()]
-}
-
-/// How deep a strand of the built-in head may be under the skin at a point, as a share of the head's height.
-///
-/// The grid that strands are kept outside of is coarser than the rims of ears and the edges of shoulders:
-/// there they may dip in, by a third of a centimetre.
-pub(crate) fn most_depth(point: Vec3) -> f32 {
-    let by_ear = point.x.abs() > 4.5 && (-1.3..3.2).contains(&point.y) && (-10.0..-2.2).contains(&point.z);
-    let on_shoulder = point.y < -15.0;
-    if by_ear || on_shoulder { 0.014 } else { 0.005 }
 }
 
 /// What the adapter at hand does not decide about: low quality.
