@@ -23,8 +23,8 @@ pub fn colour(site: &Site, complexion: &Complexion) -> DVec3 {
     }
 }
 
-/// The walls of the mouth: pale and mottled behind the lips, darker toward the throat. A deeper red would be a
-/// bare one in the shade.
+/// The walls of the mouth: pale and mottled behind the lips, darker toward the throat. A deeper red would be
+/// a bare one in the shade.
 fn mouth(site: &Site) -> DVec3 {
     let deep = site.node.own.x;
     let wall = rgb(138, 70, 66)
