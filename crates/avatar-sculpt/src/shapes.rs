@@ -50,7 +50,8 @@ pub fn about_mouth(node: &Node, reach: f64) -> AboutMouth {
     AboutMouth { u, height, side: if lower { -1.0 } else { 1.0 }, pull: sideways * inward * fade }
 }
 
-/// Displacement of a lid that turns about the eye by `angle_rad` (positive lifts).
+/// Displacement of a lid that turns about the eye by `angle_rad` (positive lifts). Toward the corners of the
+/// eye, where the two lids meet, it dies out: the smallest triangles would fold there.
 #[must_use]
 pub fn lid_turn(node: &Node, lower: bool, angle_rad: f64) -> DVec3 {
     let is_lower = if node.lid <= 1.0 { node.lower } else { node.p.y < EYE.y };
@@ -58,7 +59,9 @@ pub fn lid_turn(node: &Node, lower: bool, angle_rad: f64) -> DVec3 {
         return DVec3::ZERO;
     }
     let rel = node.p - EYE;
-    let angle = angle_rad * lids::weight(node.p, lower);
+    let along = lids::along(rel);
+    let within = smooth(0.0, 0.2, along) * smooth(1.0, 0.8, along);
+    let angle = angle_rad * within * lids::weight(node.p, lower);
     let (s, c) = (sin(angle), cos(angle));
     DVec3::new(0.0, c * rel.y + s * rel.z - rel.y, c * rel.z - s * rel.y - rel.z)
 }

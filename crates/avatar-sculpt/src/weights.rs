@@ -56,6 +56,6 @@ fn jaw(node: &Node) -> f64 {
     // Around the joint itself, in front of the ear, skin slides instead of turning.
     let pivot = crate::anatomy::JAW;
     let behind = smooth(-6.4, -2.4, p.z) * smooth(1.0, 4.8, (p.y - pivot.y).hypot(p.z - pivot.z));
-    let throat = lerp(1.0, smooth(-2.0, 1.9, p.z), smooth(-8.2, -10.0, p.y));
+    let throat = lerp(1.0, smooth(-2.0, 1.9, p.z), smooth(-8.2, -10.6, p.y));
     outside * behind * throat
 }

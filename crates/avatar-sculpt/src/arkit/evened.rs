@@ -1,56 +1,101 @@
-//! Evens displacements out at the corners of the mouth.
+//! Evens displacements out at the corners of the mouth and of the eyes.
 //!
-//! All of the difference between both lips falls between a few rows of vertices there, a fiftieth of
-//! the mouth's width apart: the smallest triangles fold long before anything else does. Evened out among
-//! neighbours, the same difference is spread over a few more rows.
+//! All of the difference between both lips, or both lids, falls between a few rows of vertices there, a
+//! fiftieth of the mouth's width apart: the smallest triangles fold long before anything else does. Evened
+//! out among neighbours, the same difference is spread over a few more rows. What counts is the difference
+//! along an edge by the edge's length, so the ends of short edges move as one.
 
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{spot::dome, whole::Whole};
 use crate::{
-    anatomy::mouth_line,
+    anatomy::{CANTHUS_INNER, CANTHUS_OUTER, EYE, mouth_line},
     skin::{Skin, Vertex},
 };
 
-/// How far it reaches, as the width of a bell.
-const REACH: f64 = 0.48;
-const ROUNDS: usize = 8;
+/// How far it reaches about the corners of the mouth and of an eye, as the width of a bell.
+const MOUTH_REACH: f64 = 0.48;
+const EYE_REACH: f64 = 0.48;
+/// Edges below this length count as if they had it.
+const LEAST_EDGE: f64 = 0.02;
+const ROUNDS: usize = 240;
 
 /// How much each joined vertex is evened out.
 pub(super) struct Corners {
     near: Vec<f64>,
+    /// The first joined vertex at each place near a corner or next to one.
+    places: Vec<usize>,
+    /// Which of the places each joined vertex is at; none for those that are far from all.
+    place: Vec<Option<usize>>,
+    /// Places at the ends of the edges near a corner, and the edges' weights.
+    edges: Vec<(usize, usize, f64)>,
 }
 
 impl Corners {
     /// The corners of the mouth.
-    pub(super) fn new(whole: &Whole, skin: &Skin) -> Self {
+    pub(super) fn of_mouth(whole: &Whole, skin: &Skin) -> Self {
+        Self::new(whole, skin, &[(mouth_line(1.0), MOUTH_REACH)])
+    }
+
+    /// The corners of the eyes.
+    pub(super) fn of_eyes(whole: &Whole, skin: &Skin) -> Self {
+        let eye = DVec2::new(EYE.x, EYE.y);
+        Self::new(whole, skin, &[(eye + CANTHUS_INNER, EYE_REACH), (eye + CANTHUS_OUTER, EYE_REACH)])
+    }
+
+    fn new(whole: &Whole, skin: &Skin, corners: &[(DVec2, f64)]) -> Self {
         let mut near = vec![0.0; whole.places.len()];
-        for (v, n) in skin.vertices.iter().zip(&whole.number).filter(|(v, _)| v.p.z > 2.6) {
-            let away = DVec2::new(v.p.x.abs(), v.p.y) - mouth_line(1.0);
-            near[*n] = dome(away.length_squared() / (REACH * REACH));
+        for (v, n) in skin.vertices.iter().zip(&whole.number).filter(|(v, _)| v.p.z > 2.0) {
+            let place = DVec2::new(v.p.x.abs(), v.p.y);
+            near[*n] = corners
+                .iter()
+                .map(|(corner, reach)| dome((place - *corner).length_squared() / (reach * reach)))
+                .sum();
         }
-        Self { near }
+        let mut corners = Self { place: vec![None; near.len()], near, places: vec![], edges: vec![] };
+        for t in &whole.triangles {
+            if t.iter().all(|n| corners.near[*n] == 0.0) {
+                continue;
+            }
+            let ends = t.map(|n| corners.place_of(whole.same[n]));
+            for k in 0..3 {
+                let (a, b) = (t[k], t[(k + 1) % 3]);
+                let length = whole.places[a].distance(whole.places[b]).max(LEAST_EDGE);
+                corners.edges.push((ends[k], ends[(k + 1) % 3], 1.0 / (length * length)));
+            }
+        }
+        for (n, first) in whole.same.iter().enumerate() {
+            corners.place[n] = corners.place[*first];
+        }
+        corners
+    }
+
+    /// The number of a place, which is new if it had none.
+    fn place_of(&mut self, first: usize) -> usize {
+        *self.place[first].get_or_insert_with(|| {
+            self.places.push(first);
+            self.places.len() - 1
+        })
     }
 
     /// Moves values of joined vertices toward the mean of their neighbours; those at one place stay together.
-    fn even(&self, whole: &Whole, values: &mut [DVec3]) {
-        let same = &whole.same;
+    fn even(&self, values: &mut [DVec3]) {
+        let mut at: Vec<DVec3> = self.places.iter().map(|n| values[*n]).collect();
+        let mut sums = vec![(DVec3::ZERO, 0.0); at.len()];
         for _ in 0..ROUNDS {
-            let mut sums = vec![(DVec3::ZERO, 0.0); values.len()];
-            for t in whole.triangles.iter().filter(|t| t.iter().any(|n| self.near[*n] > 0.0)) {
-                for k in 0..3 {
-                    let (a, b) = (same[t[k]], same[t[(k + 1) % 3]]);
-                    sums[a] = (sums[a].0 + values[b], sums[a].1 + 1.0);
-                    sums[b] = (sums[b].0 + values[a], sums[b].1 + 1.0);
-                }
+            sums.fill((DVec3::ZERO, 0.0));
+            for &(a, b, weight) in &self.edges {
+                sums[a] = (sums[a].0 + at[b] * weight, sums[a].1 + weight);
+                sums[b] = (sums[b].0 + at[a] * weight, sums[b].1 + weight);
             }
-            for (n, (sum, count)) in sums.into_iter().enumerate() {
-                if self.near[n] > 0.0 && count > 0.0 {
-                    values[n] = values[n].lerp(sum / count, 0.5 * self.near[n]);
-                }
+            for ((value, first), (sum, weight)) in at.iter_mut().zip(&self.places).zip(&sums) {
+                *value = value.lerp(*sum / *weight, 0.5 * self.near[*first]);
             }
-            let joined: Vec<DVec3> = same.iter().map(|n| values[*n]).collect();
-            values.copy_from_slice(&joined);
+        }
+        for (value, place) in values.iter_mut().zip(&self.place) {
+            if let Some(place) = place {
+                *value = at[*place];
+            }
         }
     }
 
@@ -58,21 +103,56 @@ impl Corners {
     pub(super) fn offsets(&self, whole: &Whole, offsets: &mut [DVec3]) {
         let mut joined = vec![DVec3::ZERO; whole.places.len()];
         whole.number.iter().zip(&*offsets).for_each(|(n, d)| joined[*n] = *d);
-        self.even(whole, &mut joined);
+        self.even(&mut joined);
         offsets.iter_mut().zip(&whole.number).for_each(|(d, n)| *d = joined[*n]);
     }
 
     /// Offsets that even out the corners of a mouth that the jaw's bone has moved: vertices move toward the
     /// middle of their neighbours where the bone has taken them.
     pub(super) fn turned(&self, whole: &Whole, skin: &Skin, bones: &[(DMat3, DVec3)]) -> Vec<DVec3> {
-        let mut places = whole.places.clone();
+        let mut moved = vec![DVec3::ZERO; whole.places.len()];
         for ((v, n), (turn, shift)) in skin.vertices.iter().zip(&whole.number).zip(bones) {
-            places[*n] = *turn * v.p + *shift;
+            moved[*n] = *turn * v.p + *shift - v.p;
         }
-        self.even(whole, &mut places);
+        self.even(&mut moved);
         let offset = |((v, n), (turn, shift)): ((&Vertex, &usize), &(DMat3, DVec3))| {
-            if self.near[*n] == 0.0 { DVec3::ZERO } else { turn.inverse() * (places[*n] - *shift) - v.p }
+            if self.near[*n] == 0.0 { DVec3::ZERO } else { turn.inverse() * (v.p + moved[*n] - *shift) - v.p }
         };
         skin.vertices.iter().zip(&whole.number).zip(bones).map(offset).collect()
+    }
+
+    /// Offsets that even out what bones and these offsets do to the corners of the eyes. What is evened out
+    /// keeps its distance from the lids' axis.
+    pub(super) fn closed(
+        &self,
+        whole: &Whole,
+        skin: &Skin,
+        bones: &[(DMat3, DVec3)],
+        offsets: &[DVec3],
+    ) -> Vec<DVec3> {
+        let places: Vec<DVec3> = skin
+            .vertices
+            .iter()
+            .zip(bones)
+            .zip(offsets)
+            .map(|((v, (turn, shift)), d)| *turn * (v.p + *d) + *shift)
+            .collect();
+        let mut moved = vec![DVec3::ZERO; whole.places.len()];
+        for ((v, n), place) in skin.vertices.iter().zip(&whole.number).zip(&places) {
+            moved[*n] = *place - v.p;
+        }
+        self.even(&mut moved);
+        let offset = |i: usize| {
+            let (v, n, (turn, shift)) = (&skin.vertices[i], whole.number[i], &bones[i]);
+            if self.near[n] == 0.0 {
+                return offsets[i];
+            }
+            let eye = DVec3::new(EYE.x * v.p.x.signum(), EYE.y, EYE.z);
+            let (away, before) = (v.p + moved[n] - eye, places[i] - eye);
+            let longer = before.y.hypot(before.z) / away.y.hypot(away.z).max(1e-9);
+            let place = eye + DVec3::new(away.x, away.y * longer, away.z * longer);
+            turn.inverse() * (place - *shift) - v.p
+        };
+        (0..places.len()).map(offset).collect()
     }
 }

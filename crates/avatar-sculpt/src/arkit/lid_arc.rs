@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 
 use crate::{
     anatomy::EYE,
-    lids::{UPPER_CLOSE, shrink},
+    lids::{LOWER_CLOSE, UPPER_CLOSE, shrink},
     math::{cos, sin},
     skin::Skin,
     weights,
@@ -21,30 +21,37 @@ pub(super) const SHARES: [(&str, f64); 3] =
 pub(super) const SIDES: [(&str, &str, f64); 2] =
     [("Left", "lid.left.upper", 1.0), ("Right", "lid.right.upper", -1.0)];
 
-/// How much of the turn of a side's upper lid a vertex takes.
-fn share(skin: &Skin, number: usize, side: f64) -> f64 {
+/// How much of the turn of a side's upper or lower lid a vertex takes.
+fn share(skin: &Skin, number: usize, side: f64, lid: usize) -> f64 {
     let v = &skin.vertices[number];
     if v.p.x * side <= 0.0 {
         return 0.0;
     }
     let all = weights::of(skin.half.mover(v.source));
-    all.iter().filter(|(bone, _)| *bone == weights::UPPER_LID).map(|(_, w)| w).sum()
+    all.iter().filter(|(bone, _)| *bone == lid).map(|(_, w)| w).sum()
 }
 
-/// What the bones of a lid do to each vertex when it has turned by a share of its range: the turn, and where
-/// the origin goes.
+/// What the bones of both lids do to each vertex when the upper one has turned by a share of its range: the
+/// turn, and where the origin goes. A lower lid closes with the upper one, and does not open.
 pub(super) fn bones(skin: &Skin, side: f64, turned: f64) -> Vec<(DMat3, DVec3)> {
-    let (s, c) = (sin(UPPER_CLOSE * turned), cos(UPPER_CLOSE * turned));
-    let turn = DMat3::from_cols(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c));
+    let about_x = |angle: f64| {
+        let (s, c) = (sin(angle), cos(angle));
+        DMat3::from_cols(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c))
+    };
+    let (upper, lower) = (about_x(UPPER_CLOSE * turned), about_x(-LOWER_CLOSE * turned.max(0.0)));
     let eye = DVec3::new(EYE.x * side, EYE.y, EYE.z);
-    let of = |w: f64| (DMat3::IDENTITY * (1.0 - w) + turn * w, (eye - turn * eye) * w);
-    (0..skin.vertices.len()).map(|i| of(share(skin, i, side))).collect()
+    let of = |i: usize| {
+        let shares = (share(skin, i, side, weights::UPPER_LID), share(skin, i, side, weights::LOWER_LID));
+        let turn = DMat3::IDENTITY * (1.0 - shares.0 - shares.1) + upper * shares.0 + lower * shares.1;
+        (turn, eye - turn * eye)
+    };
+    (0..skin.vertices.len()).map(of).collect()
 }
 
 /// Offsets away from the lid's axis that make up for what the mean of two bones takes.
 pub(super) fn offsets(skin: &Skin, side: f64, turned: f64) -> Vec<DVec3> {
     let of = |i: usize| {
-        let w = share(skin, i, side);
+        let w = share(skin, i, side, weights::UPPER_LID);
         if w == 0.0 {
             return DVec3::ZERO;
         }

@@ -38,10 +38,10 @@ pub(super) fn lower_down(spot: &Spot) -> DVec3 {
 pub(super) fn press(spot: &Spot) -> DVec3 {
     let m = spot.mouth();
     let corner = m.corner(spot, 1.7, 1.6, 1.4, 1.6);
-    let along = m.along(&[(0.0, 0.9), (0.45, 0.95), (0.8, 0.4), (1.0, 0.1), (1.3, 0.0)]) * m.front;
+    let along = m.along(&[(0.0, 0.9), (0.45, 0.95), (0.8, 0.32), (1.0, 0.04), (1.2, 0.0)]) * m.front;
     let thin = curve(&[(0.0, 0.0), (0.5, 0.7), (1.0, 1.0), (1.5, 0.5), (2.0, 0.0)], m.across);
     let back = curve(&[(0.0, 0.4), (0.5, 1.0), (1.0, 0.4), (1.6, 0.0)], m.across);
-    DVec3::new(0.32, 0.20, 0.02) * corner + DVec3::new(0.0, -0.23 * m.upper * thin, -0.18 * back) * along
+    DVec3::new(0.32, 0.20, 0.02) * corner + DVec3::new(0.0, -0.22 * m.upper * thin, -0.17 * back) * along
 }
 
 /// The upper lip is rolled inward over the teeth; the skin up to the nose is drawn down.

@@ -40,7 +40,7 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
     let skin = &sculpture.skin;
     let whole = Whole::new(skin);
     let mut all = Vec::new();
-    let corners = Corners::new(&whole, skin);
+    let (corners, canthi) = (Corners::of_mouth(&whole, skin), Corners::of_eyes(&whole, skin));
     let (still, jaw_open) = (vec![jaw::opened(0.0); skin.vertices.len()], jaw::bones(skin));
     let mut opened = corners.turned(&whole, skin, &jaw_open);
     drop_traces(&mut opened, LEAST);
@@ -54,7 +54,7 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
         };
         for (side, (suffix, own)) in sides.iter().enumerate() {
             let mut offsets = offsets(skin, kind, *own);
-            if matches!(kind, Kind::WithJaw(_)) {
+            if weight == Weight::Control {
                 corners.offsets(&whole, &mut offsets);
             }
             let open = matches!(weight, Weight::Product(_) | Weight::OfSide(..));
@@ -72,8 +72,9 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
     }
     for (name, at) in lid_arc::SHARES {
         for (suffix, control, side) in lid_arc::SIDES {
-            let mut offsets = lid_arc::offsets(skin, side, at);
-            let mut normals = whole.changes(skin, &offsets, &lid_arc::bones(skin, side, at));
+            let bones = lid_arc::bones(skin, side, at);
+            let mut offsets = canthi.closed(&whole, skin, &bones, &lid_arc::offsets(skin, side, at));
+            let mut normals = whole.changes(skin, &offsets, &bones);
             drop_traces(&mut offsets, LEAST);
             drop_traces(&mut normals, LEAST_TURN);
             let (name, weight) = (format!("{name}{suffix}"), Weight::Follows(control, at));

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::{
     half::{Half, Node, Patch},
-    rings::{EYE_AROUND, Loops},
+    rings::{self, EYE_AROUND, Loops},
 };
 use crate::{
     anatomy::EYE,
@@ -71,7 +71,7 @@ pub fn add(half: &mut Half, loops: &Loops) {
 fn lash(half: &mut Half, loops: &Loops, row: &Row, s: f64, cell: usize) {
     let chance = |n: u64| hash01((cell as u64) * 8 + n) - 0.5;
     // The edge's vertices stand at these turns, along the lower lid first.
-    let around = libm::acos(1.0 - 2.0 * s) / (2.0 * PI) * EYE_AROUND as f64;
+    let around = rings::at_lids(s);
     let around = if row.lower { around } else { EYE_AROUND as f64 - around };
     let near = (around as usize).min(EYE_AROUND - 1);
     let (a, b) = (loops.eye[near], loops.eye[(near + 1) % EYE_AROUND]);

@@ -7,7 +7,7 @@ use super::{
     rings::{Loops, MOUTH_AROUND},
 };
 use crate::{
-    anatomy::MOUTH_Y,
+    anatomy::{MOUTH_HALF_WIDTH, MOUTH_Y},
     math::{cos, lerp, sin},
 };
 
@@ -51,7 +51,8 @@ pub fn add(half: &mut Half, loops: &Loops) {
             let p = if k <= BEHIND.len() {
                 let (depth, open, share) = BEHIND[k - 1];
                 // Toward the corner the lips come together again, behind as well as in front.
-                let height = open * side.signum() * side.abs().min(1.0) * (1.0 - u * u * u);
+                let along = start.p.x / MOUTH_HALF_WIDTH;
+                let height = open * side.signum() * side.abs().min(1.0) * (1.0 - along * along * along);
                 DVec3::new(start.p.x * share, start.p.y + height, start.p.z - depth)
             } else {
                 let (depth, up, down, width, back) = BAG[k - 1 - BEHIND.len()];

@@ -46,6 +46,37 @@ pub struct Loops {
     pub mouth_outline: Vec<DVec2>,
 }
 
+/// How much of the steps along lids and lips is even. Steps of a circle seen from its side shrink to nothing
+/// toward the corners, and triangles that thin fold long before any other does.
+const LIDS_EVEN: f64 = 0.2;
+/// See [`LIDS_EVEN`].
+const LIPS_EVEN: f64 = 0.2;
+
+/// How far from the inner (0) to the outer corner of the eye (1) a vertex of the rings around it stands, by
+/// its place along the ring.
+fn along_lids(at: f64) -> f64 {
+    let turn = 2.0 * at / EYE_AROUND as f64;
+    let turn = if turn > 1.0 { 2.0 - turn } else { turn };
+    lerp(0.5 * (1.0 - cos(PI * turn)), turn, LIDS_EVEN)
+}
+
+/// The place along the ring's lower half that [`along_lids`] takes to `s`.
+pub fn at_lids(s: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 0.5 * EYE_AROUND as f64);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if along_lids(middle) < s { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// How far from the midline (0) to the corner of the mouth (1) a vertex of the line between the lips stands.
+fn along_lips(i: usize) -> f64 {
+    let half = (MOUTH_AROUND / 2) as f64;
+    let aside = 1.0 - (i as f64 - half).abs() / half;
+    lerp(sin(0.5 * PI * aside), aside, LIPS_EVEN)
+}
+
 /// Spreads ring fractions so that rings are dense at the feature.
 fn graded(k: usize, count: usize) -> f64 {
     let s = k as f64 / count as f64;
@@ -58,9 +89,8 @@ pub fn eye(half: &mut Half, loops: &mut Loops) {
     let centre = chart::place_of(chart::leave(EYE + DVec3::Z * 1.2, DVec3::Z));
     let mut inner = Vec::new();
     for i in 0..EYE_AROUND {
-        let tau = 2.0 * PI * i as f64 / EYE_AROUND as f64;
         let lower = i < EYE_AROUND / 2;
-        let flat = lid_margin(0.5 * (1.0 - cos(tau)), !lower);
+        let flat = lid_margin(along_lids(i as f64), !lower);
         // Straight from the front: where the opening ends is then where the weights say it ends.
         let p = chart::cast(EYE + DVec3::new(flat.x, flat.y, 6.0), DVec3::NEG_Z);
         inner.push(chart::place_of(p));
@@ -98,7 +128,7 @@ pub fn mouth(half: &mut Half, loops: &mut Loops) {
         for i in 0..MOUTH_AROUND {
             let tau = PI * (0.5 - i as f64 / (MOUTH_AROUND - 1) as f64);
             let on_midline = i == 0 || i == MOUTH_AROUND - 1;
-            let u = if on_midline { 0.0 } else { cos(tau) };
+            let (u, round) = if on_midline { (0.0, 0.0) } else { (along_lips(i), cos(tau)) };
             let lower = i > middle;
             let line = mouth_line(u);
             // The lips press into each other by a trace: a hair's gap would show as a broken line.
@@ -108,7 +138,7 @@ pub fn mouth(half: &mut Half, loops: &mut Loops) {
             let corner = smooth(0.8, 1.0, u);
             let border = DVec2::new(line.x + 0.10 * corner, line.y + if i == middle { 0.0 } else { height });
             let oval = DVec2::new(
-                u * (MOUTH_HALF_WIDTH + 1.05),
+                round * (MOUTH_HALF_WIDTH + 1.05),
                 MOUTH_Y + sin(tau) * if lower { 1.85 } else { 1.30 },
             );
             let (at, lip) = if k <= LIP_RINGS {

@@ -37,7 +37,7 @@ pub fn add(half: &mut Half, loops: &Loops) {
                 let bulge = sin(std::f64::consts::PI * f);
                 // At the inner corner flesh fills the angle between the lids: the caruncle.
                 let flesh =
-                    0.07 * smooth(0.09, 0.02, lids::along(rel)) * sin(0.75 * std::f64::consts::PI * f);
+                    0.06 * smooth(0.09, 0.02, lids::along(rel)) * sin(0.75 * std::f64::consts::PI * f);
                 let narrowed = polar(opening - 0.02 * bulge - flesh, turn);
                 let radius = lerp(rel.length(), inner_radius(direction, outer.lower), f);
                 EYE + narrowed * radius
