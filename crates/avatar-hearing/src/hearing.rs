@@ -13,7 +13,7 @@ pub const VISEMES: [&str; OUTPUTS] =
 /// How long after its time a frame is told, in seconds: half of the window, the frames that the model hears
 /// of what follows, and half of the resampler's kernel at the least rate.
 pub const DELAY_SECS: f64 =
-    WINDOW as f64 / 2.0 / RATE as f64 + AFTER as f64 * HOP as f64 / RATE as f64 + 10.0 / 8_000.0;
+    WINDOW as f64 / 2.0 / RATE as f64 + AFTER as f64 * HOP as f64 / RATE as f64 + 12.0 / 8_000.0;
 
 /// Below this power (-62 dB of full scale) nobody speaks.
 const SILENCE: f32 = -14.3;

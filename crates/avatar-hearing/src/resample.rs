@@ -11,8 +11,11 @@ pub const RATES: std::ops::RangeInclusive<u32> = 8_000..=192_000;
 /// How many zeros of the kernel there are on each side.
 const ZEROS: usize = 8;
 
-/// Entries of the kernel's table between two zeros.
-const STEPS: usize = 64;
+/// Places between two input samples for which the kernel is known; between them it is interpolated.
+const PLACES: u32 = 160;
+
+/// Sums that run side by side, so that the processor adds several at once; the order is the same everywhere.
+const LANES: usize = 8;
 
 /// The part of the band that the kernel lets through.
 const PASS: f64 = 0.92;
@@ -26,10 +29,8 @@ pub struct Resampler {
     rate: u32,
     /// Input samples on each side of an output.
     half: usize,
-    /// Half of the kernel, from its middle on.
+    /// The kernel at `PLACES + 1` places, `2 * half` weights each.
     kernel: Vec<f32>,
-    /// Entries of the kernel a sample of the input.
-    density: f32,
     /// The newest input samples, `2 * half` of them, each twice, so that they lie in one piece.
     recent: Vec<f32>,
     place: usize,
@@ -46,21 +47,22 @@ impl Resampler {
         let rate = rate.clamp(*RATES.start(), *RATES.end());
         let slow = f64::from(RATE.min(rate)) / f64::from(rate);
         let cut = PASS * slow;
-        let half = libm::ceil(ZEROS as f64 / cut) as usize;
-        // One entry more than is looked up, for the interpolation.
-        let entries = ZEROS * STEPS + 2;
-        let kernel = (0..entries).map(|entry| {
-            let zeros = entry as f64 / STEPS as f64;
-            let sinc = if entry == 0 { 1.0 } else { libm::sin(PI * zeros) / (PI * zeros) };
+        // As many samples as lanes divide.
+        let half = (libm::ceil(ZEROS as f64 / cut) as usize).next_multiple_of(LANES / 2);
+        let weight = |distance: f64| {
+            let zeros = distance.abs() * cut;
+            let sinc = if zeros == 0.0 { 1.0 } else { libm::sin(PI * zeros) / (PI * zeros) };
             // A window of Hann.
             let window = 0.5 + 0.5 * libm::cos(PI * (zeros / ZEROS as f64).min(1.0));
             (cut * sinc * window) as f32
-        });
+        };
+        let place = |place: u32| half as f64 - 1.0 + f64::from(place) / f64::from(PLACES);
+        let kernel =
+            (0..=PLACES).flat_map(|at| (0..2 * half).map(move |index| weight(index as f64 - place(at))));
         let mut made = Self {
             rate,
             half,
             kernel: kernel.collect(),
-            density: (cut * STEPS as f64) as f32,
             recent: vec![0.0; 4 * half],
             place: 0,
             wanted: 0,
@@ -105,18 +107,29 @@ impl Resampler {
     fn value(&self) -> f32 {
         let length = 2 * self.half;
         let recent = &self.recent[self.place..self.place + length];
-        let fraction = self.fraction as f32 / RATE as f32;
-        let middle = self.half as f32 - 1.0 + fraction;
-        let mut sum = 0.0;
-        for (index, sample) in recent.iter().enumerate() {
-            let at = (index as f32 - middle).abs() * self.density;
-            let entry = (at as usize).min(self.kernel.len() - 2);
-            let between = (at - entry as f32).min(1.0);
-            let low = self.kernel[entry];
-            sum += sample * (low + (self.kernel[entry + 1] - low) * between);
+        let step = RATE / PLACES;
+        let row = (self.fraction / step) as usize * length;
+        let low = dot(recent, &self.kernel[row..row + length]);
+        let between = (self.fraction % step) as f32 / step as f32;
+        if between == 0.0 {
+            return low;
         }
-        sum
+        let high = dot(recent, &self.kernel[row + length..row + 2 * length]);
+        low + (high - low) * between
     }
+}
+
+/// The sum of products.
+fn dot(samples: &[f32], weights: &[f32]) -> f32 {
+    let (samples, _) = samples.as_chunks::<LANES>();
+    let (weights, _) = weights.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (samples, weights) in samples.iter().zip(weights) {
+        for lane in 0..LANES {
+            sums[lane] += samples[lane] * weights[lane];
+        }
+    }
+    sums.iter().sum()
 }
 
 #[cfg(test)]
