@@ -14,18 +14,20 @@ mod exercise;
 mod mutate;
 mod packed;
 mod scenes;
+mod speech;
 mod texts;
 
 pub use mutate::mutate_json;
 pub use packed::{SEPARATOR, glb_of};
 pub use scenes::{bvh, collada, fbx, glb, gltf, md5, obj, target, vrm};
+pub use speech::speech;
 pub use texts::{clips, controls, hair, identity, materials, pack, picture, poses, rig, shapes};
 
 /// What a target does with an input.
 pub type Run = fn(&[u8]);
 
 /// All targets by their names, which are also those of their folders in `corpus` and `regressions`.
-pub const TARGETS: [(&str, Run); 19] = [
+pub const TARGETS: [(&str, Run); 20] = [
     ("gltf", gltf),
     ("glb", glb),
     ("vrm", vrm),
@@ -45,4 +47,5 @@ pub const TARGETS: [(&str, Run); 19] = [
     ("identity", identity),
     ("pack", pack),
     ("picture", picture),
+    ("speech", speech),
 ];

@@ -136,3 +136,44 @@ fn lips_are_closed_whatever_the_face_expresses() {
     // Without speech many of them show teeth.
     assert!(parted > 5, "{parted}");
 }
+
+/// Seen from the front, no gap is left between the lower lip and the edge of the upper teeth. In depth, this
+/// face's lips never come nearer to its teeth than they are at rest (`avatar-sculpt`, `arkit/clear`).
+#[test]
+fn the_lower_lip_covers_the_edge_of_the_upper_teeth_at_every_labiodental() {
+    let face = Face::load();
+    let teeth = face.pack.parts().iter().position(|part| part.name == "upper-jaw").unwrap();
+    let lowest = |speech: &Speech, secs: f64| {
+        let mut values = face.values(&[]);
+        face.map.apply(&speech.at(secs), Amounts::default(), &mut values);
+        let mut state = FaceState::new(&face.pack);
+        state.pose(&face.pack, &values).unwrap();
+        let teeth = state.deform(&face.pack, teeth).unwrap();
+        let front = teeth.positions.iter().map(|place| place.z).fold(f32::NEG_INFINITY, f32::max) - 0.8;
+        let in_front = teeth.positions.iter().filter(|place| place.z > front && place.x.abs() < 0.8);
+        let edge = in_front.map(|place| place.y).fold(f32::INFINITY, f32::min);
+        let skin = state.deform(&face.pack, face.skin).unwrap();
+        let mut highest = std::collections::BTreeMap::new();
+        for [lower, _] in &face.pairs {
+            let x = face.rest.positions[*lower].x;
+            if x.abs() < 0.8 {
+                let slot = highest.entry((x * 5.0).round() as i32).or_insert(f32::NEG_INFINITY);
+                *slot = slot.max(skin.positions[*lower].y);
+            }
+        }
+        assert!(highest.len() > 6, "{}", highest.len());
+        highest.into_values().fold(f32::INFINITY, f32::min) - edge
+    };
+    for rate in [3.0, 6.0, 9.0] {
+        for (consonant, vowel) in [("f", "a"), ("v", "o"), ("v", "i")] {
+            let speech = syllables(consonant, vowel, rate);
+            for share in [0.1, 0.4, 0.75] {
+                let overlap = lowest(&speech, 0.3 + (2.0 + share * 0.4) / rate);
+                assert!(overlap > 0.0, "{consonant}{vowel} at {rate}, {share}: {overlap}");
+            }
+        }
+        // An open vowel leaves a gap.
+        let gap = lowest(&syllables("f", "a", rate), 0.3 + 2.7 / rate);
+        assert!(gap < -5.0 * CLOSED, "{rate}: {gap}");
+    }
+}

@@ -67,7 +67,7 @@ fn quick_vowels_are_smaller() {
     };
     let jaws = RATES.map(most);
     assert!(jaws.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9), "{jaws:?}");
-    assert!(jaws[0] > 0.6, "{jaws:?}");
+    assert!(jaws[0] > 0.45, "{jaws:?}");
     assert!(jaws[6] < 0.9 * jaws[0], "{jaws:?}");
 }
 
