@@ -270,7 +270,7 @@ impl Gaze {
         let (small, large) = (p::HEAD_SMALL_SHARE, style.head_share);
         let free = p::HEAD_FREE_DEGREES;
         let share = |degrees: f64| {
-            let beyond = (degrees.abs() - free).max(0.0).min(90.0);
+            let beyond = (degrees.abs() - free).clamp(0.0, 90.0);
             (small * degrees.abs().min(free) + large * beyond).copysign(degrees)
         };
         let here = self.head.target();

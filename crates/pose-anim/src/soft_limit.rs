@@ -49,7 +49,7 @@ pub(crate) fn soft_limit(base: Jet, offset: Jet, range: Range) -> Jet {
     base + Jet::rest(sign) * kept
 }
 
-/// As [`soft_limit`], of numbers without derivatives, for layers of another kind than players: `base +
+/// How layers add, for numbers without derivatives and layers of another kind than players: `base +
 /// offset`, bent where it would leave `min` to `max`, twice continuously differentiable in both. An offset
 /// of 0 leaves the base as it is, to the last bit. Where a number is NaN, so is the result.
 ///
