@@ -10,8 +10,8 @@ const JOINTS = 5;
 const LENGTH = JOINTS * Math.hypot(0.06, 0.01);
 const ALLOWED = 0.02;
 
-// It measures a joint's length anew at each step, from where the joint is now to where the next one was at the
-// step before; the standard has one length. It is compared either way, and held to the standard's.
+// It measures a joint's length anew at each step, from where the joint is now to where the next one was
+// at the step before; the standard has one length. It is compared either way, and held to the standard's.
 const measured = VRMSpringBoneJoint.prototype._calcWorldSpaceBoneLength;
 function constant() {
     this._worldSpaceBoneLength = LENGTH / JOINTS;

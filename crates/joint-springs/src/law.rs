@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Law {
     /// A damped harmonic oscillator about the place where the animation has the tail:
-    /// `x″ = −ω² (x − rest) − 2 ζ ω (x′ − rest′) + gravity`, solved in closed form, so no stiffness is too much
-    /// for it.
+    /// `x″ = −ω² (x − rest) − 2 ζ ω (x′ − rest′) + gravity`, solved in closed form, so no stiffness is too
+    /// much for it.
     Oscillator {
         /// Swings a second without damping, `ω / 2π`; taken as 0.05…1000.
         frequency_hz: f32,

@@ -1,5 +1,5 @@
-//! Motion that follows by itself: chains of joints that swing, such as hair and earrings, and joints that turn
-//! with others.
+//! Motion that follows by itself: chains of joints that swing, such as hair and earrings, and joints that
+//! turn with others.
 //!
 //! ```text
 //!  animated world matrices ──Constraints::apply──▶ ──Swing::advance(dt)──▶ world matrices to draw

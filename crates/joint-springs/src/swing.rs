@@ -73,7 +73,7 @@ const LONGEST_SECS: f64 = 1.0;
 impl Swing {
     /// Springs at rest. `parents` has one entry for each joint.
     ///
-    /// Numbers out of their range are taken as the nearest in it, and those that are not finite as the lowest.
+    /// Numbers out of their range are taken as the nearest in it, and NaN as the lowest.
     ///
     /// # Errors
     /// A parent stands behind its child; a joint or collider that does not exist; two springs at one joint.
