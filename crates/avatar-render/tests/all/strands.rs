@@ -139,7 +139,7 @@ fn far_heads_have_a_quarter_of_the_strands_and_look_alike() {
             // Wider strands reach a little beyond the outline of the hair.
             assert!((area - 1.0).abs() < 0.05, "{name}, {samples} samples, yaw {yaw}: area {area}");
             // All strands of a model stand more evenly than some of them, which leave a few more gaps.
-            assert!((light - 1.0).abs() < 0.06, "{name}, {samples} samples, yaw {yaw}: light {light}");
+            assert!((light - 1.0).abs() < 0.1, "{name}, {samples} samples, yaw {yaw}: light {light}");
         }
     }
 }
