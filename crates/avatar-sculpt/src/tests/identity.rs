@@ -133,8 +133,8 @@ fn her_faults() -> &'static [Faults] {
     FAULTS.get_or_init(|| POSES.iter().map(|pose| faults(her(), pose)).collect())
 }
 
-/// What a person does wrong: triangles that are flipped, vertices in teeth or gums where hers are not, and the
-/// lids' least distance.
+/// What a person does wrong: triangles that are flipped, vertices in teeth or gums where hers are not, and
+/// the lids' least distance.
 fn judged(person: &Pack) -> (usize, usize, f64, String) {
     let (mut flipped, mut in_teeth, mut lids, mut where_) = (0, 0, f64::INFINITY, String::new());
     for (pose, hers) in POSES.iter().zip(her_faults()) {
