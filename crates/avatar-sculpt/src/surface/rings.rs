@@ -60,7 +60,7 @@ fn along_lids(at: f64) -> f64 {
     lerp(0.5 * (1.0 - cos(PI * turn)), turn, LIDS_EVEN)
 }
 
-/// The place along the ring's lower half that [`along_lids`] takes to `s`.
+/// The place along the ring's lower half that `along_lids` takes to `s`.
 pub fn at_lids(s: f64) -> f64 {
     let (mut low, mut high) = (0.0, 0.5 * EYE_AROUND as f64);
     for _ in 0..40 {
