@@ -1,4 +1,4 @@
-//! Creases that are too narrow for hair.
+//! Creases and hollows that are too narrow for hair.
 
 use crate::grid::{Grid, Nearest};
 
@@ -14,24 +14,58 @@ const LAYER: f32 = 2.0;
 /// outside: the closing of the skin's inside, J. Serra, "Image Analysis and Mathematical Morphology", 1982.
 /// What is convex stays as it is, and so do distances of at least the radius.
 ///
-/// The ball's middle reaches all places at least its radius away from the skin. What it cannot touch is
-/// further from these than the radius.
+/// The ball's middle reaches all places at least its radius away from the skin to which it can roll from the
+/// edge of the grid: the sockets behind the eyes are wide enough for it, but their openings are not. What it
+/// cannot touch is further from these places than the radius.
 pub(crate) fn fill(grid: &Grid, distances: &mut [f32], radius: f32) {
+    let is_reached = reached(grid, distances, radius);
     let mut reach = grid.emptied();
     for (index, distance) in distances.iter().enumerate() {
-        if (radius..radius + LAYER * grid.cell).contains(distance) {
+        if is_reached[index] && *distance < radius + LAYER * grid.cell {
             // On the way to the nearest point of the skin, this one is exactly at the radius.
             let (place, near) = (grid.place_of(index), grid.nearest[index].point);
             let point = near + (place - near) * (radius / *distance);
             reach.nearest[index] = Nearest { point, squared: point.distance_squared(place), ..Nearest::NONE };
         }
     }
-    let is_open: Vec<bool> =
-        (distances.iter()).map(|distance| (-DEEPEST * grid.cell..radius).contains(distance)).collect();
+    let is_open: Vec<bool> = (distances.iter().zip(&is_reached))
+        .map(|(distance, is_reached)| *distance >= -DEEPEST * grid.cell && !is_reached)
+        .collect();
     reach.sweep(&is_open);
     for ((distance, nearest), is_open) in distances.iter_mut().zip(&reach.nearest).zip(is_open) {
         if is_open && nearest.squared.is_finite() {
             *distance = distance.min(radius - nearest.squared.sqrt() + LEAST * grid.cell);
         }
     }
+}
+
+/// To which places the middle of a ball of this radius comes from the edge of the grid, over neighbours.
+fn reached(grid: &Grid, distances: &[f32], radius: f32) -> Vec<bool> {
+    let [nx, ny, nz] = grid.size;
+    let mut is_reached = vec![false; distances.len()];
+    let mut ahead: Vec<usize> = Vec::new();
+    let step = |index: usize, is_reached: &mut [bool], ahead: &mut Vec<usize>| {
+        if distances[index] >= radius && !is_reached[index] {
+            is_reached[index] = true;
+            ahead.push(index);
+        }
+    };
+    for index in 0..distances.len() {
+        let [x, y, z] = [index % nx, index / nx % ny, index / nx / ny];
+        if x == 0 || y == 0 || z == 0 || x + 1 == nx || y + 1 == ny || z + 1 == nz {
+            step(index, &mut is_reached, &mut ahead);
+        }
+    }
+    while let Some(index) = ahead.pop() {
+        let strides = [(index % nx, nx, 1), (index / nx % ny, ny, nx), (index / nx / ny, nz, nx * ny)];
+        for (along, size, stride) in strides {
+            if along > 0 {
+                step(index - stride, &mut is_reached, &mut ahead);
+            }
+            if along + 1 < size {
+                step(index + stride, &mut is_reached, &mut ahead);
+            }
+        }
+    }
+    is_reached
 }

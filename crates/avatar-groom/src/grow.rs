@@ -123,22 +123,32 @@ pub(crate) fn grow_to(
             let share = (2.0 - toward.length() / (LOCK_REACH * groom.height())).clamp(0.0, 1.0);
             next += toward * (style.clump * t * share);
         }
-        let (distance, outward) = match root.region {
-            Region::Scalp => {
-                // Where the skin moves with other bones, the place is sought where they have it at bind pose.
-                // The shares are those of the point before.
-                let moved = |i: usize| others[i].transform_point3(next) * shares[i];
-                let near = groom.field().at(next + moved(0) + moved(1));
-                let turned = |i: usize| back[i] * near.outward * near.shares[i];
-                shares = near.shares;
-                (near.distance, (near.outward + turned(0) + turned(1)).normalize_or(near.outward))
-            }
+        // Where the skin moves with other bones, the place is sought where they have it at bind pose. The
+        // shares are those of the point before.
+        let mut seek = |place: Vec3| {
+            let moved = |i: usize| others[i].transform_point3(place) * shares[i];
+            let near = groom.field().at(place + moved(0) + moved(1));
+            let turned = |i: usize| back[i] * near.outward * near.shares[i];
+            shares = near.shares;
+            (near.distance, (near.outward + turned(0) + turned(1)).normalize_or(near.outward))
+        };
+        let (mut distance, mut outward) = match root.region {
+            Region::Scalp => seek(next),
             // Lids and brows move in the head's frame, and their hair is short: the plane of the skin says
             // it.
             _ => ((next - start).dot(normal), normal),
         };
         let least = margin * (4.0 * t).min(1.0) + lift * (3.0 * t).min(1.0);
-        next += outward * (least - distance.min(distance * DEEPER)).max(0.0);
+        let push = |distance: f32| (least - distance.min(distance * DEEPER)).max(0.0);
+        next += outward * push(distance);
+        // Deep inside, the direction outward is inexact: once more from the new place.
+        let again = (-distance / margin - 1.0).clamp(0.0, 1.0);
+        if again > 0.0 && root.region == Region::Scalp {
+            let (from_there, direction) = seek(next);
+            next += direction * (push(from_there) * again);
+            distance += (from_there - distance) * again;
+            outward = (outward + (direction - outward) * again).normalize_or(outward);
+        }
         // Pushed back, the segment keeps its length by what leads along the skin: as far out as it is, it has
         // to stay. It may get shorter, since at its full length it would be inside again.
         let out = outward * (next - before).dot(outward);

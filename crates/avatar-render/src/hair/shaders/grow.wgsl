@@ -3,6 +3,21 @@
 // Per strand its points with their height above the skin in w, then the normal of the skin at the root.
 @group(0) @binding(3) var<storage, read_write> points: array<vec4f>;
 
+// The field at a place. Where the skin moves with other bones, it is read at the bind pose of the place, with
+// the shares of the place before.
+fn skin_at(grid: FieldGrid, other_0: Bone, other_1: Bone, place: vec3f, shares: vec2f) -> Near {
+    var near = field_at(grid, place + moved(other_0, place) * shares.x + moved(other_1, place) * shares.y);
+    let turned_0 = turned_back(other_0, near.outward) * near.shares.x;
+    let turned_1 = turned_back(other_1, near.outward) * near.shares.y;
+    near.outward = normalize_or(near.outward + turned_0 + turned_1, vec3f(0.0, 1.0, 0.0));
+    return near;
+}
+
+// How far a place at this distance from the skin is to go.
+fn push(distance: f32, least: f32) -> f32 {
+    return max(least - min(distance, distance * DEEPER), 0.0);
+}
+
 @compute @workgroup_size(GROW_WORKGROUP_SIZE)
 fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     let number = id.x;
@@ -72,12 +87,7 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
             let share = saturate(2.0 - length(toward) * per_lock_reach);
             next += toward * (style.clump * t * share);
         }
-        // Where the skin moves with other bones, the field is read at the bind pose of the place, with the
-        // shares of the point before.
-        skin = field_at(grid, next + moved(other_0, next) * skin.shares.x + moved(other_1, next) * skin.shares.y);
-        let turned_0 = turned_back(other_0, skin.outward) * skin.shares.x;
-        let turned_1 = turned_back(other_1, skin.outward) * skin.shares.y;
-        skin.outward = normalize_or(skin.outward + turned_0 + turned_1, vec3f(0.0, 1.0, 0.0));
+        skin = skin_at(grid, other_0, other_1, next, skin.shares);
         if root.region != SCALP {
             // Lids and brows move in the head's frame, and their hair is short: the plane of the skin at the
             // root takes the place of the field.
@@ -85,7 +95,16 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
             skin.distance = dot(next - start, normal);
         }
         let least = margin * min(4.0 * t, 1.0) + lift * min(3.0 * t, 1.0);
-        next += skin.outward * max(least - min(skin.distance, skin.distance * DEEPER), 0.0);
+        next += skin.outward * push(skin.distance, least);
+        // Deep inside, the direction outward is inexact: once more from the new place.
+        let again = saturate(-skin.distance / margin - 1.0);
+        if again > 0.0 && root.region == SCALP {
+            let there = skin_at(grid, other_0, other_1, next, skin.shares);
+            next += there.outward * (push(there.distance, least) * again);
+            skin.distance = mix(skin.distance, there.distance, again);
+            skin.outward = normalize_or(mix(skin.outward, there.outward, again), skin.outward);
+            skin.shares = there.shares;
+        }
         // A segment that is pushed out of the skin keeps its length by what leads along the skin, since it
         // has to stay as far out as it is. It may get shorter: at its full length it would end inside again.
         let out_part = skin.outward * dot(next - before, skin.outward);
