@@ -101,17 +101,28 @@ fn iris_colored(color: vec3f, uv: vec2f) -> vec3f {
 // Colour and opacity of a part of a face: the texture of a pack lies over the material's own colour, that
 // of an interchange file is multiplied by it.
 fn part_color(uv: vec2f) -> vec4f {
-    let below = vec4f(material.color, material.opacity);
     if (material.textures & COLOR_TEXTURE) == 0u {
-        return vec4f(toned(below.rgb), below.a);
+        return bare_color();
     }
-    let texel = textureSample(color_texture, color_sampler, uv);
+    return painted_color(uv, textureSample(color_texture, color_sampler, uv));
+}
+
+fn bare_color() -> vec4f {
+    return vec4f(toned(material.color), material.opacity);
+}
+
+fn painted_color(uv: vec2f, texel: vec4f) -> vec4f {
+    let below = vec4f(material.color, material.opacity);
     let is_from_file = (material.textures & FROM_FILE) != 0u;
     let color = select(mix(below, vec4f(texel.rgb, 1.0), texel.a), below * texel, is_from_file);
     return vec4f(iris_colored(toned(color.rgb), uv), color.a);
 }
 
 fn surface_at(in: VertexOut, uv: vec2f, is_front: bool) -> Surface {
+    return surface_of(in, uv, part_color(uv), is_front);
+}
+
+fn surface_of(in: VertexOut, uv: vec2f, color: vec4f, is_front: bool) -> Surface {
     var surface: Surface;
     surface.position = in.position_world;
     surface.view = normalize(frame.eye_world - in.position_world);
@@ -120,7 +131,6 @@ fn surface_at(in: VertexOut, uv: vec2f, is_front: bool) -> Surface {
     let relief = relief_normal(in.position_world, uv, surface.smooth_normal);
     let groove = groove_at(in.position_world, uv, surface.smooth_normal, relief, in.wrinkled);
     surface.normal = groove.normal;
-    let color = part_color(uv);
     surface.color = color.rgb * mix(vec3f(1.0), GROOVE_COLOR, groove.depth);
     surface.opacity = color.a;
     surface.occlusion = 1.0;
