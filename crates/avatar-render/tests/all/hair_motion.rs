@@ -153,7 +153,7 @@ fn hair_that_swings_stays_outside_of_the_head() {
                     deep += usize::from(depth > 0.005);
                 }
             }
-            // A tip can be caught where the neck turns below an ear: the field is that of the bind pose.
+            // A tip is caught at times where the neck turns below an ear, as the field has the bind pose.
             assert!(deep <= 2, "frame {frame}: {deep} points are deeper than they may be");
         }
     }
