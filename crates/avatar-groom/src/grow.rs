@@ -139,13 +139,12 @@ pub(crate) fn grow_to(
             _ => ((next - start).dot(normal), normal),
         };
         let least = margin * (4.0 * t).min(1.0) + lift * (3.0 * t).min(1.0);
-        let push = |distance: f32| (least - distance.min(distance * DEEPER)).max(0.0);
-        next += outward * push(distance);
+        next += outward * (least - distance.min(distance * DEEPER)).max(0.0);
         // Deep inside, the direction outward is inexact: once more from the new place.
         let again = (-distance / margin - 1.0).clamp(0.0, 1.0);
         if again > 0.0 && root.region == Region::Scalp {
             let (from_there, direction) = seek(next);
-            next += direction * (push(from_there) * again);
+            next += direction * ((least - from_there).max(0.0) * again);
             distance += (from_there - distance) * again;
             outward = (outward + (direction - outward) * again).normalize_or(outward);
         }

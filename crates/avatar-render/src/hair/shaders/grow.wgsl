@@ -13,11 +13,6 @@ fn skin_at(grid: FieldGrid, other_0: Bone, other_1: Bone, place: vec3f, shares: 
     return near;
 }
 
-// How far a place at this distance from the skin is to go.
-fn push(distance: f32, least: f32) -> f32 {
-    return max(least - min(distance, distance * DEEPER), 0.0);
-}
-
 @compute @workgroup_size(GROW_WORKGROUP_SIZE)
 fn grow_main(@builtin(global_invocation_id) id: vec3u) {
     let number = id.x;
@@ -95,12 +90,12 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
             skin.distance = dot(next - start, normal);
         }
         let least = margin * min(4.0 * t, 1.0) + lift * min(3.0 * t, 1.0);
-        next += skin.outward * push(skin.distance, least);
+        next += skin.outward * max(least - min(skin.distance, skin.distance * DEEPER), 0.0);
         // Deep inside, the direction outward is inexact: once more from the new place.
         let again = saturate(-skin.distance / margin - 1.0);
         if again > 0.0 && root.region == SCALP {
             let there = skin_at(grid, other_0, other_1, next, skin.shares);
-            next += there.outward * (push(there.distance, least) * again);
+            next += there.outward * (max(least - there.distance, 0.0) * again);
             skin.distance = mix(skin.distance, there.distance, again);
             skin.outward = normalize_or(mix(skin.outward, there.outward, again), skin.outward);
             skin.shares = there.shares;
