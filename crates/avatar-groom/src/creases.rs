@@ -5,7 +5,7 @@ use crate::grid::{Grid, Nearest};
 /// Below the skin by more than so many cells no crease reaches.
 const DEEPEST: f32 = 3.0;
 /// By how much less creases are filled, in cells: the surface of the ball's reach is known from single places
-/// on it, so that all that is convex would become a little thicker.
+/// on it, so all that is convex would become a little thicker. Found by trial.
 const LEAST: f32 = 0.65;
 /// How thick the layer of places is, in cells, from which the surface of the ball's reach is known.
 const LAYER: f32 = 2.0;
