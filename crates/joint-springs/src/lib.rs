@@ -15,7 +15,7 @@
 //! [`Swing`] computes springs at fixed moments, [`TICKS_PER_SEC`] of them a second, whatever the frames are;
 //! where the skeleton was at these moments is found by a parabola through the last three frames. A frame
 //! between two moments shows a step of a part of that length. So frames of 24 and 144 Hz differ by the
-//! error of that parabola only.
+//! error of that parabola only: the README has figures, which grow with how fast the skeleton moves.
 //!
 //! # Example
 //!
