@@ -1,10 +1,12 @@
 //! What a living face costs in a frame.
 
-#![allow(missing_docs, reason = "a program")]
+#![allow(missing_docs, clippy::unwrap_used, reason = "a program")]
+
+#[path = "../tests/all/face.rs"]
+mod face;
 
 use avatar_life::{Life, Style, Target};
 use divan::{Bencher, black_box, counter::ItemsCount};
-use pose_anim::{Control, ControlTable, Drive, Pace};
 
 const DT_SECS: f64 = 1.0 / 60.0;
 const FACES: usize = 1000;
@@ -13,26 +15,10 @@ fn main() {
     divan::main();
 }
 
-/// The nine-joint face, and the shapes of brows and nose that life moves.
-fn controls() -> ControlTable {
-    let shapes = ["browInnerUp", "browOuterUpLeft", "browOuterUpRight", "browDownLeft", "browDownRight"];
-    let more = shapes.into_iter().chain(["noseSneerLeft", "noseSneerRight"]).map(|name| Control {
-        name: name.to_owned(),
-        drives: Drive::Shape { shape: name.to_owned() },
-        min: 0.0,
-        max: 1.0,
-        default: 0.0,
-        pace: Pace::SHAPE,
-        group: None,
-    });
-    let table = ControlTable::default_face();
-    ControlTable::new(table.controls().iter().cloned().chain(more).collect()).unwrap_or_default()
-}
-
 /// Time and values of a thousand faces, each with a seed of its own.
 #[divan::bench(args = ["ahead", "moving target"])]
 fn thousand_faces(bencher: Bencher<'_, '_>, looking: &str) {
-    let controls = controls();
+    let controls = face::full();
     let mut faces: Vec<Life> = (0..FACES)
         .map(|seed| Life::new(&controls, Style::preset("lively").unwrap_or_default(), seed as u64))
         .collect();

@@ -5,8 +5,9 @@ use crate::chance::{Chance, Stream};
 use crate::curves::step;
 use crate::parameters as p;
 
-/// How many blinks may be under way at once.
-const MOST: usize = 4;
+/// How many blinks may be under way at once: the slowest take 1.84 s, wishes are 0.32 s apart, and one in
+/// between may be a double.
+const MOST: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
 struct Blink {
@@ -102,7 +103,6 @@ impl Blinks {
             open: slow * chance.between(p::OPEN_SECS[0], p::OPEN_SECS[1]),
             depth,
         };
-        // There is room: starts are further apart than a fourth of the longest blink.
         if let Some(slot) = self.active.iter_mut().find(|slot| slot.end() <= now) {
             *slot = blink;
         }

@@ -1,6 +1,7 @@
 //! Life by the names of an avatar's controls.
 
-use crate::common::{full, shapes};
+use crate::common::shapes;
+use crate::face::full;
 use avatar_life::{Amounts, Life, Style};
 use pose_anim::ControlTable;
 

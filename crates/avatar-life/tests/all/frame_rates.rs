@@ -1,9 +1,10 @@
 //! The same at every frame rate.
 
-use crate::common::{Random, full};
+use crate::common::Random;
+use crate::face::full;
 use avatar_life::{Life, Style, Target};
 
-/// Five minutes with a change every ten seconds; values at each of these moments and half way between.
+/// Five minutes with a change every five seconds; values before each of the next ones.
 fn values(steps: &mut dyn FnMut() -> f64) -> Vec<f64> {
     let controls = full();
     let mut life = Life::new(&controls, Style::preset("lively").unwrap(), 21);

@@ -4,6 +4,7 @@
 
 mod common;
 mod controls;
+mod face;
 mod frame_rates;
 mod smooth;
 mod statistics;

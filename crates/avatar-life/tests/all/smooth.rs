@@ -1,6 +1,7 @@
 //! Values are twice continuously differentiable, and within their ranges.
 
-use crate::common::{Random, full};
+use crate::common::Random;
+use crate::face::full;
 use avatar_life::{Amounts, Life, Style, Target};
 use pose_anim::{LayerMode, Layers, PoseSet};
 

@@ -1,6 +1,6 @@
 //! An hour of life against the ranges of the literature (named in src/parameters.rs).
 
-use crate::common::full;
+use crate::face::full;
 use avatar_life::{Life, Saccade, Style, Target};
 
 const HOUR_SECS: f64 = 3600.0;

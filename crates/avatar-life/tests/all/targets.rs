@@ -1,6 +1,6 @@
 //! Eyes that look at targets.
 
-use crate::common::full;
+use crate::face::full;
 use avatar_life::{Amounts, Life, Style, Target};
 
 /// Always on the target, with nothing else going on.
