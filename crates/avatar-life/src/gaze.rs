@@ -194,7 +194,8 @@ impl Gaze {
         let (here, there) = (self.anchor.degrees(now), to.degrees(now));
         let degrees = libm::hypot(there[0] - here[0], there[1] - here[1]);
         // No two people, and no two saccades, are quite the same.
-        let secs = (p::SACCADE_SECS + p::SACCADE_SECS_PER_DEGREE * degrees) * chance.between(0.93, 1.07);
+        let secs = (p::SACCADE_SECS + p::SACCADE_SECS_PER_DEGREE * degrees)
+            * chance.between(p::SACCADE_VARIATION[0], p::SACCADE_VARIATION[1]);
         let speed = p::SACCADE_SPEED * (1.0 - libm::exp(-degrees / p::SACCADE_DEGREES));
         let peak = if degrees > 1e-9 { (speed * secs / degrees).clamp(1.2, 1.95) } else { 1.5 };
         let stay = chance.log_normal(mean_secs, p::FIXATION_SPREAD).max(p::FIXATION_LEAST_SECS);
@@ -216,7 +217,7 @@ impl Gaze {
         let stay = style.fixation_secs;
         let side = |chance: &mut Chance| if chance.happens(0.5) { 1.0 } else { -1.0 };
         let metres = |chance: &mut Chance| chance.between(p::GLANCE_METRES[0], p::GLANCE_METRES[1]);
-        if chance.happens(0.85 * self.thinking) {
+        if chance.happens(p::AVERT_MOST * self.thinking) {
             let yaw = side(chance) * chance.between(p::AVERT_SIDE[0], p::AVERT_SIDE[1]);
             let pitch = match chance.happens(p::AVERT_IS_UP) {
                 true => chance.between(p::AVERT_UP[0], p::AVERT_UP[1]),
@@ -247,12 +248,11 @@ impl Gaze {
         let [yaw, pitch, _] = self.anchor.degrees(now);
         let away = chance.exponential(style.glance_degrees).min(p::GLANCE_MOST);
         let angle = std::f64::consts::TAU * chance.share();
-        // From where the eyes are, but half of the way back to the middle first.
-        let yaw = (0.5 * yaw + away * libm::cos(angle)).clamp(-p::GLANCE_MOST, p::GLANCE_MOST);
+        let yaw = (p::GLANCE_BACK * yaw + away * libm::cos(angle)).clamp(-p::GLANCE_MOST, p::GLANCE_MOST);
         let upright = p::GLANCE_UPRIGHT;
-        let pitch = 0.5 * pitch + upright * away * libm::sin(angle);
+        let pitch = p::GLANCE_BACK * pitch + upright * away * libm::sin(angle);
         let pitch = pitch.clamp(-upright * p::GLANCE_MOST, upright * p::GLANCE_MOST);
-        (Anchor::toward(yaw, pitch, metres(chance)), None, 0.8 * stay)
+        (Anchor::toward(yaw, pitch, metres(chance)), None, p::GLANCE_STAY * stay)
     }
 
     /// The head is asked again at `next_head`: it follows what moves.
@@ -293,7 +293,9 @@ impl Gaze {
         let angle = std::f64::consts::TAU * chance.share();
         let by = [libm::cos(angle) - 2.0 * here[0], 0.6 * libm::sin(angle) - 2.0 * here[1]];
         let length = libm::hypot(by[0], by[1]).max(1e-9);
-        let degrees = chance.log_normal(0.25, 0.4).clamp(p::MICRO_DEGREES[0], p::MICRO_DEGREES[1]);
+        let degrees = chance
+            .log_normal(p::MICRO_MEAN_DEGREES, p::MICRO_SPREAD)
+            .clamp(p::MICRO_DEGREES[0], p::MICRO_DEGREES[1]);
         let secs = p::SACCADE_SECS + p::SACCADE_SECS_PER_DEGREE * degrees;
         self.micro.add(now, now, secs, by.map(|by| by * degrees / length));
     }

@@ -17,7 +17,8 @@
 //!   less, and the eyes turn back against it.
 //! - **Breath, sway, brows and pupils** move slowly.
 //!
-//! All numbers, and the literature that they come from, are in `src/parameters.rs`.
+//! The numbers of human behaviour, and the literature that they come from where there is some, are in
+//! `src/parameters.rs`.
 //!
 //! Everything that happens has a time and random numbers of its own, which depend on the seed and on its
 //! number only, and all motion is a formula of time since then: so a face does the same at every frame rate,

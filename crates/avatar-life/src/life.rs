@@ -204,12 +204,12 @@ impl Life {
         let sway = sway * sway_degrees;
 
         let head_turn = head * after[0] + sway * turn;
-        let head_up = head * after[1] + 0.7 * sway * bow + p::BREATH_HEAD * air;
+        let head_up = head * after[1] + p::SWAY_NOD * sway * bow + p::BREATH_HEAD * air;
         // Eyes keep on what they look at while the head moves.
         let eye_yaw = gaze * (yaw - head_turn) + micro * jumps[0];
         let eye_pitch = gaze * (pitch - head_up) + micro * jumps[1] - p::BLINK_EYES_DOWN * blinks * blink;
         let half = gaze * 0.5 * inward + p::BLINK_EYES_IN * blinks * blink;
-        let raised = brows * p::BROW_PER_DEGREE * positive(pitch - 6.0, 4.0);
+        let raised = brows * p::BROW_PER_DEGREE * positive(pitch - p::BROW_FROM_DEGREES, 4.0);
         let brow = |motion: f64| brows * p::BROW_WEIGHT * 2.0 * motion + raised;
 
         use Channel::*;
@@ -222,8 +222,9 @@ impl Life {
         put(HeadBow, -head_up);
         put(HeadBend, sway * bend);
         put(BrowsInner, brow(inner));
-        put(BrowLeft, brow(0.7 * inner + 0.3 * left));
-        put(BrowRight, brow(0.7 * inner + 0.3 * right));
+        let outer = |own: f64| brow(p::BROW_OUTER[0] * inner + p::BROW_OUTER[1] * own);
+        put(BrowLeft, outer(left));
+        put(BrowRight, outer(right));
         put(Breath, air);
         let wide = self.pupils.value(now) + p::PUPIL_UNREST * unrest;
         let in_room = self.pupils.in_room();

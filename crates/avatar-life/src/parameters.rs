@@ -1,4 +1,5 @@
-//! All numbers of human behaviour, with where they come from.
+//! The numbers of human behaviour, with where they come from. Numbers with no work beside them are
+//! judgements of this project.
 //!
 //! - Andrist, Mutlu & Gleicher 2013, *Conversational gaze aversion for virtual agents*.
 //! - Argyle & Cook 1976, *Gaze and mutual gaze*: listeners look at who speaks 75 % of the time, speakers
@@ -23,7 +24,7 @@
 //! - Robinson 1965, *The mechanics of human smooth pursuit eye movement*.
 //! - Stern, Boyer & Schroeder 1994, *Blink rate: a possible measure of fatigue*.
 //! - Tobin et al. 1983, *Breathing patterns: normal subjects*: about 17 breaths a minute, the way in about
-//!   0.4 of the time.
+//!   0.4 of the time. The presets breathe a little more slowly.
 //! - Zee, Fitzgibbon & Optican 1992, *Saccade-vergence interactions in humans*.
 
 /// How much of each part is shown, from 0 (not at all) to 1. What is out of this range is taken as its end,
@@ -178,21 +179,21 @@ impl Style {
 
     /// The same with every number in the range that makes sense; NaN is the calm style's.
     pub(crate) fn sound(self) -> Self {
-        let within = |number: f64, calm: f64, least: f64, most: f64| match number.is_nan() {
-            true => calm,
-            false => number.clamp(least, most),
+        let within = |number: fn(&Self) -> f64, least: f64, most: f64| match number(&self).is_nan() {
+            true => number(&CALM),
+            false => number(&self).clamp(least, most),
         };
         Self {
-            blinks_per_min: within(self.blinks_per_min, CALM.blinks_per_min, 0.1, 60.0),
-            blink_slowness: within(self.blink_slowness, CALM.blink_slowness, 0.3, 5.0),
-            droop: within(self.droop, CALM.droop, 0.0, 1.0),
-            fixation_secs: within(self.fixation_secs, CALM.fixation_secs, 0.1, 60.0),
-            contact: within(self.contact, CALM.contact, 0.0, 1.0),
-            glance_degrees: within(self.glance_degrees, CALM.glance_degrees, 0.1, 30.0),
-            head_share: within(self.head_share, CALM.head_share, 0.0, 1.0),
-            sway_degrees: within(self.sway_degrees, CALM.sway_degrees, 0.0, 10.0),
-            breaths_per_min: within(self.breaths_per_min, CALM.breaths_per_min, 1.0, 60.0),
-            breath_depth: within(self.breath_depth, CALM.breath_depth, 0.0, 2.0),
+            blinks_per_min: within(|style| style.blinks_per_min, 0.1, 60.0),
+            blink_slowness: within(|style| style.blink_slowness, 0.3, 5.0),
+            droop: within(|style| style.droop, 0.0, 1.0),
+            fixation_secs: within(|style| style.fixation_secs, 0.1, 60.0),
+            contact: within(|style| style.contact, 0.0, 1.0),
+            glance_degrees: within(|style| style.glance_degrees, 0.1, 30.0),
+            head_share: within(|style| style.head_share, 0.0, 1.0),
+            sway_degrees: within(|style| style.sway_degrees, 0.0, 10.0),
+            breaths_per_min: within(|style| style.breaths_per_min, 1.0, 60.0),
+            breath_depth: within(|style| style.breath_depth, 0.0, 2.0),
             ..self
         }
     }
@@ -242,6 +243,8 @@ pub(crate) const SACCADE_SECS: f64 = 0.021;
 pub(crate) const SACCADE_SECS_PER_DEGREE: f64 = 0.0022;
 pub(crate) const SACCADE_SPEED: f64 = 550.0;
 pub(crate) const SACCADE_DEGREES: f64 = 7.0;
+/// Saccades of one size take between these shares of that time.
+pub(crate) const SACCADE_VARIATION: [f64; 2] = [0.93, 1.07];
 
 /// Spread of the logarithm of fixation times, and the shortest (Rayner 1998; Henderson 2003).
 pub(crate) const FIXATION_SPREAD: f64 = 0.5;
@@ -259,6 +262,9 @@ pub(crate) const PUPILS_APART: f64 = 0.063;
 /// Degrees of glances are at most this; up and down are this share of sideways.
 pub(crate) const GLANCE_MOST: f64 = 28.0;
 pub(crate) const GLANCE_UPRIGHT: f64 = 0.55;
+/// A glance elsewhere starts from this share of where the eyes are, and stays for this share of a fixation.
+pub(crate) const GLANCE_BACK: f64 = 0.5;
+pub(crate) const GLANCE_STAY: f64 = 0.8;
 /// Metres to someone who is talked to, where no target says where that is.
 pub(crate) const PARTNER_METRES: f64 = 1.2;
 /// Metres at which a glance to nowhere ends.
@@ -269,12 +275,16 @@ pub(crate) const AVERT_UP: [f64; 2] = [4.0, 15.0];
 pub(crate) const AVERT_DOWN: [f64; 2] = [8.0, 18.0];
 pub(crate) const AVERT_IS_UP: f64 = 0.7;
 pub(crate) const AVERT_SECS: f64 = 1.4;
+/// Share of gaze shifts that are looks away while somebody thinks in full.
+pub(crate) const AVERT_MOST: f64 = 0.85;
 
-/// Mean seconds between micro-saccades: 1 to 2 a second (Martinez-Conde et al. 2004), the shortest time, and
-/// their degrees.
+/// Mean seconds between micro-saccades: 1 to 2 a second (Martinez-Conde et al. 2004), the shortest time, the
+/// range of their degrees, the mean of these, and the spread of their logarithm.
 pub(crate) const MICRO_SECS: f64 = 0.65;
 pub(crate) const MICRO_LEAST_SECS: f64 = 0.2;
 pub(crate) const MICRO_DEGREES: [f64; 2] = [0.1, 0.5];
+pub(crate) const MICRO_MEAN_DEGREES: f64 = 0.25;
+pub(crate) const MICRO_SPREAD: f64 = 0.4;
 
 /// Head: share of small angles, and from which angle the style's own share acts (Stahl 1999: within about 18
 /// degrees the eyes go mostly alone); seconds after the eyes, and of a movement, by degrees (Freedman 2008).
@@ -291,6 +301,8 @@ pub(crate) const HEAD_AGAIN_SECS: f64 = 0.4;
 pub(crate) const KNOT_SECS: [f64; 2] = [1.9, 0.63];
 /// Share of the fast half.
 pub(crate) const FAST_SHARE: f64 = 0.25;
+/// The head nods by this share of what it turns by.
+pub(crate) const SWAY_NOD: f64 = 0.7;
 
 /// Spread of the logarithm of a breath's duration and depth, and shares of the breath in and out (Tobin et
 /// al. 1983).
@@ -302,9 +314,12 @@ pub(crate) const BREATH_HEAD: f64 = 0.7;
 pub(crate) const BREATH_NOSTRILS: f64 = 0.07;
 pub(crate) const BREATH_SHOULDERS: f64 = 0.5;
 
-/// Weight of the small motions of brows, and by degree that the eyes look up.
+/// Weight of the small motions of brows; weight for each degree that the eyes look up beyond some, and how
+/// many these are; shares of the inner brows' motion and of their own in that of the outer ones.
 pub(crate) const BROW_WEIGHT: f64 = 0.12;
 pub(crate) const BROW_PER_DEGREE: f64 = 0.012;
+pub(crate) const BROW_FROM_DEGREES: f64 = 6.0;
+pub(crate) const BROW_OUTER: [f64; 2] = [0.7, 0.3];
 /// Degrees of lids for each degree that the eyes look up, where the avatar does not couple them.
 pub(crate) const UPPER_LID_PER_DEGREE: f64 = -0.3;
 pub(crate) const LOWER_LID_PER_DEGREE: f64 = 0.12;

@@ -88,17 +88,15 @@ impl Wiring {
         for name in ["noseSneerLeft", "noseSneerRight"] {
             wiring.add(controls, name, all(Breath, p::BREATH_NOSTRILS));
         }
+        let range = |name: &str| controls.index(name).and_then(|index| controls.controls().get(index));
         for name in ["breath", "chest.breath", "shoulders.up", "shoulder.left.up", "shoulder.right.up"] {
-            if let Some(range) = controls.index(name).and_then(|index| controls.controls().get(index)) {
-                wiring.add(
-                    controls,
-                    name,
-                    all(Breath, p::BREATH_SHOULDERS * f64::from(range.max - range.default)),
-                );
+            if let Some(range) = range(name) {
+                let factor = p::BREATH_SHOULDERS * f64::from(range.max - range.default);
+                wiring.add(controls, name, all(Breath, factor));
             }
         }
         for name in ["pupil", "pupils", "pupil.left", "pupil.right", "pupilDilateLeft", "pupilDilateRight"] {
-            if let Some(range) = controls.index(name).and_then(|index| controls.controls().get(index)) {
+            if let Some(range) = range(name) {
                 wiring.add(controls, name, all(Pupils, f64::from(range.max - range.min)));
             }
         }

@@ -141,3 +141,23 @@ fn lids_follow_the_eyes_once() {
     let (left, right) = moved(&without);
     assert!(left < -1.0 && left == right, "{left} {right}");
 }
+
+/// Shoulders rise by half of their range with a breath, and pupils widen in the dark from 2.908 mm to 6.892 mm
+/// (Moon & Spencer 1944), which is that share of 6 mm, the whole range.
+#[test]
+fn shoulders_and_pupils_move_where_there_are_some() {
+    let names = ["breath", "chest.breath", "shoulders.up", "shoulder.left.up", "shoulder.right.up"];
+    for (name, most) in names.iter().zip(most(&shapes(&names))) {
+        assert!((0.4..0.75).contains(&most), "{name}: {most}");
+    }
+    let names = ["pupil", "pupils", "pupil.left", "pupil.right", "pupilDilateLeft", "pupilDilateRight"];
+    let controls = shapes(&names);
+    let mut life = Life::new(&controls, Style::default(), 1);
+    life.set_light(0.01);
+    life.advance(5.0).unwrap();
+    for (control, name) in names.iter().enumerate() {
+        // Pupils are never quite still: they go to and fro by 0.15 mm.
+        let (found, expected) = (life.value(control, 0.0), (6.892 - 2.908) / 6.0);
+        assert!((found - expected).abs() < 0.15 / 6.0 + 1e-3, "{name}: {found} for {expected}");
+    }
+}

@@ -1,7 +1,7 @@
 //! An hour of life against the ranges of the literature (named in src/parameters.rs).
 
 use crate::face::full;
-use avatar_life::{Life, Saccade, Style, Target};
+use avatar_life::{Amounts, Life, Saccade, Style, Target};
 
 const HOUR_SECS: f64 = 3600.0;
 
@@ -156,8 +156,8 @@ fn fixations(style: &Style, hour: &Hour) {
     assert!((1.5..4.0).contains(&(quantile(&times, 0.95) / middle)), "{name}");
 }
 
-/// Martinez-Conde et al. 2004: 1 to 2 micro-saccades a second. Breaths: 12 to 16 a minute at rest, somewhat
-/// more where somebody is tense.
+/// Martinez-Conde et al. 2004: 1 to 2 micro-saccades a second. Breaths: 12.5 to 16 a minute by preset,
+/// a little slower than the 17 of Tobin et al. 1983.
 fn small_and_slow(style: &Style, hour: &Hour) {
     let name = style.name;
     let rate = hour.micro as f64 / HOUR_SECS;
@@ -221,4 +221,63 @@ fn listeners_look_at_who_speaks_and_thinkers_away() {
     assert!((0.72..0.97).contains(&listening), "{listening}");
     let thinking = share(Style::default(), 1.0);
     assert!(thinking < 0.3, "{thinking}");
+}
+
+/// Eyes move as [`Life::latest_saccade`] says: as far, and at that speed at the fastest, `550 (1 − e^(−A/7))`
+/// degrees a second for A degrees (the form of Bahill, Clark & Stark 1975).
+#[test]
+fn eyes_move_as_saccades_say() {
+    const STEP_SECS: f64 = 2e-4;
+    let controls = full();
+    let amounts = Amounts { gaze: 1.0, ..Amounts::NONE };
+    let mut life = Life::new(&controls, Style { amounts, ..Style::preset("lively").unwrap() }, 3);
+    let sight = |life: &Life| {
+        let [left, right] = life.eyes();
+        [0.5 * (left[0] + right[0]), left[1]]
+    };
+    let between = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
+    let (mut before, mut checked) = (sight(&life), 0);
+    // The saccade under way, where it began, and its fastest step.
+    let mut way: Option<(Saccade, [f64; 2], f64)> = None;
+    for step in 1..=(120.0 / STEP_SECS) as u64 {
+        life.advance(STEP_SECS).unwrap();
+        let here = sight(&life);
+        let latest = life.latest_saccade();
+        if let Some(saccade) = latest.filter(|latest| way.is_none_or(|(saccade, ..)| saccade != *latest)) {
+            way = Some((saccade, before, 0.0));
+        }
+        if let Some((saccade, from, fastest)) = &mut way {
+            *fastest = fastest.max(between(before, here) / STEP_SECS);
+            let now = step as f64 * STEP_SECS;
+            let end = saccade.start_secs + saccade.duration_secs;
+            if (end..end + STEP_SECS).contains(&now) && saccade.degrees > 0.5 {
+                let formula = 550.0 * (1.0 - (-saccade.degrees / 7.0).exp());
+                assert!((*fastest / formula - 1.0).abs() < 0.01, "{saccade:?}: {fastest} for {formula}");
+                assert!((between(*from, here) / saccade.degrees - 1.0).abs() < 0.01, "{saccade:?}");
+                checked += 1;
+            }
+        }
+        before = here;
+    }
+    assert!(checked > 100, "{checked}");
+}
+
+/// Blinks often come at the end of an utterance: in 0.7 of them, and hardly ever by chance in that moment.
+#[test]
+fn blinks_come_at_the_end_of_utterances() {
+    let controls = full();
+    let [mut told, mut untold] = [0u64; 2];
+    for seed in 0..400 {
+        let mut life = Life::new(&controls, Style::default(), seed);
+        // No face begins with a blink.
+        life.advance(0.5).unwrap();
+        let mut other = life.clone();
+        life.end_utterance();
+        for (life, count) in [(&mut life, &mut told), (&mut other, &mut untold)] {
+            life.advance(0.05).unwrap();
+            *count += life.counts().blinks;
+        }
+    }
+    let [told, untold] = [told, untold].map(|count| count as f64 / 400.0);
+    assert!((told - 0.7).abs() < 0.1 && untold < 0.1, "{told} {untold}");
 }

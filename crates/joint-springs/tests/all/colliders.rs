@@ -36,7 +36,8 @@ fn kept_out(shape: Shape, left: f32, depth: impl Fn(Vec3) -> f32) {
     for law in LAWS {
         let deepest = |shape| tails(law, shape).into_iter().map(&depth).fold(f32::MIN, f32::max);
         assert!(deepest(nothing) > 0.05, "{law:?}: nothing to bump against");
-        // The root turns by 6 radians a second at most: by 0.1 in a tick.
+        // The root turns by 6 radians a second at most, by 0.1 in a tick: a depth from which a tail is
+        // pushed out is about that at most.
         let allowed = (0.1 * left).min(0.02);
         assert!(deepest(shape) < allowed, "{law:?} is {} in {shape:?}, not {allowed}", deepest(shape));
     }
