@@ -1,7 +1,7 @@
 // Lets wlipsync and @met4citizen/headaudio hear what `hearing-trainer --table` measures.
 //
-//   npm install wlipsync @met4citizen/headaudio    (in a folder of your own)   node compare.mjs
-// THAT_FOLDER/node_modules DATA
+//   npm install --prefix OTHERS wlipsync @met4citizen/headaudio
+//   node compare.mjs OTHERS/node_modules DATA
 //
 // Writes NAME.headaudio and NAME.wlipsync beside each sound of DATA (what speak.py made): a time in seconds
 // and the number of the viseme heard from then on, a line each. Both run outside of a browser, on samples of
@@ -10,7 +10,7 @@
 // HeadAudio has its own model (dist/model-en-mixed.bin), and its visemes are taken from its processor, before
 // its node loses "aa" (its number there is 0). wlipsync ships no profile: it is calibrated as its author
 // describes, on the very voices that our model is trained on, with twelve visemes (it has room for no more;
-// TH and RR, the rarest, are left out), and its default volume below which nobody speaks.
+// TH and RR are left out), and its default volume below which nobody speaks.
 import fs from "node:fs";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
@@ -23,6 +23,10 @@ const { Training } = await load("training.mjs");
 const OURS = ["sil", "PP", "FF", "TH", "DD", "kk", "CH", "SS", "nn", "RR", "aa", "E", "I", "O", "U"];
 const THEIRS = ["aa", "E", "I", "O", "U", "PP", "SS", "TH", "DD", "FF", "kk", "nn", "RR", "CH", "sil"];
 
+// Zeros of the resampling kernel on each side.
+const ZEROS = 8;
+
+/** The samples of a file at 16 kHz. */
 function wave(file) {
     const bytes = fs.readFileSync(file);
     const rate = bytes.readUInt32LE(24);
@@ -30,11 +34,17 @@ function wave(file) {
     const samples = new Float32Array(count);
     for (let i = 0; i < count; i++) samples[i] = bytes.readInt16LE(44 + 2 * i) / 32768;
     if (rate === 16000) return samples;
-    // Only for calibration: a straight line between samples is good enough there.
+    // The kernel of avatar-hearing's own resampler, so that all three hear the same sound.
+    const cut = 0.92 * Math.min(1, 16000 / rate), half = Math.ceil(ZEROS / cut);
     const out = new Float32Array(Math.floor((count * 16000) / rate));
     for (let i = 0; i < out.length; i++) {
-        const at = (i * rate) / 16000, low = Math.floor(at);
-        out[i] = samples[low] + (samples[Math.min(low + 1, count - 1)] - samples[low]) * (at - low);
+        const at = (i * rate) / 16000;
+        const from = Math.max(0, Math.floor(at) - half), to = Math.min(count - 1, Math.floor(at) + half + 1);
+        for (let j = from; j <= to; j++) {
+            const zeros = Math.abs(j - at) * cut;
+            const sinc = zeros === 0 ? 1 : Math.sin(Math.PI * zeros) / (Math.PI * zeros);
+            out[i] += samples[j] * cut * sinc * (0.5 + 0.5 * Math.cos(Math.PI * Math.min(1, zeros / ZEROS)));
+        }
     }
     return out;
 }

@@ -44,7 +44,7 @@ FINNISH = {"@": [AA], "a": [AA], "ae": [AA], "{": [AA], "oe": [OH], "2": [OH], "
 RUSSIAN = {"sch": [CH], "ch": [CH], "sh": [CH], "zh": [CH], "c": [SS], "ts": [SS], "kh": [KK], "h": [KK],
            "hh": [KK], "j": [IH], "y": [IH], "yy": [IH], "ae": [E], "e": [E], "ee": [E], "i": [IH], "ii": [IH],
            "o": [OH], "oo": [OH], "u": [OU], "uu": [OU], "a": [AA], "aa": [AA], "ay": [IH], "ur": [OU],
-           "er": [E], "ar": [AA], "ir": [IH], "ir": [IH], "jj": [IH]}
+           "er": [E], "ar": [AA], "ir": [IH], "jj": [IH]}
 SILENT = {"", "#", "_", "pau", "sil", "h#", "ssil", "##"}
 
 

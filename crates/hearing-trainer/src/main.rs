@@ -25,7 +25,7 @@ struct Arguments {
     #[arg(long, default_value = "crates/avatar-hearing/src/model.bin")]
     out: PathBuf,
     /// How often all sounds are heard.
-    #[arg(long, default_value_t = 14)]
+    #[arg(long, default_value_t = 9)]
     epochs: usize,
     /// Where chance begins.
     #[arg(long, default_value_t = 1)]

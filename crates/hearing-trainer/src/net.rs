@@ -209,7 +209,7 @@ fn learn(
         loss -= (row[*wanted] / sum).max(1e-9).ln();
         for (viseme, value) in row.iter_mut().enumerate() {
             let target = DOUBT / OUTPUTS as f32 + if viseme == *wanted { 1.0 - DOUBT } else { 0.0 };
-            *value = worth[*wanted] * (*value / sum - target) / wanted_count(inputs);
+            *value = worth[*wanted] * (*value / sum - target) / inputs.nrows() as f32;
         }
     }
     let back = |gradient: &Array2<f32>, layer: &Weights, values: &Array2<f32>| {
@@ -225,8 +225,4 @@ fn learn(
     layers[1].learn(&first.t().dot(&at_second), &at_second.sum_axis(Axis(0)), step, rate);
     layers[0].learn(&inputs.t().dot(&at_first), &at_first.sum_axis(Axis(0)), step, rate);
     (loss, right)
-}
-
-fn wanted_count(inputs: &Array2<f32>) -> f32 {
-    inputs.nrows() as f32
 }
