@@ -7,9 +7,12 @@ pub(crate) fn ease(x: f64) -> f64 {
 
 /// [`ease`] from a time to another one, which may be the same.
 pub(crate) fn ease_between(from: f64, to: f64, at: f64) -> f64 {
-    match to > from {
-        true => ease((at - from) / (to - from)),
-        false if at >= to => 1.0,
-        false => 0.0,
+    // Most movements are over, or have not begun: no division for these.
+    if at >= to {
+        1.0
+    } else if at > from {
+        ease((at - from) / (to - from))
+    } else {
+        0.0
     }
 }
