@@ -51,7 +51,8 @@ struct Wire {
     control: usize,
     source: Source,
     default: f64,
-    full: f64,
+    /// From the default to the maximum.
+    room: f64,
     /// Share by which lips that are held take away what the face does otherwise.
     yields: f64,
 }
@@ -66,11 +67,12 @@ pub struct SpeechMap {
 /// Visemes that one mouth stands for, each with its weight.
 type Shares = &'static [(Viseme, f64)];
 
-/// The mouths of VRM, by the names of their controls, and what they share in each viseme.
-const VRM: [(&[&str], Shares); 5] = [
-    (&["expression.aa", "expression.a"], &[(Viseme::Aa, 0.9), (Viseme::KK, 0.12), (Viseme::TH, 0.08)]),
+/// The mouths of VRM 1.0, by the names of their controls, and what they share in each viseme. Those of
+/// VRM 0.x have other names in their files, and these as controls.
+const VRM: [(&str, Shares); 5] = [
+    ("expression.aa", &[(Viseme::Aa, 0.9), (Viseme::KK, 0.12), (Viseme::TH, 0.08)]),
     (
-        &["expression.ih", "expression.i"],
+        "expression.ih",
         &[
             (Viseme::I, 0.75),
             (Viseme::SS, 0.4),
@@ -81,14 +83,16 @@ const VRM: [(&[&str], Shares); 5] = [
             (Viseme::TH, 0.25),
         ],
     ),
-    (&["expression.ou", "expression.u"], &[(Viseme::U, 0.9), (Viseme::CH, 0.45), (Viseme::RR, 0.4)]),
-    (&["expression.ee", "expression.e"], &[(Viseme::E, 0.75), (Viseme::SS, 0.15), (Viseme::DD, 0.1)]),
-    (&["expression.oh", "expression.o"], &[(Viseme::O, 0.85), (Viseme::RR, 0.12)]),
+    ("expression.ou", &[(Viseme::U, 0.9), (Viseme::CH, 0.45), (Viseme::RR, 0.4)]),
+    ("expression.ee", &[(Viseme::E, 0.75), (Viseme::SS, 0.15), (Viseme::DD, 0.1)]),
+    ("expression.oh", &[(Viseme::O, 0.85), (Viseme::RR, 0.12)]),
 ];
 
-/// Shapes that part the lips, which lips that are held have to overcome: how much of them is taken away.
-/// Measured on the built-in face, where all its poses leave less than 2 % of the mouth's width.
-const PARTING: [(&str, f64); 24] = [
+/// Controls that part the lips, beside [`VRM`]'s mouths, and the share of each that lips take away while they
+/// are held. What does nothing but part the lips goes entirely. The share of the smile was found on the
+/// built-in face, whose lips then close under all of its poses (`tests/tests/speech.rs` measures them). Those
+/// of VRM's expressions are guesses: each avatar has shapes of its own for them.
+const PARTING: [(&str, f64); 15] = [
     (face::JAW_OPEN, 1.0),
     ("jawOpen", 1.0),
     ("tongueOut", 1.0),
@@ -97,23 +101,22 @@ const PARTING: [(&str, f64); 24] = [
     ("mouthUpperUpRight", 1.0),
     ("mouthLowerDownLeft", 1.0),
     ("mouthLowerDownRight", 1.0),
-    (face::SMILE, 0.7),
     ("mouthOpen", 1.0),
+    (face::SMILE, 0.7),
     ("expression.happy", 0.7),
-    ("expression.joy", 0.7),
-    ("expression.fun", 0.7),
     ("expression.relaxed", 0.7),
     ("expression.angry", 0.7),
     ("expression.sad", 0.7),
-    ("expression.sorrow", 0.7),
     ("expression.surprised", 0.9),
-    ("expression.aa", 1.0),
-    ("expression.ih", 1.0),
-    ("expression.ou", 1.0),
-    ("expression.ee", 1.0),
-    ("expression.oh", 1.0),
-    ("mouthClose", 0.0),
 ];
+
+/// The share of a control that held lips take away.
+fn parting(name: &str) -> f64 {
+    if VRM.iter().any(|(mouth, _)| *mouth == name) {
+        return 1.0;
+    }
+    PARTING.iter().find(|(parting, _)| *parting == name).map_or(0.0, |(_, share)| *share)
+}
 
 /// The fewest shapes of a set that are enough to speak with.
 const ENOUGH_ARTICULATORS: usize = 5;
@@ -133,11 +136,8 @@ impl SpeechMap {
             .into_iter()
             .filter_map(|viseme| Some((viseme, controls.index(&format!("viseme_{}", viseme.name()))?)))
             .collect();
-        let vrm: Vec<_> = (VRM.iter())
-            .filter_map(|(names, visemes)| {
-                Some((*visemes, names.iter().find_map(|name| controls.index(name))?))
-            })
-            .collect();
+        let vrm: Vec<_> =
+            (VRM.iter()).filter_map(|(name, visemes)| Some((*visemes, controls.index(name)?))).collect();
         let jaw = of_articulator(controls, Articulator::JawOpen);
         let means = if articulators.len() >= ENOUGH_ARTICULATORS {
             for (articulator, found) in articulators {
@@ -165,21 +165,19 @@ impl SpeechMap {
             wires.extend(
                 brows.iter().filter_map(|(name, share)| Some((controls.index(name)?, Source::Brows(*share)))),
             );
-            let parting = PARTING.iter().filter(|(_, share)| *share > 0.0);
-            for index in parting.filter_map(|(name, _)| controls.index(name)) {
-                if !wires.iter().any(|(control, _)| *control == index) {
+            for (index, control) in controls.controls().iter().enumerate() {
+                if parting(&control.name) > 0.0 && !wires.iter().any(|(wired, _)| *wired == index) {
                     wires.push((index, Source::Nothing));
                 }
             }
         }
         let wire = |(control, source): (usize, Source)| {
             let entry = controls.controls().get(control)?;
-            let yields =
-                PARTING.iter().find(|(name, _)| *name == entry.name).map_or(0.0, |(_, share)| *share);
-            let yields = if matches!(source, Source::Viseme(_)) { 1.0 } else { yields };
-            let (default, full) = (f64::from(entry.default), f64::from(entry.max));
+            let yields = if matches!(source, Source::Viseme(_)) { 1.0 } else { parting(&entry.name) };
+            let default = f64::from(entry.default);
+            let room = f64::from(entry.max) - default;
             // A control without room above its default cannot show anything.
-            (full > default).then_some(Wire { control, source, default, full, yields })
+            (room > 0.0).then_some(Wire { control, source, default, room, yields })
         };
         Self { means, wires: wires.into_iter().filter_map(wire).collect() }
     }
@@ -218,9 +216,8 @@ impl SpeechMap {
                 Source::Brows(share) => of_brows * share * mouth.brows,
                 Source::Nothing => 0.0,
             };
-            let room = wire.full - wire.default;
-            let own = (f64::from(*value) - wire.default) / room * (1.0 - wire.yields * held);
-            *value = (wire.default + room * (own + wanted - own * wanted)) as f32;
+            let own = (f64::from(*value) - wire.default) * (1.0 - wire.yields * held);
+            *value = (wire.default + own + wanted * (wire.room - own)) as f32;
         }
     }
 
