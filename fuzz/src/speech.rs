@@ -1,15 +1,6 @@
 use avatar_speech::{Amounts, Format, Mouth, Speech, SpeechMap, Timeline};
 use pose_anim::ControlTable;
 
-const FORMATS: [Format; 7] = [
-    Format::Table,
-    Format::Xml,
-    Format::Json,
-    Format::Marks,
-    Format::TextGrid,
-    Format::Labels,
-    Format::Subtitles,
-];
 /// So many moments of each speech are looked at.
 const MOMENTS: u32 = 16;
 
@@ -18,7 +9,7 @@ const MOMENTS: u32 = 16;
 pub fn speech(data: &[u8]) {
     let guessed = Timeline::from_bytes("", data);
     let text = std::str::from_utf8(data).ok();
-    let told = FORMATS.iter().filter_map(|format| Timeline::read(text?, Some(*format)).ok());
+    let told = Format::ALL.into_iter().filter_map(|format| Timeline::read(text?, Some(format)).ok());
     let controls = ControlTable::default_face();
     let map = SpeechMap::new(&controls);
     for timeline in guessed.into_iter().chain(told) {

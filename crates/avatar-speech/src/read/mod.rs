@@ -39,6 +39,10 @@ pub enum Format {
 }
 
 impl Format {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Table, Self::Xml, Self::Json, Self::Marks, Self::TextGrid, Self::Labels, Self::Subtitles];
+
     /// The format that a file's name tells by its end; `.json` is found by what is in it.
     pub fn of_name(name: &str) -> Option<Self> {
         let (_, end) = name.rsplit_once('.')?;

@@ -18,7 +18,7 @@ pub(super) fn read(text: &str) -> Result<Timeline, SpeechError> {
         })?;
         match event {
             Event::Start(tag) if tag.name().as_ref() == "mouthCue" => {
-                let secs = |name: &str| {
+                let mut secs = |name: &str| {
                     let at = place.of(byte);
                     let attribute = tag.try_get_attribute(name).ok().flatten();
                     let missing = || at.error(format!("an attribute {name}"), "none");
@@ -26,7 +26,6 @@ pub(super) fn read(text: &str) -> Result<Timeline, SpeechError> {
                     let text = attribute.value.into_owned();
                     number(&text).ok_or_else(|| at.error(format!("seconds as {name}"), shown(&text)))
                 };
-                let mut secs = secs;
                 open = Some((secs("start")?, secs("end")?));
             }
             Event::Text(inner) => {

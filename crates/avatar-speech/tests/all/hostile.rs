@@ -3,16 +3,6 @@
 use avatar_speech::{Cue, Format, Mouth, Speech, Timeline, Viseme};
 use proptest::prelude::*;
 
-const FORMATS: [Format; 7] = [
-    Format::Table,
-    Format::Xml,
-    Format::Json,
-    Format::Marks,
-    Format::TextGrid,
-    Format::Labels,
-    Format::Subtitles,
-];
-
 fn is_sound(mouth: &Mouth) -> bool {
     let others = [mouth.closed, mouth.bitten, mouth.loudness, mouth.brows];
     let is_sum_one = (mouth.visemes.iter().sum::<f64>() - 1.0).abs() < 1e-9;
@@ -29,7 +19,7 @@ proptest! {
     #[test]
     fn no_text_makes_it_panic(text in "[-0-9a-zA-Z \\t\\n.,:<>\"{}\\[\\]#_@=!/>é\u{feff}]{0,200}") {
         let _ = Timeline::read(&text, None);
-        for format in FORMATS {
+        for format in Format::ALL {
             if let Ok(timeline) = Timeline::read(&text, Some(format)) {
                 prop_assert!(is_sound(&Speech::new(&timeline).at(0.1)));
             }
@@ -111,6 +101,29 @@ fn ten_hours_take_a_bounded_amount_of_memory() {
     });
     assert_eq!(frames.count_total, 0);
     assert!((speech.end_secs() - 0.066 * count as f64).abs() < 1e-3);
+}
+
+/// The texts that take the most for their length: every letter is a sound, every value of JSON a byte.
+#[test]
+fn dense_texts_take_a_bounded_amount_of_memory() {
+    const COUNT: usize = 65_537;
+    for (name, limit, text) in [
+        ("labels", 64, "p 13\n".repeat(COUNT)),
+        ("table", 64, (1..COUNT).map(|secs| format!("{secs} A\n")).collect()),
+        ("marks", 256, format!("[{}0]", "0,".repeat(COUNT))),
+        ("lists", 256, format!("[{}0]", "[0],".repeat(COUNT))),
+        ("objects", 256, format!("[{}0]", "{\"\":0},".repeat(COUNT))),
+        ("letters that hold the lips", 256, format!("1:0 --> 999:0\n{}", "pf".repeat(COUNT))),
+        ("syllables", 256, format!("1:0 --> 999:0\n{}", "pa".repeat(COUNT))),
+    ] {
+        let used = allocation_counter::measure(|| {
+            if let Ok(timeline) = Timeline::read(&text, None) {
+                std::hint::black_box(Speech::new(&timeline));
+            }
+        });
+        let times = used.bytes_max / text.len() as u64;
+        assert!(times < limit, "{name}: {times}");
+    }
 }
 
 /// A list of marks that claims nothing and nests without end.
