@@ -65,6 +65,44 @@ fn what_an_avatar_has_is_used() {
 }
 
 #[test]
+fn the_bone_of_the_jaw_comes_before_its_shape_and_few_shapes_before_the_jaw() {
+    let means = |names: &[&str]| SpeechMap::new(&table(names)).means();
+    let jaw_and = |others: &[&'static str]| [&["jawOpen"], others].concat();
+    let arkit = ["mouthFunnel", "mouthPucker", "mouthRollUpper", "tongueOut"];
+    assert_eq!(means(&jaw_and(&arkit)), Means::ArKit);
+    assert_eq!(means(&jaw_and(&arkit[1..])), Means::Jaw);
+    let visemes = ["viseme_sil", "viseme_PP", "viseme_FF", "viseme_aa", "viseme_O", "viseme_U", "viseme_E"];
+    assert_eq!(means(&jaw_and(&visemes[1..])), Means::Visemes);
+    assert_eq!(means(&jaw_and(&visemes[2..])), Means::Jaw);
+    let vrm = ["expression.aa", "expression.ou", "expression.oh"];
+    assert_eq!(means(&jaw_and(&vrm)), Means::Vrm);
+    assert_eq!(means(&jaw_and(&vrm[1..])), Means::Jaw);
+    // Both jaws: the shape stays at rest.
+    let text = "[[control]]\nname = \"jawOpen\"\nshape = \"jawOpen\"\n\
+        [[control]]\nname = \"jaw.open\"\nshape = \"jaw\"\n";
+    let controls = ControlTable::from_toml(text).unwrap();
+    let mut values = controls.defaults();
+    SpeechMap::new(&controls).apply(&mouth_of(Viseme::Aa), Amounts::default(), &mut values);
+    assert_eq!(values[controls.index("jawOpen").unwrap()], 0.0);
+    assert!(values[controls.index("jaw.open").unwrap()] > 0.3);
+}
+
+/// What an avatar's other mouths and expressions do is held back, too, whatever it speaks with.
+#[test]
+fn lips_close_over_mouths_and_expressions_that_speech_does_not_use() {
+    let mouths = ["expression.aa", "expression.ih", "expression.ou", "expression.ee", "expression.oh"];
+    let controls = table(&[&arkit_names()[..], &mouths, &["expression.happy", "expression.blink"]].concat());
+    let map = SpeechMap::new(&controls);
+    assert_eq!(map.means(), Means::ArKit);
+    let mut values = vec![1.0; controls.len()];
+    map.apply(&mouth_of(Viseme::PP), Amounts::default(), &mut values);
+    let value = |name: &str| values[controls.index(name).unwrap()];
+    mouths.iter().for_each(|name| assert_eq!(value(name), 0.0, "{name}"));
+    assert!(value("expression.happy") < 0.5);
+    assert_eq!(value("expression.blink"), 1.0);
+}
+
+#[test]
 fn an_amount_of_nothing_changes_nothing() {
     let controls = table(&arkit_names());
     let map = SpeechMap::new(&controls);
