@@ -9,7 +9,7 @@
 //!   programs write. Mistakes are told with line and column; phones that are not known become notes.
 //! - A [`Speech`] is a timeline with coarticulation: sounds insist on jaw, lips and tongue more or less, and
 //!   these move at times of their own. For p, b and m the lips close whatever the rate, for f and v the
-//!   lower lip touches the teeth.
+//!   lower lip goes up to the edge of the upper teeth.
 //! - A [`Mouth`] is plain numbers. A [`SpeechMap`] lays them over the values of a face, so that a smile is
 //!   kept while speaking, and lips close all the same.
 //!
