@@ -13,8 +13,8 @@ const ALLOWED = 0.02;
 const LOOSEST = 0.15;
 const ALLOWED_BETWEEN_RATES = 0.001;
 
-// three-vrm measures a joint's length anew at each step, from where the joint is now to where the next one was
-// at the step before; the standard has one length. It is compared as it is and with one length.
+// three-vrm measures a joint's length anew at each step, from where the joint is now to where the next one
+// was at the step before; the standard has one length. It is compared as it is and with one length.
 const measured = VRMSpringBoneJoint.prototype._calcWorldSpaceBoneLength;
 function constant() {
     this._worldSpaceBoneLength = LENGTH / JOINTS;

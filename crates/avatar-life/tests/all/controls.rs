@@ -142,8 +142,8 @@ fn lids_follow_the_eyes_once() {
     assert!(left < -1.0 && left == right, "{left} {right}");
 }
 
-/// Shoulders rise by half of their range with a breath, and pupils widen in the dark from 2.908 mm to 6.892 mm
-/// (Moon & Spencer 1944), which is that share of 6 mm, the whole range.
+/// Shoulders rise by half of their range with a breath, and pupils widen in the dark from 2.908 mm to
+/// 6.892 mm (Moon & Spencer 1944), which is that share of 6 mm, the whole range.
 #[test]
 fn shoulders_and_pupils_move_where_there_are_some() {
     let names = ["breath", "chest.breath", "shoulders.up", "shoulder.left.up", "shoulder.right.up"];
