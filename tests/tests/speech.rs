@@ -183,8 +183,8 @@ impl Face {
     }
 }
 
-/// Seen from the front, no gap is left between the lower lip and the edge of the upper teeth. In depth the lip
-/// does not touch them: a tenth of the mouth's width stays between them, about as much as at rest.
+/// Seen from the front, no gap is left between the lower lip and the edge of the upper teeth. In depth the
+/// lip does not touch them: a tenth of the mouth's width stays between them, about as much as at rest.
 #[test]
 fn the_lower_lip_covers_the_edge_of_the_upper_teeth_at_every_labiodental() {
     let face = Face::load();

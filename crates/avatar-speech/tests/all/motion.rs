@@ -27,8 +27,8 @@ fn lips_close_at_every_p_b_m_and_open_between_them() {
                 let speech = speech(&syllables(consonant, vowel, rate));
                 for syllable in 0..12 {
                     let start = 0.3 + f64::from(syllable) / rate;
-                    // Of the fastest consonant this is 29 ms, so a film of 60 pictures a second shows it in one
-                    // at least.
+                    // Of the fastest consonant this is 29 ms, so a film of 60 pictures a second shows it in
+                    // one at least.
                     for share in [0.1, 0.25, 0.5, 0.75] {
                         let mouth = speech.at(start + share * 0.4 / rate);
                         assert_eq!(mouth.closed, 1.0, "{consonant}{vowel} at {rate}, {share}");
