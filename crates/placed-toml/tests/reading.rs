@@ -106,6 +106,15 @@ fn numbers_are_finite_and_in_range() {
 }
 
 #[test]
+fn flags_are_true_or_false() {
+    let flag = |text: &str| value(&format!("key = {text}"), |entry| entry.flag());
+    assert_eq!((flag("true"), flag("false")), (Ok(true), Ok(false)));
+    for text in ["1", "\"true\"", "[true]"] {
+        assert_eq!(flag(text).unwrap_err().expected, "true or false", "{text}");
+    }
+}
+
+#[test]
 fn texts_have_something_in_them() {
     let string = |text: &str| value(text, |entry| entry.string("a name").map(str::to_owned));
     assert_eq!(string("key = ' a '"), Ok(" a ".into()));

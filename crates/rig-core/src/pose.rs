@@ -98,6 +98,29 @@ impl Rig {
         RigPose::in_bind(self)
     }
 
+    /// Lets `change` move the world matrices `T` of a pose, by [`JointId::index`], then computes `X = T ·
+    /// W⁻¹` of all joints anew: for what moves joints after the local transforms, such as springs. Allocates
+    /// nothing.
+    ///
+    /// # Errors
+    /// `pose` has another number of joints, or what `change` returns; then `X` stays as it was.
+    pub fn repose<E: From<LengthMismatch>>(
+        &self,
+        pose: &mut RigPose,
+        change: impl FnOnce(&mut [Affine3A]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let found = pose.world_from_joint.len();
+        if found != self.len() {
+            return Err(LengthMismatch { what: "the pose", expected: self.len(), found }.into());
+        }
+        change(&mut pose.world_from_joint)?;
+        let matrices = pose.world_from_joint.iter().zip(self.bind_from_world());
+        for (slot, (world_from_joint, bind_from_world)) in pose.posed_from_bind.iter_mut().zip(matrices) {
+            *slot = *world_from_joint * *bind_from_world;
+        }
+        Ok(())
+    }
+
     /// Computes `T = T_parent · B · L` and `X = T · W⁻¹` for all joints in one forward pass. Allocates
     /// nothing.
     ///

@@ -123,6 +123,17 @@ impl<'t, 'a> Entry<'t, 'a> {
         self.as_str().filter(|text| !text.trim().is_empty()).ok_or_else(|| self.error_found(expected))
     }
 
+    /// The value, which must be true or false.
+    ///
+    /// # Errors
+    /// The value has another type.
+    pub fn flag(&self) -> Result<bool, TomlError> {
+        match self.value.get_ref() {
+            DeValue::Boolean(value) => Ok(*value),
+            _ => Err(self.error_found("true or false")),
+        }
+    }
+
     /// The value, which must be a finite number of at most [`LARGEST`], either way.
     ///
     /// # Errors
