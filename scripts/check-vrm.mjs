@@ -101,8 +101,15 @@ for (const path of process.argv.slice(2)) {
         colliders.forEach((ours, at) => {
             const { shape, parent } = theirs[at];
             same(parent.name, ours.node, `collider ${at} of ${node}`);
-            list('number', [shape.radius, ...shape.offset.toArray()], [ours.radius, ...ours.offset], `collider ${at} of ${node}`);
+            list('number', shape.offset.toArray(), ours.offset, `collider ${at} of ${node}`);
             same(shape.tail !== undefined, ours.tail !== undefined, `form of collider ${at} of ${node}`);
+            same(shape.normal !== undefined, ours.normal !== undefined, `form of collider ${at} of ${node}`);
+            if (ours.normal) {
+                list('number', shape.normal.toArray(), ours.normal, `plane ${at} of ${node}`);
+                return;
+            }
+            compare('number', shape.radius, ours.radius, `radius of collider ${at} of ${node}`);
+            same(shape.inside, ours.inside, `side of collider ${at} of ${node}`);
             if (ours.tail) list('number', shape.tail.toArray(), ours.tail, `tail of collider ${at} of ${node}`);
         });
         totals.springs += 1;

@@ -3,6 +3,7 @@ use avatar_look::LookError;
 use avatar_mesh::drivers::DriversError;
 use avatar_mesh::raw_shapes::RawShapesError;
 use avatar_mesh::{MeshError, MeshWarning};
+use joint_springs::SpringError;
 use pose_anim::{BindError, ControlError, TomlError};
 use rig_core::XmlError;
 use std::fmt;
@@ -56,8 +57,8 @@ pub enum PackProblem {
         /// Offset of the first bad byte.
         offset: usize,
     },
-    /// `controls.toml`, `shapes.toml`, `identity.toml`, `poses.toml` or `clips.toml` is not as its format
-    /// demands.
+    /// `controls.toml`, `shapes.toml`, `identity.toml`, `springs.toml`, `poses.toml` or `clips.toml` is not
+    /// as its format demands.
     #[error("{0}")]
     Toml(TomlError),
     /// `materials.toml` is not as its format demands.
@@ -81,6 +82,9 @@ pub enum ContentsError {
     /// A control of a joint, slider or shape that the pack does not have.
     #[error(transparent)]
     Bind(#[from] BindError),
+    /// Springs or constraints of joints that cannot be followed.
+    #[error("the springs: {0}")]
+    Springs(#[from] SpringError),
     /// An index that is out of range.
     #[error("{place}: expected the index of one of {count} {what}, found {found}")]
     Index {

@@ -1,6 +1,7 @@
 use crate::{MotionAt, Pack, PaletteBone, Part};
 use avatar_mesh::{DeformError, Deformed, deformed_triangles};
 use glam::Affine3A;
+use joint_springs::{Constraints, SpringError, Swing};
 use rig_core::{JointId, LengthMismatch, Locals, RigPose, UnknownJoint};
 use std::borrow::Cow;
 
@@ -25,6 +26,9 @@ pub enum FaceError {
     /// The state belongs to another pack.
     #[error(transparent)]
     Sliders(#[from] avatar_mesh::drivers::LengthError),
+    /// The state belongs to another pack.
+    #[error(transparent)]
+    Springs(#[from] SpringError),
     /// A crowd of another pack, or a face that a crowd does not have.
     #[error("expected a face below {faces}, the number of faces in the crowd, found {face}")]
     NoSuchFace {
@@ -49,6 +53,9 @@ pub struct FaceState {
     pose: RigPose,
     bones: Vec<Affine3A>,
     weights: Vec<f32>,
+    /// What turns joints with others, and what makes joints swing; most avatars have neither.
+    turning: Option<Box<Constraints>>,
+    swing: Option<Box<Swing>>,
 }
 
 impl FaceState {
@@ -65,11 +72,15 @@ impl FaceState {
             pose: pack.rig().pose(),
             bones: pack.palette().iter().map(rest).collect(),
             weights: vec![0.0; pack.shapes().len()],
+            // A pack has been checked for both.
+            turning: pack.springs().turning(pack.rig()).ok().flatten().map(Box::new),
+            swing: pack.springs().swing(pack.rig()).ok().flatten().map(Box::new),
         }
     }
 
     /// Takes control values (degrees or weights, in the table's order) through the couplings, then to the
-    /// joints.
+    /// joints. Joints that turn with others ([`crate::Springs::constraints`]) do so; those that swing are
+    /// where the pose has them, until [`FaceState::swing`] or [`FaceState::settle`].
     ///
     /// # Errors
     /// The number of values is not the number of controls, or the state was made for another pack.
@@ -154,9 +165,47 @@ impl FaceState {
         Ok(())
     }
 
+    /// Lets `dt_secs` pass until the frame that was posed last, and turns the joints that swing
+    /// ([`crate::Springs`]). Call it once after each posing; with a time of 0 the joints keep to a pose that
+    /// is posed again. The first frame of a state has them where the pose has them. Costs nothing where
+    /// nothing swings; allocates nothing.
+    ///
+    /// # Errors
+    /// The state was made for another pack.
+    pub fn swing(&mut self, pack: &Pack, dt_secs: f64) -> Result<(), FaceError> {
+        let Some(swing) = &mut self.swing else { return Ok(()) };
+        pack.rig().repose(&mut self.pose, |world| Ok::<_, FaceError>(swing.advance(dt_secs, world)?))?;
+        self.gather(pack)
+    }
+
+    /// Turns the joints that swing to where they come to rest in the pose that was posed last, as a picture
+    /// of one moment needs it; motion goes on from there. Up to 1200 steps of every spring; none where
+    /// nothing swings; allocates nothing.
+    ///
+    /// # Errors
+    /// The state was made for another pack.
+    pub fn settle(&mut self, pack: &Pack) -> Result<(), FaceError> {
+        let Some(swing) = &mut self.swing else { return Ok(()) };
+        pack.rig().repose(&mut self.pose, |world| Ok::<_, FaceError>(swing.settle(world)?))?;
+        self.gather(pack)
+    }
+
+    /// Whether something still swings by itself.
+    pub fn swings(&self) -> bool {
+        self.swing.as_ref().is_some_and(|swing| !swing.is_at_rest())
+    }
+
     /// `L` to world and bone matrices.
     fn update(&mut self, pack: &Pack) -> Result<(), FaceError> {
         pack.rig().update(self.locals.as_slice(), &mut self.pose)?;
+        if let Some(turning) = &mut self.turning {
+            pack.rig().repose(&mut self.pose, |world| Ok::<_, FaceError>(turning.apply(world)?))?;
+        }
+        self.gather(pack)
+    }
+
+    /// World matrices to those of the palette.
+    fn gather(&mut self, pack: &Pack) -> Result<(), FaceError> {
         let (joints, of_joints) = (self.pose.world_from_joint(), self.pose.posed_from_bind());
         for (slot, (PaletteBone { joint, joint_from_mesh }, is_of_joint)) in
             self.bones.iter_mut().zip(pack.bones())
@@ -185,6 +234,17 @@ impl FaceState {
     /// # Errors
     /// A part that the pack does not have, or a state of another pack.
     pub fn deform(&self, pack: &Pack, part: usize) -> Result<Deformed, DeformError> {
+        let mut deformed = pack.parts().get(part).map(|part| part.mesh.deformed()).unwrap_or_default();
+        self.deform_into(pack, part, &mut deformed)?;
+        Ok(deformed)
+    }
+
+    /// As [`FaceState::deform`], into what [`avatar_mesh::Mesh::deformed`] has made for this part, without
+    /// allocating.
+    ///
+    /// # Errors
+    /// As above, or room for another number of vertices.
+    pub fn deform_into(&self, pack: &Pack, part: usize, deformed: &mut Deformed) -> Result<(), DeformError> {
         let missing =
             DeformError::VertexCount { what: "the parts", expected: pack.parts().len(), found: part };
         let part = pack.parts().get(part).ok_or(missing)?;
@@ -195,9 +255,7 @@ impl FaceState {
             true => &[],
             false => self.weights.get(shapes).ok_or(DeformError::WeightCount { expected, found })?,
         };
-        let mut deformed = mesh.deformed();
-        avatar_mesh::deform(mesh, self.bones_of(part), weights, &mut deformed)?;
-        Ok(deformed)
+        avatar_mesh::deform(mesh, self.bones_of(part), weights, deformed)
     }
 
     /// The triangles of a part as they run in this pose: those of its mesh, but what bones mirror the other

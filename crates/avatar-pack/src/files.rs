@@ -17,6 +17,8 @@ pub const CLIPS: &str = "clips.toml";
 pub const MATERIALS: &str = "materials.toml";
 /// The hair; may be missing.
 pub const HAIR: &str = "hair.toml";
+/// What swings by itself; may be missing.
+pub const SPRINGS: &str = "springs.toml";
 /// Axes that make other people of the face; may be missing.
 pub const IDENTITY: &str = "identity.toml";
 /// Names of shapes beside the two of the raw format, and mixtures of controls; may be missing.

@@ -6,6 +6,7 @@
 //!
 //!  Pack + Textures + Hair ──Pack::groom──▶ Groom: the hair, planted
 //!  Pack + control values ──FaceState──▶ bone matrices + blend weights ──▶ avatar-render, avatar_mesh::deform
+//!  Pack + time ──FaceState::swing──▶ bone matrices of what hangs and swings ([`Springs`])
 //!  Pack + control values + target ──Gaze──▶ values of eyes and head that look at the target
 //!  Pack ──Reach──▶ which vertices a control moves, and which controls move a vertex
 //!  Pack + ray ──Pack::hit──▶ the vertex that the ray hits first
@@ -42,8 +43,9 @@
 //! A pack in the raw format is a folder with `Transformations.xml` (or `Transformationen.xml`), a vertex and
 //! an index buffer for each of the seven [parts](avatar_mesh::FACE_PARTS), textures, and optionally
 //! `controls.toml`, `shapes.toml` with `shapes.raw` ([`FurtherShapes`]), `poses.toml`, `clips.toml`,
-//! `identity.toml` ([`Identity`]), `materials.toml` and `hair.toml`. This crate opens no files itself: a
-//! [`Source`] does, be it a folder, an archive, a web server or bytes in the program.
+//! `identity.toml` ([`Identity`]), `springs.toml` ([`Springs`]), `materials.toml` and `hair.toml`. This
+//! crate opens no files itself: a [`Source`] does, be it a folder, an archive, a web server or bytes in the
+//! program.
 //!
 //! ```
 //! use avatar_pack::{Pack, Source, SourceError};
@@ -63,6 +65,7 @@ pub mod files;
 mod sliders;
 mod shapes;
 mod identity;
+mod springs;
 mod look_rule;
 mod unique;
 mod motion;
@@ -81,18 +84,20 @@ mod pick;
 mod hair;
 mod wrinkles;
 mod import;
+mod retarget;
 mod export;
 mod raw;
 
 pub use crowd::FaceCrowd;
 pub use error::{ContentsError, PackError, PackProblem, Warning};
-pub use export::{export, portable_pictures};
+pub use export::{ExportTarget, export, export_targets, portable_pictures};
 pub use face::{FaceError, FaceState};
 pub use gaze::{Gaze, gaze_values};
 pub use identity::{Axis, EyeChange, EyeRegion, Identity, LocalMap};
 pub use import::{Import, ImportFailure, ImportReport, Role, ShapeSet, leave_helpers_out};
+pub use joint_springs;
 pub use levels::Level;
-pub use load::{load_clips, load_hair, load_materials, load_poses};
+pub use load::{load_clips, load_hair, load_materials, load_poses, load_springs};
 pub use look_rule::LookRule;
 pub use motion::{MotionAt, MotionError, MotionSampler, SceneMotion};
 pub use pack::{Pack, PackContents, PaletteBone, Part};
@@ -100,7 +105,9 @@ pub use person::IdentityError;
 pub use pick::Hit;
 pub use raw::{RawError, RawFiles, raw_files};
 pub use reach::Reach;
+pub use retarget::retarget;
 pub use shapes::{FurtherShape, FurtherShapes, Mixture, ShapeWeight, Side, WrinklePlace};
 pub use sliders::{ControlSlider, Expressions, Sliders};
 pub use source::{MemorySource, Source, SourceError};
+pub use springs::Springs;
 pub use textures::{PartImages, Texture, Textures};

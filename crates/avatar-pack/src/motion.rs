@@ -87,6 +87,11 @@ impl SceneMotion {
         &self.graph
     }
 
+    /// The joint that a node of the scene became.
+    pub fn joint(&self, node: usize) -> Option<JointId> {
+        self.joints.get(node).copied()
+    }
+
     /// The place in [`crate::Pack::shapes`] of a shape at a node of the scene.
     pub fn shape(&self, node: usize, shape: usize) -> Option<usize> {
         let shapes = self.graph.nodes().get(node)?.weights.len();

@@ -81,6 +81,7 @@ impl Pack {
         let field = Field::new(identity, values, [eye(EYES[0])?, eye(EYES[1])?]);
         let mut contents = self.clone().into_contents();
         contents.rig = moved_rig(&contents.rig, &field)?;
+        contents.springs = self.springs().moved(self.rig(), &contents.rig, |place| field.at(place));
         for part in &mut contents.parts {
             let follows = part.bone.and_then(|bone| contents.palette.get(bone));
             let name = follows.and_then(|bone| self.rig().names().get(bone.joint.index()));

@@ -161,6 +161,8 @@ fn ordered(
     let mut visits = vec![Visit::Never; parents.len()];
     let mut order = Vec::new();
     let mut stack = Vec::new();
+    // Those that have begun, each waiting for the next.
+    let mut way = Vec::new();
     for start in 0..parents.len() {
         stack.push(start);
         while let Some(joint) = stack.last().copied() {
@@ -168,16 +170,22 @@ fn ordered(
             match visits[joint] {
                 Visit::Never => {
                     visits[joint] = Visit::Begun;
+                    way.push(joint);
                     for need in needs.into_iter().flatten() {
                         match visits[need] {
                             Visit::Never => stack.push(need),
-                            Visit::Begun => return Err(SpringError::Circle { joint: need }),
+                            Visit::Begun => {
+                                let from = way.iter().position(|joint| *joint == need).unwrap_or(0);
+                                let joint = culprit(&way[from..], parents, of_joint);
+                                return Err(SpringError::Circle { joint });
+                            }
                             Visit::Done => {}
                         }
                     }
                 }
                 Visit::Begun => {
                     visits[joint] = Visit::Done;
+                    way.pop();
                     order.extend(of_joint[joint]);
                     stack.pop();
                 }
@@ -188,4 +196,15 @@ fn ordered(
         }
     }
     Ok(order)
+}
+
+/// A joint of a circle, each of which waits for the next one and the last for the first, whose constraint
+/// makes it wait: parents alone form no circle.
+fn culprit(circle: &[usize], parents: &[Option<usize>], of_joint: &[Option<Constraint>]) -> usize {
+    let mut steps = circle.iter().copied().zip(circle.iter().copied().cycle().skip(1));
+    let waits = |(joint, next): &(usize, usize)| {
+        parents[*joint] != Some(*next)
+            && of_joint[*joint].is_some_and(|constraint| constraint.source == *next)
+    };
+    steps.find(waits).map_or(0, |(joint, _)| joint)
 }

@@ -42,7 +42,7 @@ pub enum SpringError {
     /// A constraint waits for itself, perhaps by way of others.
     #[error("the constraint of joint {joint} follows itself")]
     Circle {
-        /// A joint of the circle.
+        /// The joint, whose constraint makes the circle: without it there is one less.
         joint: usize,
     },
     /// A slice has another number of joints than the skeleton.

@@ -53,6 +53,10 @@ pub struct Swing {
     posed: Vec<Affine3A>,
     /// How long ago the last tick was at the last frame, in seconds.
     since_tick: f64,
+    /// How many ticks no tail has moved for.
+    quiet: u32,
+    /// Whether time is only let pass until everything hangs still.
+    settling: bool,
 }
 
 /// How a tail moves, in the space of its spring's center.
@@ -65,10 +69,20 @@ struct State {
     second: Vec3A,
     /// Where the oscillator's middle was.
     rest: Vec3A,
+    /// Whether the last tick did not move the tail.
+    still: bool,
 }
 
 /// A longer frame counts as this long: after a second, what was before is forgotten.
 const LONGEST_SECS: f64 = 1.0;
+/// A tail that a tick moves by less than this share of its length is still.
+const STILL: f32 = 2e-5;
+/// All tails are at rest after so many still ticks: a tail that turns around is still for a moment only.
+const STILL_TICKS: u32 = 12;
+/// Ticks in which everything has to come to hang still.
+const SETTLING_TICKS: u32 = 1200;
+/// The least drag while it does; where a joint comes to rest does not depend on its drag.
+const SETTLING_DRAG: f32 = 0.5;
 
 impl Swing {
     /// Springs at rest. `parents` has one entry for each joint.
@@ -129,6 +143,8 @@ impl Swing {
             animated: vec![Affine3A::IDENTITY; joints],
             posed: vec![Affine3A::IDENTITY; joints],
             since_tick: 0.0,
+            quiet: 0,
+            settling: false,
         })
     }
 
@@ -137,6 +153,47 @@ impl Swing {
         self.input.reset();
         self.states.fill(State::default());
         self.since_tick = 0.0;
+        self.quiet = 0;
+    }
+
+    /// Whether no joint swings any more. Time may still move the skeleton, and the joints with it.
+    pub fn is_at_rest(&self) -> bool {
+        self.quiet >= STILL_TICKS || self.springs.is_empty()
+    }
+
+    /// Turns the joints to where they come to rest on a skeleton that stays as it is, and starts anew from
+    /// there: what a picture of one moment shows. Lets up to 20 seconds pass for that, in which the joints of
+    /// [`Law::Vrm`] have a drag of at least a half. If a matrix that it needs is not finite, nothing is
+    /// turned. Allocates nothing.
+    ///
+    /// # Errors
+    /// `world` has another number of joints.
+    pub fn settle(&mut self, world: &mut [Affine3A]) -> Result<(), SpringError> {
+        matches(self.parents.len(), world.len())?;
+        self.reset();
+        if self.used.iter().any(|joint| !world[*joint].is_finite()) {
+            return Ok(());
+        }
+        self.input.push(0.0, world);
+        self.input.at(0.0, &self.used, &mut self.animated);
+        self.step(0.0, true);
+        self.settling = true;
+        for _ in 0..SETTLING_TICKS {
+            self.step(1.0 / TICKS_PER_SEC, true);
+            if self.is_at_rest() {
+                break;
+            }
+        }
+        self.settling = false;
+        // What is left of the motion ends here.
+        for (state, spring) in self.states.iter_mut().zip(&self.springs) {
+            state.second = match spring.law {
+                Law::Vrm { .. } => state.tail,
+                Law::Oscillator { .. } => Vec3A::ZERO,
+            };
+        }
+        self.write(world);
+        Ok(())
     }
 
     /// Lets `dt_secs` pass until the frame whose animated world matrices are given, and turns the joints that
@@ -175,12 +232,17 @@ impl Swing {
         }
         self.input.at(0.0, &self.used, &mut self.animated);
         self.step(self.since_tick, false);
+        self.write(world);
+        Ok(())
+    }
+
+    /// Hands out the joints that swing, and what is below them.
+    fn write(&self, world: &mut [Affine3A]) {
         for joint in &self.used {
             if self.moved[*joint] && self.posed[*joint].is_finite() {
                 world[*joint] = self.posed[*joint];
             }
         }
-        Ok(())
     }
 
     /// Poses the skeleton `secs` after the last tick, and keeps the state if this is a tick itself.
@@ -189,6 +251,7 @@ impl Swing {
         for joint in self.used.iter().filter(|joint| !self.moved[**joint]) {
             self.posed[*joint] = self.animated[*joint];
         }
+        let mut still = true;
         for at in 0..self.used.len() {
             let joint = self.used[at];
             if !self.moved[joint] {
@@ -205,6 +268,7 @@ impl Swing {
                 Some(spring) => {
                     let (turned, state) = self.swung(spring, base, secs, keep);
                     if keep {
+                        still &= state.still;
                         self.states[spring] = state;
                     }
                     turned
@@ -215,6 +279,9 @@ impl Swing {
             if !self.posed[joint].is_finite() {
                 self.posed[joint] = animated;
             }
+        }
+        if keep {
+            self.quiet = if still { self.quiet.saturating_add(1) } else { 0 };
         }
     }
 
@@ -231,8 +298,8 @@ impl Swing {
         let inward = |point: Vec3A| into_center.map_or(point, |matrix| matrix.transform_point3a(point));
         let outward = |point: Vec3A| center.map_or(point, |matrix| matrix.transform_point3a(point));
 
-        let fresh =
-            State { started: true, tail: inward(rest_tail), second: Vec3A::ZERO, rest: inward(rest_tail) };
+        let rest = inward(rest_tail);
+        let fresh = State { started: true, tail: rest, second: Vec3A::ZERO, rest, still: false };
         let mut state = self.states[number];
         let (moved, rest) = match spring.law {
             Law::Oscillator { frequency_hz, gravity, .. } => {
@@ -258,6 +325,7 @@ impl Swing {
                     state = State { second: fresh.tail, ..fresh };
                 }
                 let tick = (1.0 / TICKS_PER_SEC) as f32;
+                let drag = if self.settling { drag.max(SETTLING_DRAG) } else { drag };
                 let coasted = outward(state.tail + (state.tail - state.second) * (1.0 - drag));
                 let pulled = coasted + axis * (stiffness * tick) + Vec3A::from(gravity) * tick;
                 // Of a part of a tick, that part of the way.
@@ -286,7 +354,11 @@ impl Swing {
             }
         }
         let keeps_length = matches!(spring.law, Law::Vrm { .. });
+        let before = state.tail;
         state.tail = if hit || keeps_length { inward(tail) } else { moved };
+        // Far from the origin, numbers are too coarse for less.
+        let coarse = 4.0 * f32::EPSILON * state.tail.abs().max_element();
+        state.still = (state.tail - before).length() <= STILL * length + coarse;
         state.rest = rest;
         state.started = true;
         if ![state.tail, state.second, state.rest].iter().all(|vector| vector.is_finite()) {

@@ -22,6 +22,7 @@ fn a_frame_does_not_allocate() {
         let mut constraints = Constraints::new(&scene::PARENTS, &scene::animated(0.0), &list).unwrap();
         let mut moved = 0.0f32;
         let counted = allocation_counter::measure(|| {
+            swing.settle(&mut scene::animated(0.0)).unwrap();
             for frame in 0..2000 {
                 let mut world: [Affine3A; 4] = scene::animated(f64::from(frame) / 90.0);
                 let rest = scene::end(&world);

@@ -24,12 +24,16 @@ fn springs(model: &VrmModel) -> Vec<Value> {
             let groups = chain.collider_groups.iter().map(|group| &springs.collider_groups[*group]);
             let colliders = groups.flat_map(|group| &group.colliders).map(|collider| {
                 let collider = &springs.colliders[*collider];
+                let node = name(collider.node);
                 match collider.shape {
-                    ColliderShape::Sphere { offset, radius } => {
-                        json!({ "node": name(collider.node), "offset": offset.to_array(), "radius": radius })
+                    ColliderShape::Sphere { offset, radius, inside } => {
+                        json!({ "node": node, "offset": offset.to_array(), "radius": radius, "inside": inside })
                     }
-                    ColliderShape::Capsule { offset, tail, radius } => {
-                        json!({ "node": name(collider.node), "offset": offset.to_array(), "radius": radius, "tail": tail.to_array() })
+                    ColliderShape::Capsule { offset, tail, radius, inside } => {
+                        json!({ "node": node, "offset": offset.to_array(), "radius": radius, "inside": inside, "tail": tail.to_array() })
+                    }
+                    ColliderShape::Plane { offset, normal } => {
+                        json!({ "node": node, "offset": offset.to_array(), "normal": normal.to_array() })
                     }
                 }
             });

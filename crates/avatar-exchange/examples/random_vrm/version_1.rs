@@ -41,14 +41,27 @@ fn springs_1(random: &mut Random) -> Value {
             "gravityPower": random.share(), "gravityDir": vector(random), "dragForce": random.share() })
     };
     let joints = [0, 1, 2, 4].map(&mut joint);
+    // Planes and hollow shapes stand in an extension, beside a form for programs that do not know it.
+    let mut extended = |node: usize, shape: Value| {
+        let extension = json!({ "specVersion": "1.0", "shape": shape });
+        json!({ "node": node, "shape": { "sphere": { "offset": vector(random), "radius": random.share() } },
+            "extensions": { "VRMC_springBone_extended_collider": extension } })
+    };
+    let extended = [
+        extended(1, json!({ "sphere": { "offset": [0.0, 0.25, 0.5], "radius": 0.75, "inside": true } })),
+        extended(2, json!({ "capsule": { "radius": 0.5, "tail": [0.0, 0.5, 0.0], "inside": true } })),
+        extended(0, json!({ "plane": { "offset": [0.0, -0.5, 0.0], "normal": [0.0, 1.0, 0.0] } })),
+    ];
+    let [hollow, tube, plane] = extended;
     json!({
         "specVersion": "1.0",
         "colliders": [
             { "node": 2, "shape": { "sphere": { "offset": vector(random), "radius": random.share() } } },
-            { "node": 0, "shape": { "capsule": { "offset": vector(random), "tail": vector(random), "radius": random.share() } } }
+            { "node": 0, "shape": { "capsule": { "offset": vector(random), "tail": vector(random), "radius": random.share() } } },
+            hollow, tube, plane
         ],
-        "colliderGroups": [{ "name": "both", "colliders": [0, 1] }],
-        "springs": [{ "name": "hair", "joints": joints, "colliderGroups": [0], "center": 2 }]
+        "colliderGroups": [{ "name": "both", "colliders": [0, 1] }, { "colliders": [2, 3, 4] }],
+        "springs": [{ "name": "hair", "joints": joints, "colliderGroups": [0, 1], "center": 2 }]
     })
 }
 

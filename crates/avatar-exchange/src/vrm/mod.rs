@@ -141,13 +141,13 @@ const REQUIRED_BONES: [&str; 15] = [
     "rightHand",
 ];
 
-/// The extensions of VRM 1.0. What a scene does not hold of the fifth is noted with the collider.
+/// The extensions of VRM 1.0.
 const REPRESENTED: [&str; 6] = [
     "VRMC_vrm",
     "VRMC_springBone",
     constraint::EXTENSION,
     mtoon::EXTENSION,
-    "VRMC_springBone_extended_collider",
+    spring::EXTENDED,
     mtoon::EMISSION,
 ];
 

@@ -1,12 +1,15 @@
 //! Chains of joints that swing, and what they bump against: the extension `VRMC_springBone` 1.0,
-//! <https://github.com/vrm-c/vrm-specification/tree/master/specification/VRMC_springBone-1.0>. Here they are
-//! only read; nothing is moved.
+//! <https://github.com/vrm-c/vrm-specification/tree/master/specification/VRMC_springBone-1.0>, and planes and
+//! hollow colliders, `VRMC_springBone_extended_collider` 1.0. Here they are only read; nothing is moved.
 
 use super::descent::Descent;
 use super::note;
 use super::place::Place;
 use crate::scene::{Finding, ImportError, RawScene};
 use glam::Vec3;
+
+/// The name of the extension with planes and hollow colliders.
+pub(super) const EXTENDED: &str = "VRMC_springBone_extended_collider";
 
 /// Everything that swings.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,6 +88,8 @@ pub enum ColliderShape {
         offset: Vec3,
         /// The radius.
         radius: f32,
+        /// Whether joints are kept inside of it instead of outside.
+        inside: bool,
     },
     /// All points near a line.
     Capsule {
@@ -94,6 +99,15 @@ pub enum ColliderShape {
         tail: Vec3,
         /// The radius.
         radius: f32,
+        /// Whether joints are kept inside of it instead of outside.
+        inside: bool,
+    },
+    /// Everything behind a plane.
+    Plane {
+        /// A point of the plane.
+        offset: Vec3,
+        /// Where its front looks; of about unit length.
+        normal: Vec3,
     },
 }
 
@@ -138,24 +152,46 @@ pub(super) fn read(place: &Place<'_>, raw: &mut RawScene) -> Result<Springs, Imp
 
 fn collider(place: &Place<'_>, raw: &mut RawScene) -> Result<SpringCollider, ImportError> {
     let node = place.need("node")?.index("a node", raw.nodes.len())?;
-    if place.get("extensions")?.is_some() {
-        let text = "planes and hollow colliders are not represented: its other form counts";
-        note(raw, place.path(), Finding::left_out(text));
-    }
-    let shape = place.need("shape")?;
-    let shape = match (shape.get("sphere")?, shape.get("capsule")?) {
-        (Some(sphere), None) => ColliderShape::Sphere {
+    let extended = extended(place, raw)?;
+    let is_extended = extended.is_some();
+    let shape = extended.as_ref().unwrap_or(place).need("shape")?;
+    let inside = |form: &Place<'_>| if is_extended { form.flag("inside") } else { Ok(false) };
+    let plane = if is_extended { shape.get("plane")? } else { None };
+    let shape = match (shape.get("sphere")?, shape.get("capsule")?, plane) {
+        (Some(sphere), None, None) => ColliderShape::Sphere {
             offset: sphere.vec3_or("offset", Vec3::ZERO)?,
             radius: sphere.clamped("radius", 0.0, 0.0..=f32::MAX, raw)?,
+            inside: inside(&sphere)?,
         },
-        (None, Some(capsule)) => ColliderShape::Capsule {
+        (None, Some(capsule), None) => ColliderShape::Capsule {
             offset: capsule.vec3_or("offset", Vec3::ZERO)?,
             tail: capsule.vec3_or("tail", Vec3::ZERO)?,
             radius: capsule.clamped("radius", 0.0, 0.0..=f32::MAX, raw)?,
+            inside: inside(&capsule)?,
         },
+        (None, None, Some(plane)) => ColliderShape::Plane {
+            offset: plane.vec3_or("offset", Vec3::ZERO)?,
+            normal: plane.vec3_or("normal", Vec3::Z)?,
+        },
+        _ if is_extended => return Err(shape.wrong("one of a sphere, a capsule and a plane")),
         _ => return Err(shape.wrong("either a sphere or a capsule")),
     };
     Ok(SpringCollider { node, shape })
+}
+
+/// The extension of a collider. As the standard has it, who does not know its version takes the collider's
+/// other form.
+fn extended<'v>(place: &Place<'v>, raw: &mut RawScene) -> Result<Option<Place<'v>>, ImportError> {
+    let Some(extensions) = place.get("extensions")? else { return Ok(None) };
+    let Some(extended) = extensions.get(EXTENDED)? else { return Ok(None) };
+    match extended.version_1("specVersion") {
+        Ok(()) => Ok(Some(extended)),
+        Err(error) => {
+            let text = format!("expected {}, found {}: its other form is taken", error.expected, error.found);
+            note(raw, place.path(), Finding::LeftOut(text));
+            Ok(None)
+        }
+    }
 }
 
 fn joint(place: &Place<'_>, raw: &mut RawScene) -> Result<SpringJoint, ImportError> {

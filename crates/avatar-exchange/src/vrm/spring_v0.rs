@@ -24,7 +24,7 @@ pub(super) fn read(place: &Place<'_>, raw: &mut RawScene) -> Result<Springs, Imp
                 None => Vec3::ZERO,
             };
             let radius = place.clamped("radius", 0.0, 0.0..=f32::MAX, raw)?;
-            let shape = ColliderShape::Sphere { offset, radius };
+            let shape = ColliderShape::Sphere { offset, radius, inside: false };
             springs.colliders.extend(node.map(|node| SpringCollider { node, shape }));
         }
         let colliders = (first..springs.colliders.len()).collect();

@@ -1,5 +1,6 @@
 //! Mixtures as morph targets, for programs that know no mixtures.
 
+use super::ExportTarget;
 use crate::{FaceState, Pack};
 use avatar_mesh::{Offsets, Shape};
 use glam::{DMat3, DVec3, Mat3};
@@ -23,7 +24,7 @@ pub(super) struct Baked {
 /// couplings and correctives are all in it, and at weight 1 a target shows what the mixture does, to
 /// rounding. On the way there vertices go straight, where bones turn them.
 pub(super) fn baked(pack: &Pack, most_bytes: usize) -> Baked {
-    let mut baked = Baked { of_parts: vec![Vec::new(); pack.parts().len()], ..Baked::default() };
+    let mut baked = Baked::new(pack);
     let Some(sliders) = pack.sliders() else { return baked };
     let mixtures: BTreeSet<usize> = sliders.mixing.iter().map(|one| one.from).collect();
     let mut left = most_bytes;
@@ -32,22 +33,50 @@ pub(super) fn baked(pack: &Pack, most_bytes: usize) -> Baked {
         else {
             continue;
         };
-        let Some([from, to]) = ends(pack, control) else { continue };
+        if let Some([from, to]) = ends(pack, control) {
+            baked.add(pack, name, [&from, &to], &mut left);
+        }
+    }
+    baked
+}
+
+/// One target for each of these, and part that it moves: from the face at rest to the one of its values.
+/// Targets whose values do not fit the pack are left out by name.
+pub(super) fn asked(pack: &Pack, targets: &[ExportTarget], most_bytes: usize) -> Baked {
+    let mut baked = Baked::new(pack);
+    let mut left = most_bytes;
+    let rest = FaceState::new(pack);
+    let mut to = FaceState::new(pack);
+    for target in targets {
+        match to.pose(pack, &target.values) {
+            Ok(()) => baked.add(pack, &target.name, [&rest, &to], &mut left),
+            Err(_) => baked.left_out.push(target.name.clone()),
+        }
+    }
+    baked
+}
+
+impl Baked {
+    fn new(pack: &Pack) -> Self {
+        Self { of_parts: vec![Vec::new(); pack.parts().len()], left_out: Vec::new() }
+    }
+
+    /// Adds the target from one face to another, if `left` has room for it.
+    fn add(&mut self, pack: &Pack, name: &str, [from, to]: [&FaceState; 2], left: &mut usize) {
         let moved: Vec<Option<Shape>> =
-            (0..pack.parts().len()).map(|part| target(pack, part, name, &from, &to)).collect();
+            (0..pack.parts().len()).map(|part| target(pack, part, name, from, to)).collect();
         let bytes = moved.iter().flatten().map(Shape::memory_bytes).sum();
         match left.checked_sub(bytes) {
             _ if bytes == 0 => {}
-            None => baked.left_out.push(name.clone()),
+            None => self.left_out.push(name.to_owned()),
             Some(rest) => {
-                left = rest;
-                for (targets, shape) in baked.of_parts.iter_mut().zip(moved) {
+                *left = rest;
+                for (targets, shape) in self.of_parts.iter_mut().zip(moved) {
                     targets.extend(shape);
                 }
             }
         }
     }
-    baked
 }
 
 /// The face with a mixture at 0 and at 1.

@@ -37,6 +37,26 @@ use std::io::Cursor;
 /// Notes of the scene say what of the avatar it does not represent. The scene of a pack that was loaded is
 /// valid: [`avatar_exchange::Scene::from_raw`] takes it.
 pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
+    export_as(pack, textures, None)
+}
+
+/// A morph target that [`export_targets`] makes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportTarget {
+    /// The target's name in the file.
+    pub name: String,
+    /// The controls of the face that it shows at 1.
+    pub values: Vec<f32>,
+}
+
+/// As [`export`], with these morph targets in place of the pack's own shapes and mixtures: each goes from the
+/// face at rest to the one of its values, by bones, shapes and correctives. Targets that move nothing are not
+/// in the file. Poses are left out: they are made of the pack's own shapes.
+pub fn export_targets(pack: &Pack, textures: &Textures, targets: &[ExportTarget]) -> RawScene {
+    export_as(pack, textures, Some(targets))
+}
+
+fn export_as(pack: &Pack, textures: &Textures, asked: Option<&[ExportTarget]>) -> RawScene {
     let mut scene = RawScene { nodes: joints(pack), ..RawScene::default() };
     let palette = pack.palette();
     // A skeleton alone moves no part, and a skin without joints means nothing.
@@ -48,33 +68,44 @@ pub fn export(pack: &Pack, textures: &Textures) -> RawScene {
     let mut images = Images::default();
     let rest = clips::posed(pack, &pack.controls().defaults()).map_or_else(Vec::new, |(_, weights)| weights);
     let mut shapes_of_nodes = Vec::new();
-    let mut baked = baked::baked(pack, baked::MOST_BYTES);
+    let mut baked = match asked {
+        Some(targets) => baked::asked(pack, targets, baked::MOST_BYTES),
+        None => baked::baked(pack, baked::MOST_BYTES),
+    };
     for (number, part) in pack.parts().iter().enumerate() {
         let node = scene.nodes.len();
         let targets = baked.of_parts.get_mut(number).map(std::mem::take).unwrap_or_default();
-        let mut weights = rest.get(part.shapes()).unwrap_or_default().to_vec();
+        let shapes = if asked.is_some() { 0..0 } else { part.shapes() };
+        let mut weights = rest.get(shapes.clone()).unwrap_or_default().to_vec();
         let resting = vec![0.0; targets.len()];
         weights.extend(&resting);
         let local = place(pack, part);
         scene.nodes.push(Node { name: part.name.clone(), weights, local, ..Node::default() });
-        let mesh = mesh(pack, part, targets);
+        let mut mesh = mesh(pack, part, targets);
+        if asked.is_some() {
+            mesh.shapes.drain(..part.shapes().len());
+        }
         let material = material(pack, textures, number, &mut images, &mut scene.notes);
         scene.parts.push(ScenePart {
             material: Some(scene.materials.len()),
             ..ScenePart::skinned(&part.name, node, mesh, 0)
         });
         scene.materials.push(material);
-        shapes_of_nodes.push(clips::ShapesOfNode { node, shapes: part.shapes(), resting });
+        shapes_of_nodes.push(clips::ShapesOfNode { node, shapes, resting });
     }
     scene.images = images.encoded;
-    scene.clips = clips::clips(pack, &scene.nodes, &shapes_of_nodes, &mut scene.notes);
+    if asked.is_none() {
+        scene.clips = clips::clips(pack, &scene.nodes, &shapes_of_nodes, &mut scene.notes);
+    }
     let mut note = |text: &str| scene.notes.push(Note::new("the avatar", Finding::left_out(text)));
     if !baked.left_out.is_empty() {
         let (count, first) = (baked.left_out.len(), &baked.left_out[0]);
-        note(&format!("{count} mixtures are left out, {first:?} first: their targets are too large"));
+        note(&format!("{count} targets are left out, {first:?} first: together they are too large"));
     }
     note("controls, couplings and times of poses are left out");
-    if pack.sliders().is_some() {
+    if asked.is_some() {
+        note("the pack's own shapes and its poses are left out: the targets are those that were asked for");
+    } else if pack.sliders().is_some() {
         note("sliders are left out: in-between and corrective shapes have weights of their own");
     }
     if pack.hair().is_some() {

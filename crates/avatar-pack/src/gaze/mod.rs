@@ -179,6 +179,38 @@ impl Gaze {
     }
 }
 
+/// Metres between the pupils of adults, by which a world without units is measured.
+const PUPILS_APART_METRES: f32 = 0.063;
+
+impl Gaze {
+    /// The way from world space to where the head sees things with these values: metres from the middle
+    /// between the eyes, to the character's left, up, and ahead. Worlds of avatars are in any unit: the
+    /// pupils are taken to be 63 mm apart; where no joint turns an eye, the unit is the metre.
+    ///
+    /// # Errors
+    /// As [`FaceState::pose`].
+    pub fn head_from_world(&mut self, pack: &Pack, values: &[f32]) -> Result<Affine3A, FaceError> {
+        let Self { state, values: tried, eyes, head, rule } = self;
+        take(tried, values)?;
+        state.pose(pack, tried)?;
+        let apart = match eyes.as_slice() {
+            [one, other, ..] => one.origin.distance(other.origin),
+            _ => 0.0,
+        };
+        let metres = if apart > 1e-6 { PUPILS_APART_METRES / apart } else { 1.0 };
+        let rest = Affine3A::IDENTITY;
+        let joint = head.map(|head| head.joint).or(rule.as_ref().map(Follower::head));
+        let bones = state.rig_pose().posed_from_bind();
+        let posed_from_bind = joint.and_then(|joint| bones.get(joint)).copied().unwrap_or(rest);
+        let at_bind = eyes.iter().map(|eye| eye.origin).sum::<Vec3>() / eyes.len().max(1) as f32;
+        let at_bind = rule.as_ref().and_then(|rule| rule.origin(pack)).unwrap_or(at_bind);
+        let middle = posed_from_bind.transform_point3(at_bind);
+        let (_, turned, _) = posed_from_bind.to_scale_rotation_translation();
+        let turned_back = Affine3A::from_quat(turned.inverse());
+        Ok(Affine3A::from_scale(Vec3::splat(metres)) * turned_back * Affine3A::from_translation(-middle))
+    }
+}
+
 impl Turned {
     fn of(pack: &Pack, names: [&str; 2]) -> Option<Self> {
         let table = pack.controls().controls();

@@ -46,6 +46,11 @@ impl Follower {
         controls.iter().any(Option::is_some).then_some(Self { rule, controls })
     }
 
+    /// The joint of the head, by its index.
+    pub(super) fn head(&self) -> usize {
+        self.rule.head.index()
+    }
+
     /// The place between the eyes at bind pose, in world space.
     pub(super) fn origin(&self, pack: &Pack) -> Option<Vec3> {
         let world_from_head = pack.rig().world_from_bind().get(self.rule.head.index())?;

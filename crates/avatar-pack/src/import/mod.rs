@@ -15,15 +15,20 @@ mod shape_sets;
 mod sliders;
 mod spellings;
 #[cfg(feature = "vrm")]
+mod springs;
+#[cfg(feature = "vrm")]
 mod vrm;
 
 pub use names::Role;
 pub use shape_sets::ShapeSet;
 pub(crate) use shape_sets::face_control;
+pub(crate) use spellings::find_all as known_shapes;
 
 use crate::look_rule::LookRule;
 use crate::unique;
-use crate::{ContentsError, FaceError, FaceState, Pack, PackContents, SceneMotion, Textures, Warning};
+use crate::{
+    ContentsError, FaceError, FaceState, Pack, PackContents, SceneMotion, Springs, Textures, Warning,
+};
 use avatar_exchange::Scene;
 use avatar_look::Materials;
 use avatar_mesh::drivers::DriversError;
@@ -144,6 +149,7 @@ impl Import {
             sliders: sliders.sliders,
             further_shapes: None,
             identity: None,
+            springs: Springs::default(),
             controls,
             poses,
             clips: pose_anim::ClipSet::default(),

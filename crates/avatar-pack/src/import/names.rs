@@ -1,6 +1,7 @@
 //! What joints are by their names.
 
 use super::sections::sections;
+pub(super) use face_space::plain;
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::OnceLock;
@@ -80,11 +81,6 @@ fn names() -> &'static Names {
         }
         names
     })
-}
-
-/// Lower case, letters and digits only.
-pub(super) fn plain(name: &str) -> String {
-    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// What a joint of this name does.

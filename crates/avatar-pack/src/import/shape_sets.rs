@@ -1,12 +1,13 @@
 //! What shapes and parts are by their names.
 
 use super::names::plain;
-use super::sections::sections;
+use face_space::Standard;
 use pose_anim::face;
 use std::fmt;
 use std::sync::OnceLock;
 
-const SHAPES: &str = include_str!("../../assets/shapes.txt");
+/// The shapes of this format's own face.
+const OWN: [&str; 2] = ["SSmile", "Frown"];
 
 /// Shapes that many faces have under the same names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -39,22 +40,33 @@ impl ShapeSet {
     /// All sets, in the order in which a name is looked for.
     pub const ALL: [Self; 5] = [Self::Own, Self::ArKit, Self::Visemes, Self::MakeHuman, Self::Vrm];
 
-    /// The heading of the set in `assets/shapes.txt`.
-    fn heading(self) -> &'static str {
+    /// The spaces that the set has the names of; of two that share a name, the first one's.
+    pub(super) fn spaces(self) -> &'static [Standard] {
         match self {
-            Self::ArKit => "arkit",
-            Self::Vrm => "vrm",
-            Self::Visemes => "visemes",
-            Self::MakeHuman => "makehuman",
-            Self::Own => "own",
+            Self::ArKit => &[Standard::ArKit],
+            Self::Vrm => &[Standard::Vrm1, Standard::Vrm0],
+            Self::Visemes => &[Standard::Oculus],
+            Self::MakeHuman => &[Standard::MakeHuman],
+            Self::Own => &[],
         }
     }
 
     /// The names of the set.
     pub fn names(self) -> &'static [&'static str] {
-        static SETS: OnceLock<Vec<(&str, Vec<&str>)>> = OnceLock::new();
-        let sets = SETS.get_or_init(|| sections(SHAPES));
-        sets.iter().find(|(heading, _)| *heading == self.heading()).map_or(&[], |(_, names)| names)
+        static SETS: OnceLock<Vec<(ShapeSet, Vec<&str>)>> = OnceLock::new();
+        let sets = SETS.get_or_init(|| {
+            let names = |set: Self| {
+                let mut names: Vec<&'static str> = if set == Self::Own { OWN.to_vec() } else { Vec::new() };
+                for name in set.spaces().iter().flat_map(|space| space.space().names()) {
+                    if !names.iter().any(|other| plain(other) == plain(&name.name)) {
+                        names.push(&name.name);
+                    }
+                }
+                (set, names)
+            };
+            Self::ALL.map(names).to_vec()
+        });
+        sets.iter().find(|(set, _)| *set == self).map_or(&[], |(_, names)| names)
     }
 }
 
@@ -108,11 +120,5 @@ mod tests {
     fn every_set_has_all_its_names() {
         let counts = ShapeSet::ALL.map(|set| set.names().len());
         assert_eq!(counts, [2, 52, 15, 34, 28]);
-        let headings: Vec<_> = sections(SHAPES).into_iter().map(|(heading, _)| heading).collect();
-        assert_eq!(
-            headings,
-            ShapeSet::ALL.map(ShapeSet::heading),
-            "in the order of the search, and no other"
-        );
     }
 }

@@ -10,7 +10,11 @@ const SPELLINGS: &str = include_str!("../../assets/spellings.txt");
 /// The fewest shapes whose common beginning is taken as a prefix of their exporter.
 const MANY: usize = 8;
 
-/// What `assets/shapes.txt` and `assets/spellings.txt` say, by names in lower case without separators.
+/// Spellings of fewer letters and digits, such as `PP`, may be words of anything.
+const SHORTEST: usize = 4;
+
+/// The names and aliases of the sets, and what `assets/spellings.txt` says, by names in lower case without
+/// separators.
 struct Names {
     /// The sets' own names; of sets that share one, the first set's.
     own: HashMap<String, (ShapeSet, &'static str)>,
@@ -29,6 +33,17 @@ fn names() -> &'static Names {
             }
         }
         let mut names = Names { own, others: HashMap::new(), prefixes: HashSet::new() };
+        for space in ShapeSet::ALL.iter().flat_map(|set| set.spaces()).map(|space| space.space()) {
+            for (spelling, place) in space.spellings() {
+                let name = space.names().get(place).map(|name| plain(&name.name));
+                let known = name.and_then(|name| names.own.get(&name));
+                if let (Some(known), false) = (known, names.own.contains_key(spelling))
+                    && spelling.len() >= SHORTEST
+                {
+                    names.others.entry(spelling.to_owned()).or_insert(*known);
+                }
+            }
+        }
         for (heading, entries) in sections(SPELLINGS) {
             match heading {
                 "prefixes" => names.prefixes.extend(entries),
@@ -80,7 +95,7 @@ pub(super) fn find(name: &str) -> Option<(ShapeSet, &'static str)> {
 }
 
 /// As [`find`] for each of the shapes of a node, whose names may all begin with something that is not listed.
-pub(super) fn find_all(names: &[&str]) -> Vec<Option<(ShapeSet, &'static str)>> {
+pub(crate) fn find_all(names: &[&str]) -> Vec<Option<(ShapeSet, &'static str)>> {
     let common = if names.len() < MANY { 0 } else { common_prefix(names) };
     let without = |name: &str| find(name.get(common..).filter(|_| common > 0)?).filter(is_long);
     names.iter().map(|name| find(name).or_else(|| without(name))).collect()
@@ -330,8 +345,16 @@ mod tests {
         let headings: Vec<_> = found.iter().map(|(heading, _)| *heading).collect();
         assert_eq!(headings, ["prefixes", "names"]);
         assert_eq!(prefixes.len(), found[0].1.len());
-        let lines = found[1].1.iter();
-        assert_eq!(others.len(), lines.map(|line| sides_of(line).len()).sum::<usize>());
+        let spaces = || ShapeSet::ALL.iter().flat_map(|set| set.spaces()).map(|space| space.space());
+        for line in &found[1].1 {
+            let (other, name) = line.split_once('=').unwrap_or((line, ""));
+            for side in sides_of(other) {
+                let (other, name) = (plain(&other.replace('*', side)), plain(&name.replace('*', side)));
+                let known = others.get(&other).map(|(_, known)| plain(known));
+                assert_eq!(known.as_ref(), Some(&name), "{line}");
+                assert!(spaces().all(|space| space.find(&other).is_none()), "{line}: face-space knows it");
+            }
+        }
         // None of them is a name of its own with another meaning.
         assert!(others.iter().all(|(other, known)| names().own.get(other).is_none_or(|own| own == known)));
     }

@@ -1,4 +1,5 @@
 use super::known::{Known, NamedExpression};
+use super::springs::springs;
 use super::{Import, ImportFailure, Role};
 use crate::look_rule::EXPRESSION;
 use avatar_exchange::vrm::{Expression, FirstPersonView, Meta, Vrm, VrmModel};
@@ -29,9 +30,19 @@ impl Import {
         };
         let mut import = Self::with_known(scene, known)?;
         import.report.about = about(&vrm.meta);
-        note_what_rests(&vrm, &mut import);
+        note_views(&vrm, &mut import);
+        import.add_springs(&vrm)?;
         import.add_poses(&vrm)?;
         Ok(import)
+    }
+
+    fn add_springs(&mut self, vrm: &Vrm) -> Result<(), ImportFailure> {
+        let Some(motion) = self.pack.motion() else { return Ok(()) };
+        let mut notes = Vec::new();
+        let springs = springs(vrm, self.pack.rig(), motion, &mut notes);
+        notes.into_iter().for_each(|note| self.note(note));
+        self.pack.set_springs(springs)?;
+        Ok(())
     }
 
     fn add_poses(&mut self, vrm: &Vrm) -> Result<(), ImportFailure> {
@@ -104,17 +115,11 @@ fn about(meta: &Meta) -> Vec<(String, String)> {
     all.filter(|(_, text)| !text.is_empty()).collect()
 }
 
-/// Notes what was read and moves nothing.
-fn note_what_rests(vrm: &Vrm, import: &mut Import) {
+/// Notes what is shown to everybody.
+fn note_views(vrm: &Vrm, import: &mut Import) {
     let views = vrm.first_person.views.iter();
     let own = views.filter(|(_, view)| *view == FirstPersonView::FirstPersonOnly).count();
-    for (count, what) in [
-        (vrm.springs.chains.len(), "springs of hair and clothes are at rest"),
-        (vrm.constraints.len(), "nodes that turn with others stay as they are"),
-        (own, "parts that only the character itself is to see are shown"),
-    ] {
-        if count > 0 {
-            import.note(format!("VRM: {count} {what}"));
-        }
+    if own > 0 {
+        import.note(format!("VRM: {own} parts that only the character itself is to see are shown"));
     }
 }

@@ -7,7 +7,8 @@ pub(crate) use bust::head as head_of;
 
 use crate::files;
 use crate::{
-    ContentsError, Identity, Pack, PackContents, PackError, PackProblem, PaletteBone, Part, Source, Warning,
+    ContentsError, Identity, Pack, PackContents, PackError, PackProblem, PaletteBone, Part, Source, Springs,
+    Warning,
 };
 use avatar_groom::Hair;
 use avatar_look::Materials;
@@ -34,6 +35,7 @@ impl Pack {
         let further = further::load(source, &mut controls, &mut parts)?;
         let poses = load_poses(source, &controls)?;
         let clips = load_clips(source, &controls)?;
+        let springs = load_springs(source, &rig)?;
         let skin = parts.iter().find(|part| part.kind == PartKind::Skin);
         let head = skin.and_then(|skin| bust::head(&skin.mesh, skin.bounds?));
         let contents = PackContents {
@@ -44,6 +46,7 @@ impl Pack {
             sliders: further.sliders,
             further_shapes: further.list,
             identity: load_identity(source)?,
+            springs,
             controls,
             poses,
             clips,
@@ -192,6 +195,17 @@ pub fn load_hair(source: &impl Source) -> Result<Option<Hair>, PackError> {
     let file = files::HAIR;
     let hair = read_text(source, file)?.map(|text| Hair::from_toml(&text)).transpose();
     hair.map_err(|error| at(source, file, PackProblem::Hair(error)))
+}
+
+/// What swings by itself; nothing without `springs.toml`. [`Pack::load`] calls it; by itself it serves
+/// programs that take over a changed file while they run.
+///
+/// # Errors
+/// A file of that name that is unreadable or not as its format demands, and where in it.
+pub fn load_springs(source: &impl Source, rig: &Rig) -> Result<Springs, PackError> {
+    let file = files::SPRINGS;
+    let springs = read_text(source, file)?.map(|text| Springs::from_toml(&text, rig)).transpose();
+    Ok(springs.map_err(|error| at(source, file, PackProblem::Toml(error)))?.unwrap_or_default())
 }
 
 fn load_identity(source: &impl Source) -> Result<Option<Identity>, PackError> {

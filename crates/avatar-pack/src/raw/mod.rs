@@ -11,7 +11,7 @@ use crate::{FurtherShapes, Pack, PackError, Source, SourceError, Textures};
 use avatar_mesh::raw::{write_triangles, write_vertices};
 use avatar_mesh::{FACE_BONES, FACE_PARTS, Shape, raw_shapes};
 use pose_anim::{Clip, ClipSet, ControlError, ControlTable, Coupling, Drive, Pose, PoseSet, Track};
-use rig_core::RigError;
+use rig_core::{Rig, RigError};
 use std::borrow::Cow;
 
 /// The files of a pack in the raw format.
@@ -118,6 +118,7 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     if let Some(identity) = pack.identity() {
         files.push((files::IDENTITY.to_owned(), identity.to_toml().into_bytes()));
     }
+    springs(pack, &bones, &mut files, &mut notes)?;
     further(shapes.list, &meshes.further, &mut files);
     for (spec, mesh) in FACE_PARTS.iter().zip(&meshes.meshes) {
         files.push((files::vertices(spec), write_vertices(mesh)));
@@ -130,6 +131,30 @@ pub fn raw_files(pack: &Pack, textures: &Textures) -> Result<RawFiles, RawError>
     // Only the reader can tell whether all names, whatever their characters, can be read again.
     Pack::load(&Written(&files))?;
     Ok(RawFiles { files, notes })
+}
+
+/// What swings, where every joint is what it was.
+fn springs(
+    pack: &Pack,
+    bones: &joints::Bones,
+    files: &mut Vec<(String, Vec<u8>)>,
+    notes: &mut Vec<String>,
+) -> Result<(), RawError> {
+    let springs = pack.springs();
+    if !springs.constraints.is_empty() {
+        notes.push(format!("{} joints that turn with others stay as they are", springs.constraints.len()));
+    }
+    if springs.springs.is_empty() {
+        return Ok(());
+    }
+    let rig = Rig::from_raw(&bones.rig)?;
+    if rig.names() == bones.names.as_slice() {
+        let written = springs.moved(pack.rig(), &rig, |place| place).to_toml(rig.names());
+        files.push((files::SPRINGS.to_owned(), written.into_bytes()));
+    } else {
+        notes.push(format!("{} joints that swing stay as they are", springs.springs.len()));
+    }
+    Ok(())
 }
 
 /// The further shapes, of each part those that move something of it and those that were listed for it.

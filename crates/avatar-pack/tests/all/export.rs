@@ -19,11 +19,11 @@ use std::collections::BTreeSet;
 const TOLERANCE: f32 = 1e-6;
 
 /// The files of a folder beside the workspace's crates; where it is missing, that is said past the harness.
-fn marsienne() -> MemorySource {
+pub(crate) fn marsienne() -> MemorySource {
     folder("assets/marsienne")
 }
 
-fn again(scene: &RawScene) -> Import {
+pub(crate) fn again(scene: &RawScene) -> Import {
     let bytes = glb::write_raw(scene).expect("a valid scene");
     let scene = gltf::read("export.glb", &bytes, &mut |_| Err("no other files".to_owned()));
     Import::from_scene(scene.expect("what was written")).expect("an avatar")
@@ -276,7 +276,7 @@ fn a_skeleton_alone_comes_back() {
 /// What glTF 2.0 says in sections 3.7.2.2 and 3.7.3.3 of a target at weight 1, at rest: its offsets added,
 /// and joints that move nothing. Written here by itself, so that nothing of this library but the reader of
 /// GLB takes part.
-fn at_weight_1(mesh: &avatar_mesh::Mesh, name: &str) -> Option<(Vec<Vec3>, Vec<Vec3>)> {
+pub(crate) fn at_weight_1(mesh: &avatar_mesh::Mesh, name: &str) -> Option<(Vec<Vec3>, Vec<Vec3>)> {
     let shape = mesh.shapes.iter().find(|shape| shape.name == name)?;
     let (mut positions, mut normals) = (mesh.positions.clone(), mesh.normals.clone());
     shape.positions.iter().for_each(|(vertex, offset)| positions[vertex] += offset);

@@ -63,7 +63,7 @@ fn the_default_poses_are_there_for_shapes_of_arkit() {
         ("smile", "mouthSmileLeft", 0.95),
         ("smile", "mouthSmileRight", 0.95),
         ("smile", "mouthFrownLeft", 0.0),
-        ("laugh", "jawOpen", 0.65),
+        ("laugh", "jawOpen", 0.75),
         ("surprise", "eyeWideLeft", 1.0),
         ("surprise", "eyeBlinkLeft", 0.0),
         ("surprise", "browInnerUp", 1.0),

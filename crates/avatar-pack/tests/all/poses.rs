@@ -67,7 +67,7 @@ fn a_missing_shape_takes_away_only_what_needs_it() {
             "eyeWideLeft" | "eyeWideRight" => &["surprise", "fear", "blow"],
             "jawOpen" => &["laugh", "surprise", "yawn", "oh"],
             "mouthFrownLeft" | "mouthFrownRight" => {
-                &["frown", "anger", "sadness", "disgust", "skeptical", "doubt", "fear"]
+                &["frown", "anger", "sadness", "disgust", "skeptical", "fear"]
             }
             "mouthSmileLeft" => {
                 &["smile", "laugh", "wink-left", "wink-right", "contempt", "joy", "tongue-out"]

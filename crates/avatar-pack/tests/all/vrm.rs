@@ -7,7 +7,7 @@ use avatar_pack::{FaceState, Import, Pack, Role, gaze_values};
 use glam::{DAffine3, DQuat, DVec3};
 
 /// Two faces that share shapes of the same names, and bones whose names say nothing.
-const VRM: &str = r#"{"asset": {"version": "2.0"}, "extensionsUsed": ["VRMC_vrm"],
+pub(crate) const VRM: &str = r#"{"asset": {"version": "2.0"}, "extensionsUsed": ["VRMC_vrm"],
     "extensions": {"VRMC_vrm": {"specVersion": "1.0",
         "meta": {"name": "Nina", "authors": ["A"], "licenseUrl": "https://vrm.dev/licenses/1.0/"},
         "humanoid": {"humanBones": {"hips": {"node": 0}, "head": {"node": 1}, "leftEye": {"node": 2}}},
@@ -19,7 +19,7 @@ const VRM: &str = r#"{"asset": {"version": "2.0"}, "extensionsUsed": ["VRMC_vrm"
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}, {"POSITION": 0}]}],
         "extras": {"targetNames": ["mouth", "brows"]}}]}"#;
 
-fn glb(json: &str) -> Vec<u8> {
+pub(crate) fn glb(json: &str) -> Vec<u8> {
     let mut json = json.as_bytes().to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
     let words = [2, 20 + json.len() as u32, json.len() as u32].map(u32::to_le_bytes);
@@ -356,31 +356,15 @@ fn names_of_shapes_in_primitives_are_as_good_as_those_of_the_mesh() {
 }
 
 #[test]
-fn what_is_read_and_moves_nothing_is_noted() {
-    let vrm = VRM
-        .replace(
-            r#""extensions": {"#,
-            r#""extensions": {"VRMC_springBone": {"specVersion": "1.0",
-            "springs": [{"joints": [{"node": 1}, {"node": 2}]}]}, "#,
-        )
-        .replace(
-            r#""expressions""#,
-            r#""firstPerson": {"meshAnnotations": [{"node": 1, "type": "both"},
-            {"node": 2, "type": "firstPersonOnly"}]}, "expressions""#,
-        )
-        .replace(
-            r#"{"name": "c", "#,
-            r#"{"name": "c", "extensions": {"VRMC_node_constraint":
-            {"specVersion": "1.0", "constraint": {"rotation": {"source": 0}}}}, "#,
-        );
+fn what_is_read_and_not_shown_is_noted() {
+    let vrm = VRM.replace(
+        r#""expressions""#,
+        r#""firstPerson": {"meshAnnotations": [{"node": 1, "type": "both"},
+        {"node": 2, "type": "firstPersonOnly"}]}, "expressions""#,
+    );
     let model = read("nina.vrm", &glb(&vrm), &mut |_| Err(String::new())).expect("a VRM");
     let Import { pack, report, .. } = Import::from_vrm(model).expect("an avatar");
-    for note in [
-        "VRM: 1 springs of hair and clothes are at rest",
-        "VRM: 1 nodes that turn with others stay as they are",
-        "VRM: 1 parts that only the character itself is to see are shown",
-    ] {
-        assert!(report.notes.iter().any(|other| other == note), "{note}: {:?}", report.notes);
-        assert!(pack.warnings().iter().any(|other| other.to_string().contains(note)), "{note}");
-    }
+    let note = "VRM: 1 parts that only the character itself is to see are shown";
+    assert!(report.notes.iter().any(|other| other == note), "{note}: {:?}", report.notes);
+    assert!(pack.warnings().iter().any(|other| other.to_string().contains(note)), "{note}");
 }

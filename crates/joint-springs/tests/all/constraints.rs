@@ -93,8 +93,10 @@ fn circles_are_refused() {
     let parents = [None, Some(0), Some(1)];
     let one = |joint, source| Constraint { joint, source, weight: 1.0, kind: ConstraintKind::Rotation };
     let new = |list: &[Constraint]| Constraints::new(&parents, &[Affine3A::IDENTITY; 3], list).err();
-    assert!(matches!(new(&[one(1, 1)]), Some(SpringError::Circle { .. })));
-    assert!(matches!(new(&[one(0, 2)]), Some(SpringError::Circle { .. })), "the source is below the joint");
+    // The error names a joint whose constraint is part of the circle: leaving it out breaks it.
+    assert_eq!(new(&[one(1, 1)]), Some(SpringError::Circle { joint: 1 }));
+    assert_eq!(new(&[one(0, 2)]), Some(SpringError::Circle { joint: 0 }), "the source is below the joint");
+    assert_eq!(new(&[one(1, 2), one(2, 0)]), Some(SpringError::Circle { joint: 1 }));
     assert_eq!(new(&[one(1, 0), one(1, 0)]), Some(SpringError::Twice { what: "constraints", joint: 1 }));
     assert_eq!(
         new(&[one(1, 3)]),

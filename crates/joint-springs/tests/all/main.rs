@@ -6,4 +6,5 @@ mod colliders;
 mod constraints;
 mod hostile;
 mod motion;
+mod rest;
 mod scene;

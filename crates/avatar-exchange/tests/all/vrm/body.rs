@@ -92,8 +92,8 @@ fn springs_of_version_1_are_read() {
     let model = read(&v1()).expect("a VRM");
     let springs = &model.vrm.springs;
     let shapes: Vec<_> = springs.colliders.iter().map(|collider| (collider.node, collider.shape)).collect();
-    let sphere = ColliderShape::Sphere { offset: Vec3::new(0.0, 0.1, 0.0), radius: 0.125 };
-    let capsule = ColliderShape::Capsule { offset: Vec3::X, tail: Vec3::Y * 2.0, radius: 0.5 };
+    let sphere = ColliderShape::Sphere { offset: Vec3::new(0.0, 0.1, 0.0), radius: 0.125, inside: false };
+    let capsule = ColliderShape::Capsule { offset: Vec3::X, tail: Vec3::Y * 2.0, radius: 0.5, inside: false };
     assert_eq!(shapes, [(1, sphere), (0, capsule)]);
     let groups = springs.collider_groups.iter();
     let groups: Vec<_> = groups.map(|group| (group.name.as_str(), group.colliders.as_slice())).collect();
@@ -134,7 +134,7 @@ fn springs_of_version_0_become_chains_along_first_children() {
     let model = read(&v0()).expect("a VRM");
     let springs = &model.vrm.springs;
     // Forward is +z there and -z in the file's nodes.
-    let sphere = |offset, radius| ColliderShape::Sphere { offset, radius };
+    let sphere = |offset, radius| ColliderShape::Sphere { offset, radius, inside: false };
     assert_eq!(
         springs.colliders.iter().map(|collider| (collider.node, collider.shape)).collect::<Vec<_>>(),
         [(1, sphere(Vec3::new(0.1, 0.2, -0.3), 0.5)), (1, sphere(Vec3::ZERO, 0.25))]
@@ -253,7 +253,7 @@ fn springs_that_are_no_chains_are_left_out_and_odd_numbers_mended() {
         (
             "/extensions/VRMC_springBone/colliders/0/extensions".to_owned(),
             json!({ "VRMC_springBone_extended_collider": {} }),
-            "extensions.VRMC_springBone.colliders[0]: planes and hollow colliders are not represented: its other form counts".to_owned(),
+            "extensions.VRMC_springBone.colliders[0]: expected a member 'specVersion', found none: its other form is taken".to_owned(),
             2,
         ),
     ] {

@@ -1,6 +1,7 @@
 //! VRM of both generations, written by hand, with values worked out by hand.
 
 mod body;
+mod colliders;
 mod toon;
 
 use crate::support::gltf::glb;

@@ -1,10 +1,13 @@
+mod check;
+
 use crate::look_rule::LookRule;
-use crate::{ContentsError, ControlSlider, FurtherShapes, Identity, SceneMotion, Sliders, Warning};
+use crate::{ContentsError, FurtherShapes, Identity, SceneMotion, Sliders, Springs, Warning};
 use avatar_groom::Hair;
 use avatar_look::{Material, Materials};
 use avatar_mesh::{Bounds, Mesh, PartKind};
+use check::{check, check_clips, check_poses, check_springs};
 use glam::Affine3A;
-use pose_anim::{Binding, ClipSet, ControlTable, Coupling, PoseSet};
+use pose_anim::{Binding, ClipSet, ControlTable, PoseSet};
 use rig_core::{JointId, Rig};
 use std::ops::Range;
 
@@ -41,6 +44,8 @@ pub struct PackContents {
     pub further_shapes: Option<FurtherShapes>,
     /// What `identity.toml` says; `None` without that file, and in a pack that is another person already.
     pub identity: Option<Identity>,
+    /// What swings by itself, and what turns with it.
+    pub springs: Springs,
     /// The controls: of joints, and of sliders, or shapes where there are no sliders.
     pub controls: ControlTable,
     /// The poses, as values of the controls.
@@ -117,6 +122,7 @@ impl Pack {
         let driven = contents.sliders.as_ref().map_or(&contents.shapes, |sliders| &sliders.names);
         let driven: Vec<&str> = driven.iter().map(String::as_str).collect();
         let binding = contents.controls.bind(&contents.rig, &driven)?;
+        check_springs(&contents.springs, &contents.rig)?;
         let is_of_joint = |bone: &PaletteBone| {
             contents.rig.bind_from_world().get(bone.joint.index()) == Some(&bone.joint_from_mesh)
         };
@@ -169,6 +175,22 @@ impl Pack {
     /// The axes that make other people of the face, from `identity.toml`; `None` without that file.
     pub fn identity(&self) -> Option<&Identity> {
         self.contents.identity.as_ref()
+    }
+
+    /// What swings by itself, from `springs.toml` or an imported avatar's file.
+    pub fn springs(&self) -> &Springs {
+        &self.contents.springs
+    }
+
+    /// Replaces what swings by itself. States that were made before ([`crate::FaceState`]) go on as they did.
+    ///
+    /// # Errors
+    /// Springs of joints that the pack does not have, or that contradict each other; the springs then stay as
+    /// they were.
+    pub fn set_springs(&mut self, springs: Springs) -> Result<(), ContentsError> {
+        check_springs(&springs, &self.contents.rig)?;
+        self.contents.springs = springs;
+        Ok(())
     }
 
     /// The controls, from `controls.toml` or the default table.
@@ -307,93 +329,5 @@ impl Pack {
     /// The box around all parts at bind pose.
     pub fn bounds(&self) -> Option<Bounds> {
         self.parts().iter().filter_map(|part| part.bounds).reduce(Bounds::union)
-    }
-}
-
-fn check(contents: &PackContents) -> Result<(), ContentsError> {
-    let PackContents { rig, parts, palette, shapes, sliders, controls, look_rule, .. } = contents;
-    if let Some(rule) = look_rule {
-        in_range(rule.head.index(), rig.len(), "joints", || "the rule of looking".to_owned())?;
-    }
-    for (bone, PaletteBone { joint, .. }) in palette.iter().enumerate() {
-        in_range(joint.index(), rig.len(), "joints", || format!("bone {bone}"))?;
-    }
-    for part in parts {
-        let place = || format!("part {:?}", part.name);
-        let largest = |bones: &[[u16; 4]]| bones.as_flattened().iter().copied().max();
-        let skinning = part.mesh.skinning.iter();
-        let skinned = skinning.flat_map(|skinning| [largest(&skinning.bones), largest(&skinning.more_bones)]);
-        if let Some(most) = skinned.flatten().map(usize::from).chain(part.bone).max() {
-            in_range(most, palette.len(), "bones", place)?;
-        }
-        let end = part.shapes().end;
-        if end > shapes.len() {
-            in_range(end - 1, shapes.len(), "shapes", place)?;
-        }
-    }
-    let Some(sliders) = sliders else { return Ok(()) };
-    let drivers = &sliders.drivers;
-    for (what, expected, found) in [
-        ("lists of the sliders that a shape follows", shapes.len(), sliders.of_shapes.len()),
-        ("shapes that the rules move", shapes.len(), drivers.shape_count()),
-        ("sliders that the rules read", sliders.names.len(), drivers.driver_count()),
-    ] {
-        if expected != found {
-            return Err(ContentsError::Count { place: "the sliders".to_owned(), what, expected, found });
-        }
-    }
-    for ControlSlider { slider, control, .. } in &sliders.of_controls {
-        let place = || "the sliders of controls".to_owned();
-        in_range(*slider, sliders.names.len(), "sliders", place)?;
-        in_range(*control, controls.len(), "controls", place)?;
-    }
-    for Coupling { from, to, .. } in &sliders.mixing {
-        in_range(*from.max(to), controls.len(), "controls", || "the mixtures".to_owned())?;
-    }
-    let expressions = &sliders.expressions;
-    let end = expressions.first_slider.saturating_add(expressions.list.len());
-    if end > sliders.names.len() {
-        in_range(end - 1, sliders.names.len(), "sliders", || "the expressions".to_owned())?;
-    }
-    let bound = expressions.list.iter().flat_map(|one| one.binds.iter().map(|(shape, _)| *shape));
-    for shape in bound.chain(expressions.rest.iter().map(|(shape, _)| *shape)) {
-        in_range(shape, shapes.len(), "shapes", || "the expressions".to_owned())?;
-    }
-    for (shape, followed) in shapes.iter().zip(&sliders.of_shapes) {
-        for slider in followed {
-            in_range(*slider, sliders.names.len(), "sliders", || format!("shape {shape:?}"))?;
-        }
-    }
-    Ok(())
-}
-
-fn check_poses(poses: &PoseSet, controls: &ControlTable) -> Result<(), ContentsError> {
-    for pose in poses {
-        let used = pose.values.iter().map(|(control, _)| control);
-        for control in used.chain(pose.timings.iter().map(|(control, _)| control)) {
-            in_range(*control, controls.len(), "controls", || format!("pose {:?}", pose.name))?;
-        }
-    }
-    Ok(())
-}
-
-fn check_clips(clips: &ClipSet, controls: &ControlTable) -> Result<(), ContentsError> {
-    for clip in &clips.clips {
-        for track in clip.tracks() {
-            in_range(track.control(), controls.len(), "controls", || format!("clip {:?}", clip.name))?;
-        }
-    }
-    Ok(())
-}
-
-fn in_range(
-    found: usize,
-    count: usize,
-    what: &'static str,
-    place: impl Fn() -> String,
-) -> Result<(), ContentsError> {
-    match found < count {
-        true => Ok(()),
-        false => Err(ContentsError::Index { place: place(), what, count, found }),
     }
 }
