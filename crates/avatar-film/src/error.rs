@@ -40,6 +40,16 @@ pub enum FilmError {
     /// A film that ends before its first frame.
     #[error("expected at least one frame, found none")]
     NoFrames,
+    /// A sound that the film cannot have.
+    #[error("{format}: expected {expected}, found {found}")]
+    Sound {
+        /// The format.
+        format: Format,
+        /// What would have been right.
+        expected: String,
+        /// What was given.
+        found: String,
+    },
     /// More frames than the format counts.
     #[error("{format}: expected at most {most} frames")]
     TooManyFrames {

@@ -2,13 +2,14 @@ use crate::apng::ApngFilm;
 use crate::gif_film::GifFilm;
 #[cfg(feature = "mp4")]
 use crate::mp4_film::Mp4Film;
-use crate::{FilmError, Format, Rate};
+use crate::{FilmError, Format, Rate, Soundtrack};
 use std::fmt;
 use std::io::{Seek, Write};
 
 /// A film that is being written. It is not one before [`Self::finish`]; what was written till then can be
 /// thrown away.
 pub struct Film<W: Write + Seek> {
+    format: Format,
     frame_bytes: usize,
     frames: u64,
     encoder: Encoder<W>,
@@ -48,7 +49,26 @@ impl<W: Write + Seek> Film<W> {
             #[cfg(feature = "mp4")]
             Format::Mp4 => Encoder::Mp4(Box::new(Mp4Film::new(sink, width as usize, height as usize, rate)?)),
         };
-        Ok(Self { frame_bytes, frames: 0, encoder })
+        Ok(Self { format, frame_bytes, frames: 0, encoder })
+    }
+
+    /// Gives the film a sound, before its first frame: as much of it is heard as there are frames, and its
+    /// first sample is heard with the first frame.
+    ///
+    /// # Errors
+    /// A format that has no sound ([`Format::keeps_sound`]), a rate or channels that it does not know, or a
+    /// film that has begun.
+    pub fn set_sound(&mut self, sound: Soundtrack) -> Result<(), FilmError> {
+        sound.check(self.format)?;
+        if self.frames > 0 {
+            let (expected, found) = ("a sound before the first frame", format!("{} frames", self.frames));
+            return Err(FilmError::Sound { format: self.format, expected: expected.to_owned(), found });
+        }
+        match &mut self.encoder {
+            #[cfg(feature = "mp4")]
+            Encoder::Mp4(film) => film.set_sound(sound),
+            Encoder::Gif(_) | Encoder::Apng(_) => Ok(()),
+        }
     }
 
     /// Shows this frame next.

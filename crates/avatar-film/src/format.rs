@@ -49,6 +49,15 @@ impl Format {
         }
     }
 
+    /// Whether a film can have sound.
+    pub const fn keeps_sound(self) -> bool {
+        match self {
+            Self::Gif | Self::Apng => false,
+            #[cfg(feature = "mp4")]
+            Self::Mp4 => true,
+        }
+    }
+
     /// Longer and shorter side of the largest picture.
     pub(crate) const fn largest(self) -> (u32, u32) {
         match self {

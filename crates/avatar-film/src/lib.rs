@@ -10,7 +10,9 @@
 //!   straight alpha.
 //! - Frame k is shown from `k / rate` on ([`Rate`] is a fraction, so nothing drifts), and a film of n frames
 //!   lasts `n / rate`.
-//! - The same frames give the same bytes.
+//! - A film can have a sound ([`Soundtrack`]) where its format keeps one: MP4 does. It is heard from the
+//!   first frame on.
+//! - The same frames and the same sound give the same bytes.
 //!
 //! # Example
 //!
@@ -32,6 +34,7 @@
 mod rate;
 mod format;
 mod error;
+mod soundtrack;
 mod changed;
 mod palette;
 mod gif_film;
@@ -39,6 +42,8 @@ mod picture;
 mod apng;
 #[cfg(feature = "mp4")]
 mod yuv;
+#[cfg(feature = "mp4")]
+mod mp4_sound;
 #[cfg(feature = "mp4")]
 mod mp4_film;
 mod film;
@@ -48,3 +53,4 @@ pub use film::Film;
 pub use format::Format;
 pub use picture::{frame_name, png};
 pub use rate::{Rate, RateError};
+pub use soundtrack::Soundtrack;

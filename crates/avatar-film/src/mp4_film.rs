@@ -1,5 +1,6 @@
+use crate::mp4_sound::{SoundCoder, Tail, coded, muxing};
 use crate::yuv::Planes;
-use crate::{FilmError, Format, Rate};
+use crate::{FilmError, Rate, Soundtrack};
 use mp4::{AvcConfig, MediaConfig, Mp4Config, Mp4Sample, Mp4Writer, TrackConfig, TrackType};
 use openh264::OpenH264API;
 use openh264::encoder::{
@@ -15,12 +16,13 @@ const QUANTISER: u8 = 20;
 const KEY_SECS: f64 = 2.0;
 /// Wants to be given, and decides nothing: the quantiser is fixed.
 const BIT_RATE: u32 = 20_000_000;
-/// The only track.
+/// The track of the frames; a sound is the second one.
 const TRACK: u32 = 1;
 
-/// H.264 in MP4, in BT.709.
+/// H.264 in MP4, in BT.709, and AAC.
 pub(crate) struct Mp4Film<W: Write + Seek> {
-    writer: Mp4Writer<W>,
+    writer: Mp4Writer<Tail<W>>,
+    sound: Option<SoundCoder>,
     encoder: Encoder,
     planes: Planes,
     /// Pixels in a row of the frames that come.
@@ -58,13 +60,20 @@ impl<W: Write + Seek> Mp4Film<W> {
             .num_threads(1)
             .vui(colors);
         Ok(Self {
-            writer: Mp4Writer::write_start(sink, &config).map_err(muxing)?,
+            writer: Mp4Writer::write_start(Tail::new(sink)?, &config).map_err(muxing)?,
+            sound: None,
             encoder: Encoder::with_api_config(OpenH264API::from_source(), coding).map_err(coded)?,
             planes: Planes::new(width, height),
             width,
             rate,
             frames: 0,
         })
+    }
+
+    /// The film has this sound, which was checked.
+    pub(crate) fn set_sound(&mut self, sound: Soundtrack) -> Result<(), FilmError> {
+        self.sound = Some(SoundCoder::new(sound)?);
+        Ok(())
     }
 
     pub(crate) fn push(&mut self, rgba: &[u8]) -> Result<(), FilmError> {
@@ -110,12 +119,23 @@ impl<W: Write + Seek> Mp4Film<W> {
         let sample = Mp4Sample { start_time, duration, rendering_offset: 0, is_sync, bytes: bytes.into() };
         self.writer.write_sample(TRACK, &sample).map_err(muxing)?;
         self.frames += 1;
+        if let Some(sound) = &mut self.sound {
+            sound.write_until(&mut self.writer, self.rate.time_secs(self.frames), false)?;
+        }
         Ok(())
     }
 
     pub(crate) fn finish(mut self) -> Result<W, FilmError> {
+        if let Some(sound) = &mut self.sound {
+            sound.write_until(&mut self.writer, self.rate.time_secs(self.frames), true)?;
+        }
         self.writer.write_end().map_err(muxing)?;
-        Ok(self.writer.into_writer())
+        let (mut sink, index) = self.writer.into_writer().into_parts();
+        match &self.sound {
+            Some(sound) => sink.write_all(&sound.index(&index, self.rate, self.frames)?)?,
+            None => sink.write_all(&index)?,
+        }
+        Ok(sink)
     }
 }
 
@@ -123,15 +143,4 @@ impl<W: Write + Seek> Mp4Film<W> {
 fn without_start(unit: &[u8]) -> &[u8] {
     let zeros = unit.iter().take_while(|byte| **byte == 0).count();
     unit.get(zeros + 1..).unwrap_or_default()
-}
-
-fn coded(reason: impl ToString) -> FilmError {
-    FilmError::encoder(Format::Mp4, reason)
-}
-
-fn muxing(error: mp4::Error) -> FilmError {
-    match error {
-        mp4::Error::IoError(error) => error.into(),
-        other => coded(other),
-    }
 }
