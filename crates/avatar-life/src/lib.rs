@@ -3,7 +3,7 @@
 //! ```text
 //!  ControlTable ──▶ Life ──advance(dt)──▶ events ──▶ channels ──apply──▶ values of the controls
 //!  Style, seed ─────▲                                              ▲
-//!  attend, think, set_light ─▲                    values of a pose ┘
+//!  attend, think, set_role ─▲                    values of a pose ┘
 //! ```
 //!
 //! A [`Life`] lies over whatever moves a face ([`pose_anim::Player`], [`pose_anim::Layers`], speech): it
@@ -39,4 +39,4 @@ mod life;
 
 pub use gaze::{Saccade, TARGETS, Target};
 pub use life::{Counts, Life, LifeError};
-pub use parameters::{Amounts, Style};
+pub use parameters::{Amounts, Role, Style};

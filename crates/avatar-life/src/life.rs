@@ -6,11 +6,9 @@ use crate::curves::{Follow, positive};
 use crate::gaze::Gaze;
 use crate::parameters as p;
 use crate::wiring::{CHANNELS, Channel, Wiring};
-use crate::{Saccade, Style, Target};
+use crate::{Role, Saccade, Style, Target};
 use pose_anim::ControlTable;
 
-/// The longest step of time in seconds, a day: what happens in it is gone through one by one.
-const LONGEST_SECS: f64 = 86_400.0;
 /// Places of the numbers that follow a style.
 const AMOUNTS: usize = 8;
 const FOLLOWED: usize = AMOUNTS + 2;
@@ -73,6 +71,9 @@ pub struct Counts {
 pub struct Life {
     now: f64,
     style: Style,
+    role: Role,
+    /// The style in this role.
+    lived: Style,
     followed: Follow<FOLLOWED>,
     wiring: Wiring,
     count: usize,
@@ -86,6 +87,9 @@ pub struct Life {
 }
 
 impl Life {
+    /// The longest step of time in seconds, a day: what happens in it is gone through one by one.
+    pub const LONGEST_SECS: f64 = 86_400.0;
+
     /// A face with these controls, at time 0. Faces of different seeds do different things; the same seed
     /// does the same on every machine. What the controls are called decides what they show; what an avatar
     /// lacks is left out.
@@ -103,6 +107,8 @@ impl Life {
             pupils: Pupils::new(),
             channels: [0.0; CHANNELS],
             pupil_mm: 0.0,
+            role: Role::Neither,
+            lived: style,
             style,
         };
         life.look();
@@ -112,9 +118,27 @@ impl Life {
     /// Lives in another way from now on. Amounts change smoothly within about a second; rates hold for what
     /// happens next.
     pub fn set_style(&mut self, style: Style) {
-        let style = style.sound();
-        self.followed.lead(followed(&style), [0.0; FOLLOWED], self.now);
-        self.style = style;
+        self.style = style.sound();
+        self.live();
+    }
+
+    /// Takes a part in a talk, or gives it up: who speaks looks away more and blinks more often, who listens
+    /// looks away less.
+    pub fn set_role(&mut self, role: Role) {
+        if role != self.role {
+            self.role = role;
+            self.live();
+        }
+    }
+
+    /// Its part in a talk.
+    pub fn role(&self) -> Role {
+        self.role
+    }
+
+    fn live(&mut self) {
+        self.lived = self.style.in_role(self.role);
+        self.followed.lead(followed(&self.lived), [0.0; FOLLOWED], self.now);
     }
 
     /// How it lives.
@@ -138,7 +162,7 @@ impl Life {
 
     /// Tells that an utterance has ended: people often blink then.
     pub fn end_utterance(&mut self) {
-        self.blinks.wish(self.now, p::UTTERANCE_BLINK, &self.style);
+        self.blinks.wish(self.now, p::UTTERANCE_BLINK, &self.lived);
     }
 
     /// How bright it is before the eyes, in candela a square metre: 100 in a lit room, 5,000 outdoors.
@@ -156,7 +180,7 @@ impl Life {
     /// # Errors
     /// A step that is negative, longer than a day, or NaN; then nothing changes.
     pub fn advance(&mut self, dt_secs: f64) -> Result<(), LifeError> {
-        if !(0.0..=LONGEST_SECS).contains(&dt_secs) {
+        if !(0.0..=Self::LONGEST_SECS).contains(&dt_secs) {
             return Err(LifeError::Step { dt_secs });
         }
         let until = self.now + dt_secs;
@@ -168,20 +192,20 @@ impl Life {
                 break;
             }
             if first == blink {
-                self.blinks.happen(&self.style);
+                self.blinks.happen(&self.lived);
             } else if first == breath {
-                self.breath.happen(&self.style);
+                self.breath.happen(&self.lived);
             } else if first == next {
-                let degrees = self.gaze.happen(&self.style);
+                let degrees = self.gaze.happen(&self.lived);
                 let [none, all] = p::GAZE_BLINK_DEGREES;
                 let probability = p::GAZE_BLINK_MOST * ((degrees - none) / (all - none)).clamp(0.0, 1.0);
                 if probability > 0.0 {
-                    self.blinks.wish(first, probability, &self.style);
+                    self.blinks.wish(first, probability, &self.lived);
                 }
             } else if first == next_micro {
                 self.gaze.jump();
             } else {
-                self.gaze.look_after(&self.style);
+                self.gaze.look_after(&self.lived);
             }
         }
         self.now = until;
@@ -246,7 +270,20 @@ impl Life {
                 return Err(LifeError::Length { what, expected: self.count, found });
             }
         }
-        self.wiring.apply(&self.channels, below, out);
+        out.copy_from_slice(below);
+        self.apply_in_place(out)
+    }
+
+    /// As [`Self::apply`], over values that stand where the result is written.
+    ///
+    /// # Errors
+    /// A slice of another length; then nothing is written.
+    pub fn apply_in_place(&self, values: &mut [f32]) -> Result<(), LifeError> {
+        if values.len() != self.count {
+            let (expected, found) = (self.count, values.len());
+            return Err(LifeError::Length { what: "values", expected, found });
+        }
+        self.wiring.apply(&self.channels, values);
         Ok(())
     }
 

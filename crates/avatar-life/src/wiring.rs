@@ -217,9 +217,8 @@ impl Wiring {
         self.wires.iter().map(|wire| wire.control as usize)
     }
 
-    /// Values of all controls, with life on top; both slices have an entry for each control.
-    pub(crate) fn apply(&self, channels: &[f64; CHANNELS], below: &[f32], out: &mut [f32]) {
-        out.copy_from_slice(below);
+    /// Puts life on top of values of all controls.
+    pub(crate) fn apply(&self, channels: &[f64; CHANNELS], out: &mut [f32]) {
         for wire in &self.wires {
             if let Some(slot) = out.get_mut(wire.control as usize) {
                 *slot = wire.value(channels, f64::from(*slot)) as f32;

@@ -1,7 +1,10 @@
+use crate::amounts::Amounts;
 use crate::mouth::{Articulator, Mouth};
 use crate::params::ARTICULATORS;
 use crate::viseme::{VISEMES, Viseme};
+use face_space::Standard;
 use pose_anim::{ControlTable, face};
+use std::sync::OnceLock;
 
 /// How an avatar is made to speak: what its controls allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,21 +20,6 @@ pub enum Means {
     Jaw,
     /// Nothing: the avatar has no mouth that could move.
     Nothing,
-}
-
-/// How much of speech a face shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Amounts {
-    /// Movements of jaw, lips and tongue, 0 to 1. Lips close at any amount.
-    pub mouth: f32,
-    /// Movements of the brows with loud syllables, 0 to 1.
-    pub brows: f32,
-}
-
-impl Default for Amounts {
-    fn default() -> Self {
-        Self { mouth: 1.0, brows: 1.0 }
-    }
 }
 
 /// What moves a control.
@@ -57,6 +45,25 @@ struct Wire {
     yields: f64,
 }
 
+impl Wire {
+    fn value(&self, mouth: &Mouth, amounts: Amounts, below: f64) -> f64 {
+        let (of_mouth, of_brows) = (f64::from(amounts.mouth), f64::from(amounts.brows));
+        let held = 1.0 - (1.0 - mouth.closed) * (1.0 - mouth.bitten);
+        let wanted = match self.source {
+            Source::Articulator(index) => of_mouth * mouth.articulators[index],
+            Source::Viseme(index) => of_mouth * mouth.visemes[index],
+            Source::Visemes(shares) => {
+                let weight = |(viseme, share): &(Viseme, f64)| share * mouth.visemes[viseme.index()];
+                of_mouth * shares.iter().map(weight).sum::<f64>()
+            }
+            Source::Brows(share) => of_brows * share * mouth.brows,
+            Source::Nothing => 0.0,
+        };
+        let own = (below - self.default) * (1.0 - self.yields * held);
+        self.default + own + wanted * (self.room - own)
+    }
+}
+
 /// The way from a [`Mouth`] to the controls of one avatar.
 #[derive(Clone, Debug)]
 pub struct SpeechMap {
@@ -67,28 +74,32 @@ pub struct SpeechMap {
 /// Visemes that one mouth stands for, each with its weight.
 type Shares = &'static [(Viseme, f64)];
 
-/// The mouths of VRM 1.0, by the names of their controls, and what they share in each viseme. Those of
-/// VRM 0.x have other names in their files, and these as controls.
-const VRM: [(&str, Shares); 5] = [
-    ("expression.aa", &[(Viseme::Aa, 0.9), (Viseme::KK, 0.12), (Viseme::TH, 0.08)]),
-    (
-        "expression.ih",
-        &[
-            (Viseme::I, 0.75),
-            (Viseme::SS, 0.4),
-            (Viseme::DD, 0.3),
-            (Viseme::NN, 0.25),
-            (Viseme::KK, 0.15),
-            (Viseme::FF, 0.12),
-            (Viseme::TH, 0.25),
-        ],
-    ),
-    ("expression.ou", &[(Viseme::U, 0.9), (Viseme::CH, 0.45), (Viseme::RR, 0.4)]),
-    ("expression.ee", &[(Viseme::E, 0.75), (Viseme::SS, 0.15), (Viseme::DD, 0.1)]),
-    ("expression.oh", &[(Viseme::O, 0.85), (Viseme::RR, 0.12)]),
-];
+/// A mouth of VRM 1.0: the name of its control, and what it shares in each viseme. Those of VRM 0.x have
+/// other names in their files, and these as controls.
+struct VrmMouth {
+    control: String,
+    shares: Vec<(Viseme, f64)>,
+}
 
-/// Controls that part the lips, beside [`VRM`]'s mouths, and the share of each that lips take away while they
+/// The mouths of VRM, as the map from visemes to its expressions has them.
+fn vrm() -> &'static [VrmMouth] {
+    static MOUTHS: OnceLock<Vec<VrmMouth>> = OnceLock::new();
+    MOUTHS.get_or_init(|| {
+        let Some(map) = Standard::Oculus.map_to(Standard::Vrm1) else { return Vec::new() };
+        let mouth = |rule: &face_space::Rule| {
+            let share = |term: &face_space::Term| {
+                let viseme = Viseme::ALL.get(*term.of.first()?)?;
+                // As it is written, in decimals.
+                Some((*viseme, (f64::from(term.by) * 1e6).round() / 1e6))
+            };
+            let shares = rule.terms.iter().filter_map(share).collect();
+            Some(VrmMouth { control: format!("expression.{}", map.to().names().get(rule.to)?.name), shares })
+        };
+        map.rules().iter().filter_map(mouth).collect()
+    })
+}
+
+/// Controls that part the lips, beside those of [`vrm`], and the share of each that lips take away while they
 /// are held. What does nothing but part the lips goes entirely. The share of the smile was found on the
 /// built-in face, whose lips then close under all of its poses (`tests/tests/speech.rs` measures them). Those
 /// of VRM's expressions are guesses: each avatar has shapes of its own for them.
@@ -112,7 +123,7 @@ const PARTING: [(&str, f64); 15] = [
 
 /// The share of a control that held lips take away.
 fn parting(name: &str) -> f64 {
-    if VRM.iter().any(|(mouth, _)| *mouth == name) {
+    if vrm().iter().any(|mouth| mouth.control == name) {
         return 1.0;
     }
     PARTING.iter().find(|(parting, _)| *parting == name).map_or(0.0, |(_, share)| *share)
@@ -136,8 +147,9 @@ impl SpeechMap {
             .into_iter()
             .filter_map(|viseme| Some((viseme, controls.index(&format!("viseme_{}", viseme.name()))?)))
             .collect();
-        let vrm: Vec<_> =
-            (VRM.iter()).filter_map(|(name, visemes)| Some((*visemes, controls.index(name)?))).collect();
+        let vrm: Vec<(Shares, usize)> = (vrm().iter())
+            .filter_map(|mouth| Some((mouth.shares.as_slice(), controls.index(&mouth.control)?)))
+            .collect();
         let jaw = of_articulator(controls, Articulator::JawOpen);
         let means = if articulators.len() >= ENOUGH_ARTICULATORS {
             for (articulator, found) in articulators {
@@ -198,27 +210,20 @@ impl SpeechMap {
     /// ranges, and the result is as smooth as both are. Values that are missing are passed over. Allocates
     /// nothing.
     pub fn apply(&self, mouth: &Mouth, amounts: Amounts, values: &mut [f32]) {
-        let share = |amount: f32| if amount > 0.0 { f64::from(amount.min(1.0)) } else { 0.0 };
-        let (of_mouth, of_brows) = (share(amounts.mouth), share(amounts.brows));
-        let held = 1.0 - (1.0 - mouth.closed) * (1.0 - mouth.bitten);
+        let amounts = amounts.sound();
         for wire in &self.wires {
-            let Some(value) = values.get_mut(wire.control) else { continue };
-            let wanted = match wire.source {
-                Source::Articulator(index) => of_mouth * mouth.articulators[index],
-                Source::Viseme(index) => of_mouth * mouth.visemes[index],
-                Source::Visemes(shares) => {
-                    of_mouth
-                        * shares
-                            .iter()
-                            .map(|(viseme, share)| share * mouth.visemes[viseme.index()])
-                            .sum::<f64>()
-                }
-                Source::Brows(share) => of_brows * share * mouth.brows,
-                Source::Nothing => 0.0,
-            };
-            let own = (f64::from(*value) - wire.default) * (1.0 - wire.yields * held);
-            *value = (wire.default + own + wanted * (wire.room - own)) as f32;
+            if let Some(value) = values.get_mut(wire.control) {
+                *value = wire.value(mouth, amounts, f64::from(*value)) as f32;
+            }
         }
+    }
+
+    /// The value of one control over a value below, in full precision, as [`Self::apply`] makes it. A control
+    /// that speech does not concern keeps its value.
+    pub fn value(&self, mouth: &Mouth, amounts: Amounts, control: usize, below: f64) -> f64 {
+        let amounts = amounts.sound();
+        let wires = self.wires.iter().filter(|wire| wire.control == control);
+        wires.fold(below, |below, wire| wire.value(mouth, amounts, below))
     }
 
     /// Weights of Oculus's visemes, in the order of [`Viseme::ALL`].

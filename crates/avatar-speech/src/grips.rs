@@ -11,6 +11,13 @@ pub(crate) struct Grip {
     secs: [f64; 4],
 }
 
+impl Grip {
+    /// From when on the lips are held.
+    pub(crate) fn held_secs(&self) -> f64 {
+        self.secs[1]
+    }
+}
+
 /// The grips of these sounds, which follow each other without a gap.
 pub(crate) fn grips(cues: &[Cue]) -> Vec<Grip> {
     let mut grips: Vec<Grip> = Vec::new();
@@ -39,10 +46,14 @@ pub(crate) fn grips(cues: &[Cue]) -> Vec<Grip> {
     grips
 }
 
-/// How far the lips are held closed, and bitten, at a time.
-pub(crate) fn held(grips: &[Grip], secs: f64) -> [f64; 2] {
+/// How far the lips are held closed, and bitten, at a time. At least `before` grips are held before it, and
+/// about as many.
+pub(crate) fn held(grips: &[Grip], before: usize, secs: f64) -> [f64; 2] {
     // Of those before the last one that is held already, none is still open.
-    let next = grips.partition_point(|grip| grip.secs[1] <= secs);
+    let mut next = before;
+    while grips.get(next).is_some_and(|grip| grip.secs[1] <= secs) {
+        next += 1;
+    }
     let nearby = &grips[next.saturating_sub(1)..grips.len().min(next + 1)];
     let mut open = [1.0; 2];
     for Grip { is_bite, secs: [begin, from, to, end] } in nearby {

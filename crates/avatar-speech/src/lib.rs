@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!  text of Rhubarb, Praat … ──▶ Timeline ──▶ Speech ──at(secs)──▶ Mouth ──SpeechMap──▶ values of controls
-//!         weights of visemes, from a voice ──Mouth::of_visemes────┘  └──▶ weights of Oculus, ARKit
+//!      phones of a text ──Phones──┘                               │  └──▶ weights of Oculus, ARKit
+//!  weights of visemes, from a voice ──HeardSpeech, LiveMouth──────┘
 //! ```
 //!
 //! - A [`Timeline`] is a list of sounds with their times, read from any of the [`Format`]s that other
@@ -46,17 +47,24 @@ mod timeline;
 mod phone;
 mod read;
 mod params;
+mod amounts;
 mod ease;
 mod mouth;
 mod loudness;
 mod grips;
 mod speech;
+mod heard;
+mod align;
 mod face;
 
+pub use align::Phones;
+pub use amounts::Amounts;
 pub use error::{Note, SpeechError};
-pub use face::{Amounts, Means, SpeechMap};
+pub use face::{Means, SpeechMap};
+pub use heard::{HeardSpeech, LiveMouth, speaks};
 pub use loudness::Loudness;
 pub use mouth::{Articulator, Mouth};
+pub use params::UTTERANCE_PAUSE_SECS;
 pub use phone::Alphabet;
 pub use read::Format;
 pub use speech::Speech;

@@ -1,3 +1,4 @@
+use crate::amounts::Amounts;
 use crate::ease::{ease, ease_between};
 use crate::params::{
     ARTICULATORS, BROWS, BROWS_FROM, GROUP, GROUPS, JAW_LOUD, JAW_QUIET, LIPS, TARGETS, target_of,
@@ -126,6 +127,34 @@ impl Mouth {
         Self::of_groups(&[shares; GROUPS], held(Viseme::PP), held(Viseme::FF), loudness)
     }
 
+    /// A share of the way from this mouth to another one: 0 is this one, 1 the other. As smooth in time as
+    /// both and the share are.
+    #[must_use]
+    pub fn toward(&self, other: &Self, share: f64) -> Self {
+        let between = |from: f64, to: f64| from + share * (to - from);
+        Self {
+            visemes: std::array::from_fn(|i| between(self.visemes[i], other.visemes[i])),
+            articulators: std::array::from_fn(|i| between(self.articulators[i], other.articulators[i])),
+            closed: between(self.closed, other.closed),
+            bitten: between(self.bitten, other.bitten),
+            loudness: between(self.loudness, other.loudness),
+            brows: between(self.brows, other.brows),
+        }
+    }
+
+    /// The same with smaller movements of jaw, lips, tongue and brows; lips close all the same.
+    #[must_use]
+    pub fn scaled(&self, amounts: Amounts) -> Self {
+        let Amounts { mouth, brows } = amounts.sound();
+        let (mouth, brows) = (f64::from(mouth), f64::from(brows));
+        Self {
+            visemes: self.visemes.map(|weight| mouth * weight),
+            articulators: self.articulators.map(|weight| mouth * weight),
+            brows: brows * self.brows,
+            ..*self
+        }
+    }
+
     /// The mouth of shares of visemes for each group, whose sums are 1.
     pub(crate) fn of_groups(
         shares: &[[f64; VISEMES]; GROUPS],
@@ -139,8 +168,12 @@ impl Mouth {
             if own == [0.0; 3] {
                 continue;
             }
-            for ((value, wanted), group) in articulators.iter_mut().zip(&target.articulators).zip(GROUP) {
-                *value += own[group] * wanted;
+            // Group by group rather than by a table, so that the lips' eleven are computed side by side.
+            for (group, of_group) in GROUP {
+                let wanted = target.articulators.get(of_group.clone()).unwrap_or_default();
+                for (value, wanted) in articulators[of_group].iter_mut().zip(wanted) {
+                    *value += own[group] * wanted;
+                }
             }
         }
         let jaw = &mut articulators[Articulator::JawOpen as usize];

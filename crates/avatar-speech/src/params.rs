@@ -7,6 +7,7 @@
 //! laid over it, as in "JALI" (Edwards, Landreth, Fiume and Singh 2016, section 4.2).
 
 use crate::viseme::{VISEMES, Viseme};
+use std::ops::Range;
 
 /// Number of articulators of a [`crate::Mouth`].
 pub(crate) const ARTICULATORS: usize = 14;
@@ -17,9 +18,8 @@ pub(crate) const LIPS: usize = 1;
 pub(crate) const TONGUE: usize = 2;
 pub(crate) const VOICE: usize = 3;
 
-/// The group of each articulator.
-pub(crate) const GROUP: [usize; ARTICULATORS] =
-    [JAW, JAW, TONGUE, LIPS, LIPS, LIPS, LIPS, LIPS, LIPS, LIPS, LIPS, LIPS, LIPS, LIPS];
+/// The articulators of each group.
+pub(crate) const GROUP: [(usize, Range<usize>); 3] = [(JAW, 0..2), (TONGUE, 2..3), (LIPS, 3..ARTICULATORS)];
 
 /// Seconds that an articulator takes from one target to the next in slow speech. The jaw is heavy: it moves
 /// in about 150 to 200 ms in syllables of ordinary length, lips in 100 to 150 ms, the tip of the tongue
@@ -42,6 +42,9 @@ pub(crate) const REACH_SECS: f64 = 0.2;
 pub(crate) const SHORTEST_SECS: f64 = 0.012;
 /// A pause of this length or longer is silence; in a shorter one lips stay with the sounds around.
 pub(crate) const PAUSE_SECS: f64 = 0.25;
+/// A pause of this length or longer, in seconds, ends an utterance (pauses within one are mostly shorter:
+/// Goldman-Eisler 1968 takes 0.25 s for the least of those that speakers make to think).
+pub const UTTERANCE_PAUSE_SECS: f64 = 0.4;
 /// How many sounds further a vowel is still prepared or still felt.
 pub(crate) const FELT_SOUNDS: usize = 4;
 /// How much of what a sound does not insist on comes from the vowel after it; the rest from the one before.
@@ -103,3 +106,39 @@ pub(crate) const TARGETS: [Target; VISEMES] = [
 pub(crate) const fn target_of(viseme: Viseme) -> &'static Target {
     &TARGETS[viseme.index()]
 }
+
+/// Seconds between frames of a recogniser.
+pub(crate) const HEARD_STEP_SECS: f64 = 0.01;
+/// Widths of the curves through what is heard, in frames: a cubic B-spline of width 4 takes 100 ms from a
+/// tenth to nine tenths of a step, near what a jaw takes ([`MOVE_SECS`]); lips are quicker, and the tongue.
+pub(crate) const HEARD_WIDTH: [f64; GROUPS] = [4.0, 3.0, 2.0, 6.0];
+/// The same while somebody speaks, where each frame of width costs two of delay.
+pub(crate) const HEARD_WIDTH_LIVE: [f64; GROUPS] = [2.0, 2.0, 1.0, 2.0];
+/// How early groups move in a recording, in seconds, as with [`EARLY_SECS`].
+pub(crate) const HEARD_AHEAD: [f64; GROUPS] = [0.02, 0.025, 0.015, 0.0];
+/// From which weight of p, b, m on, times that of no vowel, lips begin to close, and at which they are
+/// closed; the same of f, v. The recogniser is seldom sure of them, and a mouth that stays open is seen more
+/// than one that closes on a t. As low as closes lips in the middle of one vowel in a hundred, over voices of
+/// three synthesisers (docs/speech.md).
+pub(crate) const HEARD_CLOSED: [f64; 2] = [0.08, 0.16];
+pub(crate) const HEARD_BITTEN: [f64; 2] = [0.06, 0.12];
+/// The width of the curve through that, in frames, and where on it lips are closed: they take some 16 ms, and
+/// reach each other in the shortest p.
+pub(crate) const HEARD_GRIP_WIDTH: f64 = 2.0;
+pub(crate) const HEARD_GRIPPED: f64 = 0.9;
+/// What is usual at first, on the recogniser's scale; how fast that follows (a second of speech is most of
+/// it); and how much its differences count.
+pub(crate) const HEARD_USUAL: f64 = 0.6;
+pub(crate) const HEARD_USUAL_STEP: f64 = 0.01;
+pub(crate) const HEARD_GAIN: f64 = 1.2;
+
+/// Alignment of sounds that are known with what is heard. The least weight that counts, since a recogniser is
+/// often wrong; how much of silence is the stop of p, t or k; how far lengths of sounds usually are from what
+/// is usual, as a logarithm. Half as long to twice as long are most of them (Crystal and House 1988), which
+/// is some 0.5; where the recogniser is lost, less keeps sounds in their places.
+pub(crate) const ALIGN_LEAST: f32 = 0.04;
+pub(crate) const ALIGN_STOP: f32 = 0.35;
+pub(crate) const ALIGN_SPREAD: f32 = 0.35;
+/// The longest sound, in frames; and how many spoken frames from where it is awaited a sound is looked for.
+pub(crate) const ALIGN_MOST_FRAMES: usize = 50;
+pub(crate) const ALIGN_WINDOW: f32 = 300.0;

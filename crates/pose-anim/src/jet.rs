@@ -38,7 +38,7 @@ impl Jet {
         let s = age_secs * rate;
         let u = 1.0 - s;
         Self {
-            value: s * s * s * (10.0 + s * (6.0 * s - 15.0)),
+            value: minimum_jerk(s),
             velocity: 30.0 * s * s * u * u * rate,
             acceleration: 60.0 * s * u * (1.0 - 2.0 * s) * rate * rate,
         }
@@ -95,4 +95,10 @@ impl Mul for Jet {
                 + self.value * other.acceleration,
         }
     }
+}
+
+/// The values of [`Jet::step`] without its derivatives, at `s = age / duration`.
+pub(crate) fn minimum_jerk(s: f64) -> f64 {
+    let s = s.clamp(0.0, 1.0);
+    s * s * s * (10.0 + s * (6.0 * s - 15.0))
 }

@@ -43,18 +43,30 @@ impl Format {
     pub const ALL: [Self; 7] =
         [Self::Table, Self::Xml, Self::Json, Self::Marks, Self::TextGrid, Self::Labels, Self::Subtitles];
 
+    /// How names of files end that tell their format.
+    pub const ENDINGS: [(&str, Self); 15] = [
+        ("tsv", Self::Table),
+        ("csv", Self::Table),
+        ("txt", Self::Table),
+        ("xml", Self::Xml),
+        ("jsonl", Self::Marks),
+        ("ndjson", Self::Marks),
+        ("marks", Self::Marks),
+        ("TextGrid", Self::TextGrid),
+        ("lab", Self::Labels),
+        ("phn", Self::Labels),
+        ("pho", Self::Labels),
+        ("lbl", Self::Labels),
+        ("segs", Self::Labels),
+        ("srt", Self::Subtitles),
+        ("vtt", Self::Subtitles),
+    ];
+
     /// The format that a file's name tells by its end; `.json` is found by what is in it.
     pub fn of_name(name: &str) -> Option<Self> {
         let (_, end) = name.rsplit_once('.')?;
-        Some(match end.to_ascii_lowercase().as_str() {
-            "tsv" | "csv" | "txt" => Self::Table,
-            "xml" => Self::Xml,
-            "jsonl" | "ndjson" | "marks" => Self::Marks,
-            "textgrid" => Self::TextGrid,
-            "lab" | "phn" | "pho" | "lbl" | "segs" => Self::Labels,
-            "srt" | "vtt" => Self::Subtitles,
-            _ => return None,
-        })
+        let (_, format) = Self::ENDINGS.into_iter().find(|(ending, _)| ending.eq_ignore_ascii_case(end))?;
+        Some(format)
     }
 
     /// The format that a text seems to be in.

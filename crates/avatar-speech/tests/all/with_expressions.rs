@@ -152,3 +152,11 @@ fn no_frame_allocates() {
     });
     assert_eq!(used.count_total, 0);
 }
+
+/// Maps between spaces count visemes in the same order.
+#[test]
+fn visemes_are_those_of_the_space_of_oculus() {
+    let names = face_space::Standard::Oculus.space().names().iter().map(|name| name.name.as_str());
+    let own: Vec<String> = Viseme::ALL.iter().map(|viseme| format!("viseme_{}", viseme.name())).collect();
+    assert!(names.eq(own.iter().map(String::as_str)), "{own:?}");
+}
