@@ -5,7 +5,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::math::{curve, lerp, pow, smooth};
+use crate::math::{asin, curve, lerp, pow, sin, smooth};
 
 /// Centre of the left eye, the pivot of its eyeball and of both its lids.
 pub const EYE: DVec3 = DVec3::new(3.27, 0.25, 1.447);
@@ -99,18 +99,22 @@ pub fn brow(s: f64) -> (DVec2, f64) {
 /// side of the mouth line a point lies that could be on either.
 #[must_use]
 pub fn below_mouth(p: DVec3, lower: bool) -> f64 {
-    // The angle about the jaw's pivot, measured down from the level line; the mouth line lies at one angle
-    // nearly everywhere, so the cheek's transition is a fan that opens toward the corner of the mouth.
+    // The angle about the jaw's pivot, measured down from the level line, against that of the line between
+    // the lips: the cheek's transition is a fan that opens toward the corner of the mouth.
+    let about_jaw = |y: f64, z: f64| crate::math::atan2(JAW.y - y, z - JAW.z);
     let rel = p - JAW;
-    let angle = crate::math::atan2(-rel.y, rel.z);
-    let mouth = crate::math::atan2(-(MOUTH_Y - JAW.y), 3.9 - JAW.z);
     let x = p.x.abs();
+    let u = (x / MOUTH_HALF_WIDTH).min(1.0);
+    let below = about_jaw(p.y, p.z) - about_jaw(mouth_line(u).y, mouth_depth(u));
     // As a length, so that the transition stays gentle close to the joint.
     let radius = rel.y.hypot(rel.z).max(4.0);
-    let spread = lerp(0.67, 2.8, smooth(MOUTH_HALF_WIDTH - 0.3, MOUTH_HALF_WIDTH + 2.2, x));
-    // An opened mouth is an oval: the lips part quickly next to the corner and slowly in the middle.
-    let u = (x / MOUTH_HALF_WIDTH).min(1.0);
-    let inside = pow(1.0 - u * u, 0.55);
+    // Toward the corner the lips are thin, and what is beside them has to take the stretch.
+    let near = lerp(0.67, 1.35, smooth(0.3, 1.0, u));
+    let spread = lerp(near, 2.8, smooth(MOUTH_HALF_WIDTH - 0.3, MOUTH_HALF_WIDTH + 2.2, x));
+    // An opened mouth is an oval. Lips at the heights 1 and -1 of this line part by as much of the jaw's way
+    // as the cubic ease below gives them, (3h - h³)/2 = sin(3a) for h = 2 sin(a): solved for the height of an
+    // ellipse over its axis, (1 - u²)^½ = sin(π/2 - asin(u)).
+    let inside = 2.0 * sin((0.5 * std::f64::consts::PI - asin(u)) / 3.0);
     let side = if lower { 1.0 } else { -1.0 };
-    smooth(-1.0, 1.0, (angle - mouth) * radius / spread + side * inside)
+    smooth(-1.0, 1.0, below * radius / spread + side * inside)
 }

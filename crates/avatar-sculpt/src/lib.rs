@@ -12,6 +12,7 @@
 
 pub mod math;
 pub mod anatomy;
+pub mod cheek;
 pub mod lids;
 pub mod mesh;
 pub mod parts;

@@ -16,6 +16,11 @@ use crate::{
 pub const UPPER_CLOSE: f64 = std::f64::consts::FRAC_PI_4;
 /// See [`UPPER_CLOSE`].
 pub const LOWER_CLOSE: f64 = 0.436_332_312_998_582_4;
+/// How far past the line where they meet the upper and the lower lid close in the middle, in radians: brows
+/// and cheeks that draw at the lids must not part them.
+const PAST_LINE: (f64, f64) = (0.075, 0.025);
+/// How fast that comes with the height of the opening, from the corners on.
+const PAST_FADE: f64 = 0.45;
 
 /// Where a point lies between the corners of the eye: 0 at the inner, 1 at the outer one.
 #[must_use]
@@ -44,9 +49,15 @@ fn margin_and_share(s: f64, lower: bool) -> (f64, f64) {
     let line = lerp(CANTHUS_INNER.y, CANTHUS_OUTER.y, s) - 0.26 * arch;
     let angle = angle_of(margin.x, margin.y);
     let way = (angle - angle_of(margin.x, line)).abs();
-    let overlap = 0.10 * pow(arch, 0.35);
+    let past = if lower { PAST_LINE.1 } else { PAST_LINE.0 } * pow(arch, PAST_FADE);
     let turn = if lower { LOWER_CLOSE } else { UPPER_CLOSE };
-    (angle, ((way + overlap) / turn).min(1.0))
+    (angle, ((way + past) / turn).min(1.0))
+}
+
+/// How far the edge of the lower lid lies behind the upper lid when both are closed, in radians.
+#[must_use]
+pub fn covered(s: f64) -> f64 {
+    (PAST_LINE.0 + PAST_LINE.1) * pow((4.0 * s * (1.0 - s)).max(0.0), PAST_FADE)
 }
 
 /// How much a point of the skin follows its lid.

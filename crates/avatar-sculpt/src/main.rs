@@ -1,6 +1,6 @@
 //! Writes the default avatar pack, or checks that the one on disk is what this program makes.
 //!
-//! `avatar-sculpt [--out DIR] [--check] [--draft] [--freckles SHARE] [--marks SHARE]`
+//! `avatar-sculpt [[--out] DIR] [--check] [--draft] [--freckles SHARE] [--marks SHARE]`
 //!
 //! `--draft` paints pictures at a quarter of their edge length: enough to judge a form, and much quicker.
 //! Shares are from 0 (none) to 1.
@@ -23,8 +23,9 @@ fn main() -> Result<ExitCode> {
             "--draft" => detail = Detail::Draft,
             "--freckles" => complexion.freckles = share(arguments.next(), "--freckles")?,
             "--marks" => complexion.marks = share(arguments.next(), "--marks")?,
+            dir if !dir.starts_with('-') => out = dir.into(),
             other => bail!(
-                "unknown argument {other:?}; usage: avatar-sculpt [--out DIR] [--check] [--draft] \
+                "unknown argument {other:?}; usage: avatar-sculpt [[--out] DIR] [--check] [--draft] \
                  [--freckles SHARE] [--marks SHARE]"
             ),
         }

@@ -18,6 +18,12 @@ pub fn cos(x: f64) -> f64 {
     libm::cos(x)
 }
 
+/// Angle in radians whose sine is `x`, which is held inside −1…1.
+#[must_use]
+pub fn asin(x: f64) -> f64 {
+    libm::asin(x.clamp(-1.0, 1.0))
+}
+
 /// Angle in radians of the point `(x, y)`.
 #[must_use]
 pub fn atan2(y: f64, x: f64) -> f64 {
@@ -67,6 +73,21 @@ pub fn bell(x: f64, sigma: f64) -> f64 {
 pub fn bell3(p: DVec3, centre: DVec3, sigma: DVec3) -> f64 {
     let d = (p - centre) / sigma;
     exp(-d.length_squared())
+}
+
+/// A bell that ends: like `exp(−d²)` near the centre, and zero from 2.45 on, so that a shape moves a bounded
+/// region.
+#[must_use]
+pub fn dome(d2: f64) -> f64 {
+    let s = (1.0 - d2 / 6.0).max(0.0);
+    let s2 = s * s;
+    s2 * s2 * s2
+}
+
+/// [`dome`] around a point with one width per axis.
+#[must_use]
+pub fn dome3(p: DVec3, centre: DVec3, sigma: DVec3) -> f64 {
+    dome(((p - centre) / sigma).length_squared())
 }
 
 /// An absolute value without the kink: mirrored forms stay smooth where they meet the midline.

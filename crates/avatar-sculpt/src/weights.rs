@@ -48,9 +48,9 @@ fn jaw(node: &Node) -> f64 {
     if node.patch == Patch::Mouth {
         // Inside, the roof stays and the floor follows; the cheeks' inner side shares the turn evenly. Half
         // way round the mouth (the corner) lies at 0.5 of the row.
-        let round = smooth(0.22, 0.78, node.own.y);
-        // The throat's wall is shared by all.
-        let round = lerp(round, 0.5, smooth(0.55, 0.95, node.own.x));
+        let round = smooth(0.26, 0.74, node.own.y);
+        // The throat's wall is shared by all, but only behind the gums: beside them it would go into them.
+        let round = lerp(round, 0.5, smooth(0.72, 0.97, node.own.x));
         return lerp(outside, round, smooth(0.15, 0.6, node.own.x));
     }
     // Around the joint itself, in front of the ear, skin slides instead of turning.

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::spot::{Spot, dome, dome_skewed};
+use super::spot::{Spot, dome_skewed};
 use crate::{
     anatomy::EYE,
     lids,
-    math::{curve, smooth},
+    math::{curve, dome, lerp, smooth},
 };
 
 /// How the skin about the brow follows it: all at the brow, less up the forehead and down to the lid.
@@ -48,18 +48,51 @@ fn lid(spot: &Spot, lower: bool, angle_rad: f64) -> DVec3 {
     spot.about_eye(angle_rad * within * lids::weight(spot.p(), lower))
 }
 
+/// The lower lid of a squint: it rises by the same share of its way to the closed one, so that its edge stays
+/// a bow from corner to corner.
+fn lower_lid_drawn_up(spot: &Spot) -> DVec3 {
+    if !spot.on_lower_lid() || spot.in_mouth() {
+        return DVec3::ZERO;
+    }
+    let rel = spot.p() - EYE;
+    let below = dome(((rel.x - 0.4) / 1.9).powi(2) + ((rel.y + 1.45) / 0.95).powi(2)) * spot.on_face();
+    let s = lids::along(rel);
+    let within = smooth(0.0, 0.25, s) * smooth(1.0, 0.75, s);
+    // Next to the corners, where the smallest triangles are, less.
+    let share = SQUINT * lerp(0.2, 1.0, smooth(0.0, 0.12, s) * smooth(1.0, 0.88, s));
+    let of_edge = share * lids::LOWER_CLOSE * lids::weight(spot.p(), true);
+    spot.about_eye(of_edge + 0.10 * below * within)
+}
+
+/// Share of its way to the closed one by which a squint draws the lower lid up.
+const SQUINT: f64 = 0.8;
+/// By how much it turns the upper lid, in radians for skin that follows it wholly.
+const UPPER_SQUINT: f64 = -0.12;
+
 /// The ring muscle of the eye: the lower lid rises with the skin below and beside it, the upper one comes
 /// down by a little.
 pub(super) fn eye_squint(spot: &Spot) -> DVec3 {
-    let rel = spot.p() - EYE;
-    let below = dome(((rel.x - 0.4) / 1.9).powi(2) + ((rel.y + 1.45) / 0.95).powi(2)) * spot.on_face();
-    let lower = if spot.on_lower_lid() { 1.0 } else { 0.0 };
-    let outer = dome(((rel.x - 2.2) / 1.5).powi(2) + ((rel.y + 1.2) / 1.5).powi(2)) * spot.on_face();
-    lid(spot, true, 0.42)
-        + lid(spot, false, -0.12)
-        + spot.about_eye(0.10 * below * lower)
-        + DVec3::new(-0.17, 0.13, 0.06) * outer
+    lower_lid_drawn_up(spot) + lid(spot, false, UPPER_SQUINT) + beside_drawn_in(spot)
 }
+
+/// The skin beside and below the outer corner is drawn toward it.
+fn beside_drawn_in(spot: &Spot) -> DVec3 {
+    let rel = spot.p() - EYE;
+    let outer = dome(((rel.x - 2.2) / 1.5).powi(2) + ((rel.y + 1.2) / 1.5).powi(2)) * spot.on_face();
+    DVec3::new(-0.17, 0.13, 0.06) * outer
+}
+
+/// Closed lids have no way left: what a squint draws them together is taken back, and part of what it draws
+/// in beside them.
+pub(super) fn closed_squint(spot: &Spot) -> DVec3 {
+    let near = if spot.node.lid <= 1.0 { smooth(0.8, 0.2, spot.node.lid) } else { 0.0 };
+    -lower_lid_drawn_up(spot) * near
+        - lid(spot, false, UPPER_SQUINT)
+        - beside_drawn_in(spot) * BESIDE_TAKEN_BACK
+}
+
+/// How much of that closed lids take back.
+const BESIDE_TAKEN_BACK: f64 = 0.5;
 
 /// The upper lid rises and the lower one sinks by a trace.
 pub(super) fn eye_wide(spot: &Spot) -> DVec3 {

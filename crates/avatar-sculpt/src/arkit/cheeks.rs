@@ -2,11 +2,19 @@
 
 use glam::DVec3;
 
-use super::spot::{Spot, dome, dome3};
+use super::spot::Spot;
 use crate::{
     anatomy::EYE,
-    math::{curve, smooth},
+    math::{curve, dome, dome3, smooth},
 };
+
+/// The cheek of the left half over a fully opened jaw, as a displacement of the opened face: it is drawn long
+/// between the bone and the jaw, and falls in.
+pub(super) fn hollowed(p: DVec3) -> DVec3 {
+    let hollow = dome3(p, DVec3::new(4.6, -4.6, 1.3), DVec3::new(1.7, 2.0, 2.4));
+    let apple = dome3(p, DVec3::new(3.5, -3.0, 2.6), DVec3::new(1.5, 1.4, 2.0));
+    DVec3::new(-0.40, 0.0, -0.34) * hollow + DVec3::new(-0.06, -0.22, -0.12) * apple
+}
 
 /// Air behind closed lips: the cheeks swell, and the skin around the lips with them.
 pub(super) fn puff(spot: &Spot) -> DVec3 {

@@ -2,8 +2,11 @@
 
 use glam::DVec3;
 
-use super::spot::{Spot, dome3};
-use crate::math::smooth;
+use super::spot::Spot;
+use crate::{
+    cheek,
+    math::{dome3, smooth},
+};
 
 /// The corner goes up, out and back, and the cheek above it rises.
 pub(super) fn smile(spot: &Spot) -> DVec3 {
@@ -15,9 +18,7 @@ pub(super) fn smile(spot: &Spot) -> DVec3 {
     // The lips are drawn tight over the teeth, and thin out.
     let thin = DVec3::new(0.0, -0.05 * m.upper, -0.06)
         * ((1.0 - m.u * m.u).max(0.0) * m.front * smooth(1.6, 0.9, m.across));
-    let p = spot.p();
-    let apple = dome3(p, DVec3::new(3.4, -3.1, 2.9), DVec3::new(1.6, 1.3, 1.9)) * spot.on_face();
-    DVec3::new(0.80 * across, 0.84 * up, -0.46 * back) + thin + DVec3::new(0.12, 0.36, 0.16) * apple
+    DVec3::new(0.78 * across, 0.82 * up, -0.45 * back) + thin + cheek::risen(spot.p()) * spot.on_face()
 }
 
 /// The corner goes down.

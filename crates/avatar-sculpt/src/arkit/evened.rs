@@ -7,10 +7,12 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{spot::dome, whole::Whole};
+use super::whole::Whole;
 use crate::{
     anatomy::{CANTHUS_INNER, CANTHUS_OUTER, EYE, mouth_line},
+    math::dome,
     skin::{Skin, Vertex},
+    surface::half::Patch,
 };
 
 /// How far it reaches about the corners of the mouth and of an eye, as the width of a bell.
@@ -18,7 +20,11 @@ const MOUTH_REACH: f64 = 0.48;
 const EYE_REACH: f64 = 0.48;
 /// Edges below this length count as if they had it.
 const LEAST_EDGE: f64 = 0.02;
-const ROUNDS: usize = 240;
+/// How often values move toward the mean of their neighbours. Around the eyes the edges of the lids stay
+/// where their bones bring them: what reaches the skin around them from afar would push it over them.
+const MOUTH_ROUNDS: usize = 240;
+/// See [`MOUTH_ROUNDS`].
+const EYE_ROUNDS: usize = 2;
 
 /// How much each joined vertex is evened out.
 pub(super) struct Corners {
@@ -29,30 +35,38 @@ pub(super) struct Corners {
     place: Vec<Option<usize>>,
     /// Places at the ends of the edges near a corner, and the edges' weights.
     edges: Vec<(usize, usize, f64)>,
+    rounds: usize,
 }
 
 impl Corners {
     /// The corners of the mouth.
     pub(super) fn of_mouth(whole: &Whole, skin: &Skin) -> Self {
-        Self::new(whole, skin, &[(mouth_line(1.0), MOUTH_REACH)])
+        Self::new(whole, skin, &[(mouth_line(1.0), MOUTH_REACH)], MOUTH_ROUNDS)
     }
 
     /// The corners of the eyes.
     pub(super) fn of_eyes(whole: &Whole, skin: &Skin) -> Self {
         let eye = DVec2::new(EYE.x, EYE.y);
-        Self::new(whole, skin, &[(eye + CANTHUS_INNER, EYE_REACH), (eye + CANTHUS_OUTER, EYE_REACH)])
+        let both = [(eye + CANTHUS_INNER, EYE_REACH), (eye + CANTHUS_OUTER, EYE_REACH)];
+        Self::new(whole, skin, &both, EYE_ROUNDS)
     }
 
-    fn new(whole: &Whole, skin: &Skin, corners: &[(DVec2, f64)]) -> Self {
+    fn new(whole: &Whole, skin: &Skin, corners: &[(DVec2, f64)], rounds: usize) -> Self {
         let mut near = vec![0.0; whole.places.len()];
-        for (v, n) in skin.vertices.iter().zip(&whole.number).filter(|(v, _)| v.p.z > 2.0) {
+        // The edges of the lids are closed by their bones to a hair's breadth, and what stands on them or
+        // lies behind them goes with them: only the skin around them gives way.
+        let gives_way = |v: &Vertex| {
+            let node = &skin.half.nodes[v.source];
+            v.p.z > 2.0 && node.lid > 0.0 && node.patch != Patch::Lash
+        };
+        for (v, n) in skin.vertices.iter().zip(&whole.number).filter(|(v, _)| gives_way(v)) {
             let place = DVec2::new(v.p.x.abs(), v.p.y);
             near[*n] = corners
                 .iter()
                 .map(|(corner, reach)| dome((place - *corner).length_squared() / (reach * reach)))
                 .sum();
         }
-        let mut corners = Self { place: vec![None; near.len()], near, places: vec![], edges: vec![] };
+        let mut corners = Self { place: vec![None; near.len()], near, places: vec![], edges: vec![], rounds };
         for t in &whole.triangles {
             if t.iter().all(|n| corners.near[*n] == 0.0) {
                 continue;
@@ -82,7 +96,7 @@ impl Corners {
     fn even(&self, values: &mut [DVec3]) {
         let mut at: Vec<DVec3> = self.places.iter().map(|n| values[*n]).collect();
         let mut sums = vec![(DVec3::ZERO, 0.0); at.len()];
-        for _ in 0..ROUNDS {
+        for _ in 0..self.rounds {
             sums.fill((DVec3::ZERO, 0.0));
             for &(a, b, weight) in &self.edges {
                 sums[a] = (sums[a].0 + at[b] * weight, sums[a].1 + weight);

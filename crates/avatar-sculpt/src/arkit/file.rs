@@ -39,7 +39,7 @@ pub fn toml(moved: &[Moved]) -> String {
             Weight::Control => Ok(()),
             Weight::Follows(input, at) => writeln!(text, "follows = \"{input}\"\nat = {at:?}"),
             // Both shapes of a pair have got the weight of their side.
-            Weight::Product([a, b]) | Weight::OfSide([a, _], b) => {
+            Weight::Product([a, b]) | Weight::OfSide([a, _], [b, _]) => {
                 writeln!(text, "product = [\"{a}\", \"{b}\"]")
             }
         };

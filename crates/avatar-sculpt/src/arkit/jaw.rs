@@ -2,10 +2,10 @@
 
 use glam::{DMat3, DVec3};
 
-use super::spot::{Spot, dome};
+use super::spot::Spot;
 use crate::{
     anatomy::JAW,
-    math::{cos, curve, lerp, sin, smooth},
+    math::{cos, curve, dome, lerp, sin, smooth},
     skin::Skin,
     surface::half::Node,
     weights,
@@ -90,4 +90,15 @@ pub(super) fn tongue_out(p: DVec3) -> DVec3 {
     let forward = 0.9 + 3.05 * s;
     let thin = 0.55 * s * (p.y - TONGUE_Y);
     TONGUE_DROP + DVec3::new(-0.16 * p.x * s, curve(&CLIMB, p.z + forward) - thin, forward)
+}
+
+/// Displacement of a point of the tongue whose tip lies behind the upper teeth's edge, as for t, d and n.
+pub(super) fn tongue_tip_up(p: DVec3) -> DVec3 {
+    DVec3::new(0.0, 0.80, 0.12) * smooth(0.3, 2.7, p.z)
+}
+
+/// Displacement of a point of the tongue that is drawn back and raised behind, as for k and g.
+pub(super) fn tongue_back_up(p: DVec3) -> DVec3 {
+    let tip = smooth(0.8, 2.8, p.z);
+    DVec3::new(0.0, 0.62 * dome((p.z + 0.3).powi(2)) - 0.15 * tip, -0.8 * tip)
 }

@@ -7,9 +7,10 @@ use glam::{DMat3, DVec3};
 
 use crate::{
     anatomy::EYE,
-    lids::{LOWER_CLOSE, UPPER_CLOSE, shrink},
+    lids::{self, LOWER_CLOSE, UPPER_CLOSE, shrink},
     math::{cos, sin},
     skin::Skin,
+    surface::{half::Patch, socket},
     weights,
 };
 
@@ -20,6 +21,34 @@ pub(super) const SHARES: [(&str, f64); 3] =
 /// The sides, and their controls.
 pub(super) const SIDES: [(&str, &str, f64); 2] =
     [("Left", "lid.left.upper", 1.0), ("Right", "lid.right.upper", -1.0)];
+
+/// How far below the edge of the closed upper lid the lower lashes come out, in radians about the eye.
+const LASHES_BEFORE: f64 = 0.06;
+
+/// How far the outer and the inner corner follow the lids that meet there: where they stayed, the skin beside
+/// them would fold under the upper lid.
+const CORNERS_FOLLOW: [DVec3; 2] = [DVec3::new(0.0, -0.025, 0.0), DVec3::new(0.0, 0.02, 0.0)];
+/// How far the flesh between the lids gives way behind them, in its first row; in the second, half as far.
+const FLESH_GIVES_WAY: [DVec3; 2] = [DVec3::new(0.0, 0.03, -0.1), DVec3::new(0.0, -0.02, -0.2)];
+
+/// Where closed lids take a vertex that stands in a corner of the eye, whatever bones would do: a
+/// displacement.
+fn in_corner(skin: &Skin, number: usize) -> Option<DVec3> {
+    let node = &skin.half.nodes[skin.vertices[number].source];
+    let eye = &skin.loops.eye;
+    let columns = [eye.len() / 2, 0];
+    if node.patch == Patch::Socket {
+        let corner = columns.iter().position(|c| (node.own.y * eye.len() as f64 - *c as f64).abs() < 0.5)?;
+        let share = match socket::row(node) {
+            1 => 1.0,
+            2 => 0.5,
+            _ => return None,
+        };
+        return Some(FLESH_GIVES_WAY[corner] * share);
+    }
+    let corner = columns.iter().position(|c| skin.half.nodes[eye[*c]].p == node.p)?;
+    Some(CORNERS_FOLLOW[corner])
+}
 
 /// How much of the turn of a side's upper or lower lid a vertex takes.
 fn share(skin: &Skin, number: usize, side: f64, lid: usize) -> f64 {
@@ -48,9 +77,26 @@ pub(super) fn bones(skin: &Skin, side: f64, turned: f64) -> Vec<(DMat3, DVec3)> 
     (0..skin.vertices.len()).map(of).collect()
 }
 
-/// Offsets away from the lid's axis that make up for what the mean of two bones takes.
-pub(super) fn offsets(skin: &Skin, side: f64, turned: f64) -> Vec<DVec3> {
+/// Offsets away from the lid's axis that make up for what the mean of two bones takes. Under closed lids the
+/// lower lashes slide down, out from behind the edge of the upper one.
+pub(super) fn offsets(skin: &Skin, side: f64, turned: f64, bones: &[(DMat3, DVec3)]) -> Vec<DVec3> {
     let of = |i: usize| {
+        let v = &skin.vertices[i];
+        let node = skin.half.nodes[v.source];
+        if turned > 0.0
+            && v.p.x * side > 0.0
+            && let Some(d) = in_corner(skin, i)
+        {
+            let (turn, shift) = bones[i];
+            return turn.inverse() * (v.p + d * turned - shift) - v.p;
+        }
+        if turned >= 1.0 && node.patch == Patch::Lash && node.lower && v.p.x * side > 0.0 {
+            let root = skin.half.mover(v.source).p - EYE;
+            let down = lids::covered(lids::along(root)) + LASHES_BEFORE;
+            let (s, c) = (sin(down), cos(down));
+            let rel = node.p - EYE;
+            return DVec3::new(0.0, c * rel.y - s * rel.z - rel.y, c * rel.z + s * rel.y - rel.z);
+        }
         let w = share(skin, i, side, weights::UPPER_LID);
         if w == 0.0 {
             return DVec3::ZERO;

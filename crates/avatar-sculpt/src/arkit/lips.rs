@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::spot::{Mouth, Spot, dome};
-use crate::math::{curve, smooth};
+use super::spot::{Mouth, Spot};
+use crate::math::{curve, dome, smooth};
 
 /// How the upper lip and the skin up to the nose follow the lip's edge.
 fn upper(spot: &Spot, m: &Mouth, reach: f64) -> f64 {

@@ -77,15 +77,24 @@ pub const FIELDS: [(&str, Kind); 25] = [
     ("tongueOut", Kind::WithJaw(jaw::tongue_room)),
 ];
 
+/// What the tongue does inside the mouth, by names of our own: ARKit's trackers do not see it, visemes need
+/// it.
+pub const FURTHER: [&str; 2] = ["tongueBackUp", "tongueTipUp"];
+
 /// What is added where linear motion fails, by name: the field, and what its weight is ([`Weight`]).
-pub const CORRECTIVES: [(&str, Kind, Weight); 4] = [
+pub const CORRECTIVES: [(&str, Kind, Weight); 5] = [
     ("jawOpen_mouthClose", Kind::OpenJaw(mouth::close_opened), Weight::Product(["mouthClose", "jaw.open"])),
     ("jawOpen_mouthFunnel", Kind::Both(opened::funnel), Weight::Product(["mouthFunnel", "jaw.open"])),
     ("jawOpen_mouthPucker", Kind::Both(opened::pucker), Weight::Product(["mouthPucker", "jaw.open"])),
     (
         "jawOpen_mouthSmile",
         Kind::Sided(opened::smile, 1.2),
-        Weight::OfSide(["mouthSmileLeft", "mouthSmileRight"], "jaw.open"),
+        Weight::OfSide(["mouthSmileLeft", "mouthSmileRight"], ["jaw.open"; 2]),
+    ),
+    (
+        "lidClosed_eyeSquint",
+        Kind::Sided(brows::closed_squint, 0.3),
+        Weight::OfSide(["eyeSquintLeft", "eyeSquintRight"], ["lid.left.upper", "lid.right.upper"]),
     ),
 ];
 
@@ -99,14 +108,15 @@ pub enum Weight {
     Follows(&'static str, f64),
     /// It is the product of the values of two controls, of which that of a bone counts 1 at its end.
     Product([&'static str; 2]),
-    /// For a shape with sides: the product of the control of its own side, left or right, and of another one.
-    OfSide([&'static str; 2], &'static str),
+    /// For a shape with sides: the product of two controls, of which each has one for the left and one for
+    /// the right.
+    OfSide([&'static str; 2], [&'static str; 2]),
 }
 
 impl Weight {
     /// The weight of the left (0) or right (1) one of two shapes.
     fn of_side(self, side: usize) -> Self {
-        if let Self::OfSide(own, other) = self { Self::Product([own[side], other]) } else { self }
+        if let Self::OfSide(own, other) = self { Self::Product([own[side], other[side]]) } else { self }
     }
 }
 

@@ -2,11 +2,8 @@
 
 use glam::DVec3;
 
-use super::{
-    jaw,
-    spot::{Spot, dome},
-};
-use crate::math::{curve, smooth};
+use super::{jaw, spot::Spot};
+use crate::math::{curve, dome, smooth};
 
 /// How the skin around the mouth follows it.
 fn around(spot: &Spot, wide: f64, up: f64, down: f64) -> f64 {

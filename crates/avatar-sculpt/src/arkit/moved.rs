@@ -3,9 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    CORRECTIVES, FIELDS, Field, Kind, Spot, Weight, clear,
+    CORRECTIVES, FIELDS, FURTHER, Field, Kind, Spot, Weight, clear,
     evened::Corners,
-    jaw, lid_arc,
+    jaw, lid_arc, opened,
     whole::{LEAST, LEAST_TURN, Whole, drop_traces},
 };
 use crate::{
@@ -42,10 +42,20 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
     let mut all = Vec::new();
     let (corners, canthi) = (Corners::of_mouth(&whole, skin), Corners::of_eyes(&whole, skin));
     let (still, jaw_open) = (vec![jaw::opened(0.0); skin.vertices.len()], jaw::bones(skin));
-    let mut opened = corners.turned(&whole, skin, &jaw_open);
-    drop_traces(&mut opened, LEAST);
-    let mut opened_normals = whole.changes(skin, &opened, &jaw_open);
-    drop_traces(&mut opened_normals, LEAST_TURN);
+    let lids_closed = lid_arc::SIDES.map(|(_, _, side)| lid_arc::bones(skin, side, 1.0));
+    let mut parted = corners.turned(&whole, skin, &jaw_open);
+    drop_traces(&mut parted, LEAST);
+    let mut parted_normals = whole.changes(skin, &parted, &jaw_open);
+    drop_traces(&mut parted_normals, LEAST_TURN);
+    let (open_mouth, open_mouth_normals) = {
+        let mut offsets = offsets(skin, Kind::Both(opened::face), 1.0);
+        corners.offsets(&whole, &mut offsets);
+        offsets.iter_mut().zip(&parted).for_each(|(d, corner)| *d += *corner);
+        drop_traces(&mut offsets, LEAST);
+        let mut normals = whole.changes(skin, &offsets, &jaw_open);
+        drop_traces(&mut normals, LEAST_TURN);
+        (offsets, normals)
+    };
     let fields = FIELDS.into_iter().map(|(name, kind)| (name, kind, Weight::Control));
     for (name, kind, weight) in fields.chain(CORRECTIVES) {
         let sides: &[(&str, f64)] = match kind {
@@ -54,15 +64,20 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
         };
         for (side, (suffix, own)) in sides.iter().enumerate() {
             let mut offsets = offsets(skin, kind, *own);
-            if weight == Weight::Control {
+            // Lips that the jaw has parted close exactly.
+            if !matches!(kind, Kind::OpenJaw(_)) {
                 corners.offsets(&whole, &mut offsets);
             }
-            let open = matches!(weight, Weight::Product(_) | Weight::OfSide(..));
-            let mut normals = whole.changes(skin, &offsets, if open { &jaw_open } else { &still });
+            let bones = match weight {
+                Weight::Control | Weight::Follows(..) => &still,
+                Weight::OfSide(_, [of_lid, _]) if of_lid.starts_with("lid.") => &lids_closed[side],
+                Weight::Product(_) | Weight::OfSide(..) => &jaw_open,
+            };
+            let mut normals = whole.changes(skin, &offsets, bones);
             if matches!(kind, Kind::OpenJaw(_)) {
                 // Closed lips need no evened corners: what the jaw brings along is taken away again.
-                offsets.iter_mut().zip(&opened).for_each(|(d, corner)| *d -= *corner);
-                normals.iter_mut().zip(&opened_normals).for_each(|(n, corner)| *n -= *corner);
+                offsets.iter_mut().zip(&parted).for_each(|(d, corner)| *d -= *corner);
+                normals.iter_mut().zip(&parted_normals).for_each(|(n, corner)| *n -= *corner);
             }
             drop_traces(&mut offsets, LEAST);
             drop_traces(&mut normals, LEAST_TURN);
@@ -73,7 +88,7 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
     for (name, at) in lid_arc::SHARES {
         for (suffix, control, side) in lid_arc::SIDES {
             let bones = lid_arc::bones(skin, side, at);
-            let mut offsets = canthi.closed(&whole, skin, &bones, &lid_arc::offsets(skin, side, at));
+            let mut offsets = canthi.closed(&whole, skin, &bones, &lid_arc::offsets(skin, side, at, &bones));
             let mut normals = whole.changes(skin, &offsets, &bones);
             drop_traces(&mut offsets, LEAST);
             drop_traces(&mut normals, LEAST_TURN);
@@ -82,11 +97,11 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
         }
     }
     all.push(Moved {
-        name: "openMouthCorners".to_owned(),
+        name: "openMouth".to_owned(),
         stem: SKIN,
         weight: Weight::Follows("jaw.open", 1.0),
-        offsets: opened,
-        normals: opened_normals,
+        offsets: open_mouth,
+        normals: open_mouth_normals,
     });
     for (name, side) in [("jawCornersLeft", 1.0), ("jawCornersRight", -1.0)] {
         let bones = jaw::bones_aside(skin, side);
@@ -98,12 +113,17 @@ pub fn moved(sculpture: &Sculpture) -> Vec<Moved> {
         all.push(Moved { name: name.to_owned(), stem: SKIN, weight, offsets, normals });
     }
     for (stem, part) in sculpture.parts.iter().filter(|(stem, _)| *stem == "LowerJaw") {
-        let tongue = |(p, uv): (&DVec3, &DVec2)| {
-            if teeth::is_tongue(*uv) { jaw::tongue_out(*p) } else { jaw::TONGUE_DROP }
+        let moved = |tongue: fn(DVec3) -> DVec3, teeth: DVec3| -> Vec<DVec3> {
+            let of = |(p, uv): (&DVec3, &DVec2)| if teeth::is_tongue(*uv) { tongue(*p) } else { teeth };
+            part.positions.iter().zip(&part.uvs).map(of).collect()
         };
-        let out = part.positions.iter().zip(&part.uvs).map(tongue).collect();
-        let forward = vec![jaw::FORWARD; part.positions.len()];
-        for (name, offsets) in [("jawForward", forward), ("tongueOut", out)] {
+        let [back_up, tip_up] = FURTHER;
+        for (name, offsets) in [
+            ("jawForward", moved(|_| jaw::FORWARD, jaw::FORWARD)),
+            ("tongueOut", moved(jaw::tongue_out, jaw::TONGUE_DROP)),
+            (back_up, moved(jaw::tongue_back_up, DVec3::ZERO)),
+            (tip_up, moved(jaw::tongue_tip_up, DVec3::ZERO)),
+        ] {
             let normals = part_changes(part, &offsets);
             all.push(Moved { name: name.to_owned(), stem, weight: Weight::Control, offsets, normals });
         }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::{
     anatomy::{EYE, MOUTH_HALF_WIDTH, brow, mouth_line},
-    math::{curve, ramp, smooth},
+    math::{curve, dome, ramp, smooth},
     surface::half::{Node, Patch},
 };
 
@@ -32,21 +32,6 @@ pub struct Mouth {
     pub across: f64,
     /// How much of a motion of the lips arrives here: 1 outside, fading toward the back of the mouth.
     pub front: f64,
-}
-
-/// A bell that ends: like `exp(−d²)` near the centre, and zero from 2.45 on, so that a shape moves a bounded
-/// region.
-#[must_use]
-pub(super) fn dome(d2: f64) -> f64 {
-    let s = (1.0 - d2 / 6.0).max(0.0);
-    let s2 = s * s;
-    s2 * s2 * s2
-}
-
-/// [`dome`] around a point with one width per axis.
-#[must_use]
-pub(super) fn dome3(p: DVec3, centre: DVec3, sigma: DVec3) -> f64 {
-    dome(((p - centre) / sigma).length_squared())
 }
 
 /// [`dome`] with a width below zero (`less`) and one above (`more`).

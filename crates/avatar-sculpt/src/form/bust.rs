@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::{
-    math::smooth,
+    math::{bell, smooth},
     sdf::{cone, ellipsoid, join},
 };
 
@@ -32,7 +32,9 @@ pub fn below_neckline(p: DVec3) -> f64 {
     // A plane cut: low over the breastbone, over the shoulders beside the neck, high at the nape; in front it
     // is rounder than a plane would be.
     let plane = -16.35 - 0.50 * (p.z + 7.0) + 0.045 * p.x * p.x * smooth(-9.0, -2.0, p.z);
-    0.9 * (plane - p.y)
+    // Cloth goes straight from the shoulder to the collarbone; it would creep into the hollow between them.
+    let hollow = 1.6 * bell(p.x.abs() - 5.6, 2.6) * bell(p.z + 6.0, 1.7);
+    0.9 * (plane - hollow - p.y)
 }
 
 /// How far the cloth lies over the skin.

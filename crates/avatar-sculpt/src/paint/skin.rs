@@ -117,8 +117,12 @@ fn sheet(site: &Site, own: &Complexion) -> DVec3 {
     let nostril = smooth(0.10, -0.01, form::nostril(q)) * smooth(-3.78, -3.55, p.y);
     c = c.lerp(rgb(58, 24, 22), 0.92 * nostril);
     // Hair cut to the skin: a shade of many dark points, not a cap.
-    let shorn = hair::scalp(site) * (0.78 + 0.5 * fbm(p * DVec3::new(7.0, 4.0, 5.0), 3));
-    c.lerp(rgb(62, 44, 40), (0.82 * shorn).clamp(0.0, 0.9))
+    let scalp = hair::scalp(site);
+    let shorn = scalp * (0.78 + 0.5 * fbm(p * DVec3::new(7.0, 4.0, 5.0), 3));
+    let c = c.lerp(rgb(62, 44, 40), (0.82 * shorn).clamp(0.0, 0.9));
+    // Behind the hairline roots stand close: where strands part, a pale skin would show every gap between
+    // them.
+    c.lerp(rgb(48, 32, 24), 0.6 * smooth(0.42, 0.92, scalp))
 }
 
 /// Shadow on the lids and the dark line of the lashes.
@@ -237,7 +241,9 @@ pub fn gloss(site: &Site) -> DVec3 {
         if site.node.lower { rim.max(smooth(0.12, 0.04, s)) } else { smooth(0.12, 0.04, s) }
     };
     g = match site.node.patch {
-        Patch::Mouth => 0.85,
+        // Lips are wet on their inner side, too. Farther back every shine would be that of a lamp which the
+        // cheek keeps off in truth: a white spot in the dark.
+        Patch::Mouth => lerp(0.85, -0.7, smooth(0.18, 0.45, site.node.own.x)),
         Patch::Socket => lerp(0.45, 1.5, tears(site.node.lid, lids::along(site.node.p - EYE))),
         Patch::Lash => -0.83,
         _ if site.node.lip <= 1.1 => lerp(g, 0.74, smooth(1.1, 0.5, site.node.lip)),

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::{about_mouth, lid_turn};
 use crate::{
+    cheek,
     math::{bell3, smooth},
     surface::half::{Node, Patch},
 };
@@ -20,9 +21,7 @@ pub(super) fn displacement(node: &Node) -> DVec3 {
         return lips;
     }
     let p = node.p;
-    let cheek = bell3(p, DVec3::new(3.35, -2.75, 3.0), DVec3::new(1.5, 1.35, 1.9));
-    let apple = DVec3::new(0.10, 0.42, 0.24) * cheek;
     let wing = bell3(p, DVec3::new(1.0, -3.4, 4.6), DVec3::new(0.7, 0.7, 0.9));
     let flare = DVec3::new(0.09, 0.07, 0.0) * wing;
-    lips + apple + flare + lid_turn(node, true, 0.24) + lid_turn(node, false, -0.05)
+    lips + cheek::risen(p) + flare + lid_turn(node, true, 0.24) + lid_turn(node, false, -0.05)
 }

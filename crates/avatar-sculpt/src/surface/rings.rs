@@ -208,10 +208,16 @@ pub fn neckline(half: &mut Half) {
         run.push((run[i].0 + (pair[1] - pair[0]).length(), turn(i + 1)));
     }
     let whole = run[FINE].0;
+    // Behind the collarbone rays go past a hollow, and with them several rows: each lies beyond the one
+    // before.
+    const BEYOND: f64 = 0.0025;
+    let mut nearest = vec![f64::INFINITY; COUNT + 1];
     for below in [0.0, 0.5 * HEM_EDGE, HEM_EDGE] {
-        for i in 0..=COUNT {
+        for (i, nearest) in nearest.iter_mut().enumerate() {
             let phi = curve(&run, whole * (i as f64 / COUNT as f64));
             let place = chart::neckline_place(phi, below);
+            let place = Place { t: place.t.min(*nearest), ..place };
+            *nearest = place.t - BEYOND;
             half.add(Node { place, ..Node::sheet(chart::point(place)) });
         }
     }

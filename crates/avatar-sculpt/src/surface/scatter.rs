@@ -21,6 +21,9 @@ pub fn spacing(p: DVec3) -> f64 {
     let nose = nose.max(0.75 * bridge);
     let brow = bell3(p, DVec3::new(2.6, 1.9, 3.6), DVec3::new(2.6, 0.9, 1.8));
     let nose = nose.max(0.6 * brow);
+    // The cheek folds here when she smiles.
+    let fold = bell3(p, DVec3::new(2.15, -3.75, 3.7), DVec3::new(0.75, 0.9, 1.2));
+    let h = lerp(h, 0.2, fold);
     let ear = bell3(p, DVec3::new(7.0, -1.5, -5.3), DVec3::new(2.0, 3.0, 2.0));
     let throat = smooth(-5.0, -8.0, p.y) * smooth(-13.0, -11.5, p.y) * smooth(-9.0, -6.5, p.z);
     let h = h.min(lerp(h, 0.31, throat));

@@ -12,10 +12,18 @@ use crate::{
     math::{atan2, cos, lerp, sin, smooth},
 };
 
+/// Rows of the edge, and of the inner side behind it.
+const EDGE: usize = 3;
+const INSIDE: usize = 10;
+
+/// Which row a vertex of the edge or the inner side stands in: 1 next to the outer skin.
+#[must_use]
+pub fn row(node: &Node) -> usize {
+    (-node.lid * (EDGE + INSIDE) as f64).round() as usize
+}
+
 /// Adds edge, inner side and socket inside the eye's loop.
 pub fn add(half: &mut Half, loops: &Loops) {
-    const EDGE: usize = 3;
-    const INSIDE: usize = 10;
     let mut row = loops.eye.clone();
     let count = row.len();
     let total = (EDGE + INSIDE) as f64;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::{geometry, hit, mesh, sculpture};
 use crate::{anatomy::EYE, arkit, surface::half::Patch, weights};
 
-fn loaded() -> Pack {
+pub(super) fn loaded() -> Pack {
     let files = geometry().files.iter().cloned().collect();
     Pack::load(&MemorySource { files }).unwrap()
 }
@@ -16,12 +16,13 @@ fn arkit_names() -> Vec<String> {
     let shapes = arkit::moved(sculpture()).into_iter().filter(|m| m.weight == arkit::Weight::Control);
     let mut names: Vec<String> = shapes.map(|m| m.name).collect();
     names.dedup();
+    names.retain(|name| !arkit::FURTHER.contains(&name.as_str()));
     names.extend(arkit::BY_BONES.map(str::to_owned));
     names
 }
 
 /// Values of all controls, with some set.
-fn values(pack: &Pack, set: &[(&str, f32)]) -> Vec<f32> {
+pub(super) fn values(pack: &Pack, set: &[(&str, f32)]) -> Vec<f32> {
     let mut values = pack.controls().defaults();
     for (name, value) in set {
         values[pack.controls().index(name).unwrap()] = *value;
@@ -30,7 +31,7 @@ fn values(pack: &Pack, set: &[(&str, f32)]) -> Vec<f32> {
 }
 
 /// Places of the skin under these controls, couplings included.
-fn posed(pack: &Pack, set: &[(&str, f32)]) -> Vec<DVec3> {
+pub(super) fn posed(pack: &Pack, set: &[(&str, f32)]) -> Vec<DVec3> {
     let mut face = FaceState::new(pack);
     face.pose(pack, &values(pack, set)).unwrap();
     let skin = pack.parts().iter().position(|part| part.name == "skin").unwrap();

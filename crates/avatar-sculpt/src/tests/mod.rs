@@ -5,6 +5,7 @@ mod files;
 mod identity;
 mod load;
 mod mixtures;
+mod mouth;
 mod pictures;
 mod rig;
 mod shapes;

@@ -162,7 +162,7 @@ fn follows(face: &Face, input: &str, at: f64, x: f64) -> f64 {
     }
 }
 
-fn deformed(face: &Face, weights: &Weights) -> Vec<DVec3> {
+pub(super) fn deformed(face: &Face, weights: &Weights) -> Vec<DVec3> {
     let m = skin();
     let w = |name: &str| weights.get(name).copied().unwrap_or(0.0);
     let mut p = m.p.clone();
