@@ -30,6 +30,7 @@ pub struct Groom {
     pub(crate) strands_per_square: f32,
     pub(crate) head_bone: u32,
     pub(crate) height: f32,
+    pub(crate) top: Option<f32>,
 }
 
 impl Groom {
@@ -68,6 +69,12 @@ impl Groom {
     /// The bone that moves most of the hair.
     pub fn head_bone(&self) -> u32 {
         self.head_bone
+    }
+
+    /// How high the hair of the scalp reaches at bind pose, in the world: the highest point of its guides
+    /// with their curls. `None` without guides.
+    pub fn top(&self) -> Option<f32> {
+        self.top
     }
 
     /// Height of the skin: what lengths of the style are measured by.

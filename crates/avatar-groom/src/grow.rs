@@ -195,6 +195,6 @@ pub(crate) fn axes([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
 }
 
 /// Short strands do not reach around a whole curl.
-fn curl_radius(style: &RegionStyle, height: f32, length: f32) -> f32 {
+pub(crate) fn curl_radius(style: &RegionStyle, height: f32, length: f32) -> f32 {
     (style.curl_radius * height).min(CURL_SHARE * length)
 }

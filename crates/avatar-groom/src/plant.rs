@@ -1,9 +1,11 @@
 //! Plants hair: where strands grow, how long they are, which strand each follows.
 
-use crate::grow::{axes, grow_to};
+use crate::grow::{axes, curl_radius, grow_to};
 use crate::random::unit;
 use crate::roots::scatter_on;
-use crate::{DensityMap, Field, Groom, PlantedStrand, Region, Root, SEGMENTS, Style, Triangle, guides};
+use crate::{
+    DensityMap, Field, Groom, PlantedStrand, Region, Root, SEGMENTS, Strand, Style, Triangle, guides,
+};
 use avatar_mesh::{Bounds, Mesh};
 use glam::{Affine3A, Vec2, Vec3};
 use std::collections::BTreeMap;
@@ -95,9 +97,22 @@ impl Groom {
             guides,
             style,
             height,
+            top: None,
         };
         groom.cut(skin, bounds.min.y);
+        groom.top = groom.highest(skin);
         groom
+    }
+
+    /// The highest point of the guides at bind pose, and above it the curls.
+    fn highest(&self, skin: &Mesh) -> Option<f32> {
+        let tops = self.guides.iter().filter_map(|guide| {
+            let strand = self.strands.get(*guide as usize)?;
+            let points = self.at_bind(skin, *guide as usize, strand.length)?;
+            let curl = curl_radius(&self.style.scalp, self.height, strand.length);
+            Some(curl + points.iter().fold(f32::MIN, |top, point| top.max(point.y)))
+        });
+        tops.reduce(f32::max)
     }
 
     /// Shortens what would hang below the cut at bind pose, lock by lock: hair has one length in all poses.
@@ -113,21 +128,25 @@ impl Groom {
         }
     }
 
+    /// The middle line of a strand at bind pose, if it had this length.
+    fn at_bind(&self, skin: &Mesh, strand: usize, length: f32) -> Option<Strand> {
+        let root = &self.strands.get(strand)?.root;
+        let of = |all: &[Vec3], i: usize| all.get(root.corners[i] as usize).copied().unwrap_or(Vec3::Y);
+        let triangle = Triangle {
+            positions: [0, 1, 2].map(|i| of(&skin.positions, i)),
+            normals: [0, 1, 2].map(|i| of(&skin.normals, i)),
+        };
+        let bones = vec![Affine3A::IDENTITY; self.head_bone as usize + 1];
+        grow_to(self, strand, length, &triangle, &bones, None, None)
+    }
+
     /// The length at which a strand ends at a height at bind pose, or the style's if it does not reach that
     /// low. A strand bends from point to point, so that a shorter one lies otherwise: the length is sought,
     /// not measured.
     fn length_to(&self, skin: &Mesh, strand: usize, height: f32) -> f32 {
         let Some(PlantedStrand { root, .. }) = self.strands.get(strand) else { return 0.0 };
-        let corner = |i: usize| root.corners[i] as usize;
-        let of = |all: &[Vec3], i: usize| all.get(corner(i)).copied().unwrap_or(Vec3::Y);
-        let triangle = Triangle {
-            positions: [0, 1, 2].map(|i| of(&skin.positions, i)),
-            normals: [0, 1, 2].map(|i| of(&skin.normals, i)),
-        };
-        let at_bind = vec![Affine3A::IDENTITY; self.head_bone as usize + 1];
         let reaches = |length: f32| {
-            let points = grow_to(self, strand, length, &triangle, &at_bind, None, None);
-            points.is_some_and(|points| points[SEGMENTS].y < height)
+            self.at_bind(skin, strand, length).is_some_and(|points| points[SEGMENTS].y < height)
         };
         let whole = length_without_variation(root, &self.style, self.height);
         if !reaches(whole) {

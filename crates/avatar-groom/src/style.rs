@@ -183,7 +183,7 @@ impl Style {
             edge: [0.6, 0.3, -0.5],
             tuck: 0.0,
             curl_radius: 0.03,
-            curl_turns: 3.0,
+            curl_turns: 4.0,
             clump: 0.9,
             noise: 0.15,
             swing: 2.2,

@@ -249,6 +249,25 @@ fn the_cut_is_where_the_style_says() {
 }
 
 #[test]
+fn hair_that_stands_reaches_as_high_as_it_is_long() {
+    let mesh = ball(Vec3::Y);
+    let stands = RegionStyle {
+        length: 0.3,
+        length_variation: 0.0,
+        bend: 0.0,
+        noise: 0.0,
+        clump: 0.0,
+        ..Style::SHORT.scalp
+    };
+    let top = hairy(&mesh, style(stands)).top().expect("guides");
+    // From 2, the top of the ball, by 0.3 of its height, which is 2. Guides stand at places near the pole.
+    assert!((2.5..2.601).contains(&top), "{top}");
+    let curled = RegionStyle { curl_radius: 0.01, curl_turns: 2.0, ..stands };
+    assert!((hairy(&mesh, style(curled)).top().expect("guides") - top - 0.02).abs() < 1e-3);
+    assert_eq!(hairy(&mesh, style(RegionStyle { density: 0.0, ..stands })).top(), None);
+}
+
+#[test]
 fn guides_are_the_nearest_ones_on_their_side_of_the_parting() {
     let mesh = ball(Vec3::ZERO);
     let groom = hairy(&mesh, style(RegionStyle { parting: 0.1, ..Style::LONG.scalp }));
