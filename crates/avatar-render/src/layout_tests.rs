@@ -8,6 +8,7 @@ use crate::hair::swing::{GpuMote, GpuSwing};
 use crate::hair::uniforms::{GpuHair, GpuHairPose, GpuHairRegion};
 use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
+use crate::model::effects::Effects;
 use crate::model::geometry::{GpuPart, GpuVertex, GpuVertexBones};
 use crate::model::material::{GpuIris, GpuMaterial};
 use crate::model::shape_blocks::GpuShapeOffset;
@@ -113,7 +114,18 @@ fn layouts() -> Vec<Layout> {
         layout!("HairPose", GpuHairPose, head, others),
         layout!("Swing", GpuSwing, ticks, first, step, rest, tick, is_still, oscillators),
         layout!("Mote", GpuMote, position, velocity, held, held_at_frame),
-        layout!("HairView", GpuHairView, strands, fading, width, least_pixels, other_width, stride, pieces),
+        layout!(
+            "HairView",
+            GpuHairView,
+            strands,
+            fading,
+            width,
+            least_pixels,
+            other_width,
+            stride,
+            pieces,
+            root_width
+        ),
         layout!("ShadowView", GpuShadowView, shadow_from_world),
         layout!(
             "Frame",
@@ -230,7 +242,7 @@ fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
     let layouts = layouts();
     let mut seen = BTreeSet::new();
     for (program, stage) in all_stages() {
-        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1));
+        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1, Effects::ALL));
         for handle in buffer_types(&module) {
             let ty = &module.types[handle];
             let TypeInner::Struct { members, span } = &ty.inner else { continue };
@@ -271,7 +283,7 @@ fn arrays_step_from_element_to_element_as_in_rust() {
     ];
     let mut seen = BTreeSet::new();
     for (program, stage) in all_stages() {
-        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1));
+        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1, Effects::ALL));
         for (_, variable) in module.global_variables.iter() {
             let TypeInner::Array { stride, .. } = module.types[variable.ty].inner else { continue };
             let name = variable.name.as_deref().expect("variables have names");

@@ -108,6 +108,7 @@ pub use deform::deformer::Deformer;
 pub use deform::pose::StateError;
 pub use frame::draw::DrawError;
 pub use frame::renderer::{Renderer, RendererError};
+pub use frame::see_through::SeeThrough;
 pub use frame::targets::{SizeError, Targets};
 pub use frame::timer::PassTimer;
 /// The crate of vectors and matrices that this one was built with: types of another version of it do not fit.

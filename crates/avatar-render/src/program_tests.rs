@@ -5,14 +5,16 @@ use crate::deform::reversed::REVERSE_PASS;
 use crate::frame::crowd_programs::crowd_vertices;
 use crate::frame::programs::{
     NATURAL, NATURAL_STANDARDS, OCCLUSION_PASS, OUTLINE, PLAIN, PLAIN_STANDARDS, PREPASS, Programs,
-    SCATTER_PASS, SHADOW_PASS, SKIN_LIGHT_PASS, Standards, TOON, TOON_STANDARDS,
+    SCATTER_PASS, SEE_THROUGH, SHADOW_PASS, SKIN_LIGHT_PASS, Standards, TOON, TOON_STANDARDS,
 };
+use crate::frame::see_through::see_through_choices;
 use crate::gpu::pipeline::OtherVertices;
 use crate::gpu::program::{Constant, Program};
 use crate::hair::programs::{
     COMPOSE_HAIR, COMPOSE_HAIR_DEPTH, GROW_PASS, HAIR_SHADOW_PASS, LAYERED_STRANDS, MASKED_STRANDS,
     STRAND_LAYERS, STRAND_SLICES, SWING_PASS, swinging,
 };
+use crate::model::effects::Effects;
 use crate::view::config::RendererConfig;
 use crate::view::shading::{Shading, Terms};
 
@@ -39,20 +41,23 @@ fn all() -> Vec<Program> {
         HAIR_SHADOW_PASS,
         COMPOSE_HAIR,
         COMPOSE_HAIR_DEPTH,
+        SEE_THROUGH,
     ];
     let standards = [PLAIN_STANDARDS, NATURAL_STANDARDS, TOON_STANDARDS].into_iter().flat_map(Standards::all);
     styles.into_iter().flat_map(of_style).chain(passes).chain(standards).collect()
 }
 
-/// What a renderer of this shading and number of samples chooses.
-pub(crate) fn choices(shading: Shading, samples: u32) -> Vec<Constant> {
+/// What a renderer of this shading and number of samples chooses for parts with these effects.
+pub(crate) fn choices(shading: Shading, samples: u32, effects: Effects) -> Vec<Constant> {
     // One that encodes by itself, and one that does not.
     let color_format = match samples {
         1 => wgpu::TextureFormat::Rgba8Unorm,
         _ => wgpu::TextureFormat::Rgba8UnormSrgb,
     };
     let mut choices = RendererConfig { color_format, samples, shading }.choices();
+    choices.extend(effects.choices());
     choices.push(swinging(samples == 1));
+    choices.extend(see_through_choices(samples == 1, samples == 4));
     choices.extend(Ability { has_further_bones: samples == 4, is_uneven: samples == 4 }.choices());
     choices
 }
@@ -78,7 +83,9 @@ pub(crate) fn parsed(program: &Program, stage: OtherVertices, choices: &[Constan
 fn every_program_parses_and_validates_without_optional_capabilities() {
     let natural = [Terms::NONE, Terms::LOW, Terms::MEDIUM, Terms::HIGH].map(Shading::Natural);
     for shading in natural.into_iter().chain([Shading::Plain, Shading::Toon]) {
-        for choices in [1, 4].map(|samples| choices(shading, samples)) {
+        let grooves = Effects { is_recolored: false, ..Effects::ALL };
+        let variants = [(1, Effects::NONE), (4, grooves), (1, Effects::COLORS), (4, Effects::ALL)];
+        for choices in variants.map(|(samples, effects)| choices(shading, samples, effects)) {
             for (program, stage) in all_stages() {
                 let module = parsed(&program, stage, &choices);
                 let mut validator = naga::valid::Validator::new(
@@ -103,7 +110,7 @@ fn every_program_parses_and_validates_without_optional_capabilities() {
 #[test]
 fn no_program_needs_more_bindings_than_webgpu_promises() {
     for (program, stage) in all_stages() {
-        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1));
+        let module = parsed(&program, stage, &choices(Shading::Natural(Terms::HIGH), 1, Effects::ALL));
         let count = |wanted: &dyn Fn(&naga::TypeInner, naga::AddressSpace) -> bool| {
             let variables = module.global_variables.iter();
             variables.filter(|(_, v)| wanted(&module.types[v.ty].inner, v.space)).count()

@@ -110,6 +110,11 @@ impl AvatarModel {
         self.hair.as_ref().map_or(0, |hair| hair.strand_count as usize)
     }
 
+    /// How high the hair reaches at bind pose, in the world; `None` without hair on the scalp.
+    pub fn hair_top(&self) -> Option<f32> {
+        self.hair.as_ref()?.top
+    }
+
     /// Sets the height of the head where the skin is more than a head. Call it before
     /// [`Self::set_material`]: looks that are there already keep the lengths that they have.
     pub fn set_height(&mut self, height: f32) {
@@ -118,8 +123,9 @@ impl AvatarModel {
         }
     }
 
-    /// Replaces the looks of a part in all avatars of this model, from the next submission on. `part` is its
-    /// place among the parts that the model was made of.
+    /// Replaces the looks of a part in all avatars of this model, from the next submission on; another tone
+    /// of skin or iris, and another way of drawing the part, from the next frame on. `part` is its place
+    /// among the parts that the model was made of.
     ///
     /// # Errors
     /// No such part; nothing changes then.

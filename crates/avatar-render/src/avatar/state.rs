@@ -54,12 +54,13 @@ impl AvatarState {
         }
     }
 
-    /// Sets the pose for the next frame, and for frames that are recorded but not submitted yet. `bones` are
-    /// the bone matrices `X` in the palette's order; they may include a placement in the world, which must
-    /// not scale if the model has hair. `weights` has one blend weight per shape; shapes with weight 0 cost
-    /// nothing. Bones may scale unevenly, shear and mirror: normals stay normals, and fronts fronts. The pose
-    /// that it has already, bit for bit, costs nothing: it is neither written nor deformed again. Allocates
-    /// nothing, but for a part that bones mirror for the first time.
+    /// Sets the pose for the next frame, and for frames that are recorded but not submitted yet, which show
+    /// wrinkles only if the pose had some when they were recorded. `bones` are the bone matrices `X` in the
+    /// palette's order; they may include a placement in the world, which must not scale if the model has
+    /// hair. `weights` has one blend weight per shape; shapes with weight 0 cost nothing. Bones may scale
+    /// unevenly, shear and mirror: normals stay normals, and fronts fronts. The pose that it has already, bit
+    /// for bit, costs nothing: it is neither written nor deformed again. Allocates nothing, but for a part
+    /// that bones mirror for the first time.
     ///
     /// # Errors
     /// Another number of bones or weights than the model has; the state is unchanged then.

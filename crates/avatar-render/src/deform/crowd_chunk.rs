@@ -54,6 +54,8 @@ pub(crate) struct Chunk {
     pub(crate) casting: u32,
     /// How many of those that cast shadows moved since they were deformed.
     pub(crate) moved: u32,
+    /// Whether shapes wrinkle the skin of any that is in view.
+    pub(crate) is_wrinkled: bool,
 }
 
 /// One part of all avatars of a chunk.
@@ -107,7 +109,8 @@ impl Chunk {
         let layouts = [output_layout(device), crowd_layout(device)];
         let head = GpuCrowdChunk { first_avatar: first as u32, ..head };
         let part = |part: &ModelPart| ChunkPart::new(device, &layouts, part, buffers, len, head);
-        Self { first, len, parts: parts.iter().map(part).collect(), drawn: 0, casting: 0, moved: 0 }
+        let parts = parts.iter().map(part).collect();
+        Self { first, len, parts, drawn: 0, casting: 0, moved: 0, is_wrinkled: false }
     }
 }
 

@@ -257,12 +257,14 @@ impl CrowdPose {
         for chunk in &mut self.chunks {
             let own = chunk.first..chunk.first + chunk.len;
             self.distances.clear();
-            (chunk.casting, chunk.moved) = (0, 0);
+            (chunk.casting, chunk.moved, chunk.is_wrinkled) = (0, 0, false);
             for avatar in own.clone() {
                 let place = &mut self.places[avatar];
                 let Some(bounds) = place.bounds.filter(|_| !place.is_hidden) else { continue };
                 let is_in_view = is_in_view(bounds);
                 if is_in_view {
+                    let head = self.shapes.get(avatar * GpuActiveShape::room(self.shape_count));
+                    chunk.is_wrinkled |= head.is_some_and(GpuActiveShape::is_wrinkled);
                     self.distances.push((bounds.center().distance_squared(eye), avatar as u32));
                 }
                 if is_in_view || casts(bounds) {

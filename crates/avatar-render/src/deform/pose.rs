@@ -172,6 +172,11 @@ impl Pose {
         self.has_moved.swap(false, Ordering::Relaxed)
     }
 
+    /// Whether shapes wrinkle the skin somewhere.
+    pub(crate) fn is_wrinkled(&self) -> bool {
+        self.active_shapes.first().is_some_and(GpuActiveShape::is_wrinkled)
+    }
+
     /// Where the middle of a part is now, roughly.
     pub(crate) fn center_of(&self, geometry: &Geometry) -> Vec3 {
         let Some(bone) = self.bones.get(geometry.center_bone) else { return geometry.center };

@@ -3,6 +3,7 @@
 use crate::frame::draw::DrawError;
 use crate::frame::renderer::Renderer;
 use crate::frame::targets::Targets;
+use crate::model::effects::Effects;
 
 impl Renderer {
     /// Checks that [`Renderer::draw`] can draw into this view. `draw` checks everything that wgpu tells of a
@@ -56,7 +57,7 @@ impl Renderer {
             }),
             ..Default::default()
         });
-        if let Some((_, pipeline)) = self.parts.picture.first() {
+        if let Some(pipeline) = self.parts.in_picture(&self.layouts, 0, Effects::NONE) {
             pass.set_pipeline(pipeline);
         }
         drop(pass);

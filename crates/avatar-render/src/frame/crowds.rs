@@ -4,41 +4,35 @@ use crate::deform::crowd_chunk::{Chosen, Chunk};
 use crate::frame::pipelines::PartPipelines;
 use crate::frame::record::{Recording, bind_part, sides};
 use crate::frame::standard::{Sides, Step};
+use crate::model::effects::Effects;
 use crate::model::finish::Finish;
 use crate::model::part::ModelPart;
-use avatar_mesh::PartKind;
 
 impl<'a> Recording<'a> {
-    /// The parts of faces of this kind.
-    pub(crate) fn draw_crowds_kind(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        chosen: Chosen,
-        kind: PartKind,
-        pipeline: impl Fn(&'a PartPipelines) -> Option<&'a wgpu::RenderPipeline>,
-    ) {
-        let is_wanted = |part: &ModelPart| part.kind == kind && part.finish.get().is_none();
-        self.draw_crowds(pass, chosen, is_wanted, |parts, _| pipeline(parts));
-    }
-
-    /// The parts that are wanted, each with its pipeline.
+    /// The parts that are wanted, each with its pipeline: a chunk has grooves wherever an avatar of it has.
     pub(crate) fn draw_crowds(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         chosen: Chosen,
         is_wanted: impl Fn(&ModelPart) -> bool,
-        pipeline: impl Fn(&'a PartPipelines, &ModelPart) -> Option<&'a wgpu::RenderPipeline>,
+        pipeline: impl Fn(&'a PartPipelines, &ModelPart, Effects) -> Option<&'a wgpu::RenderPipeline>,
     ) {
         let is_seen = |chunk: &Chunk| chunk.count(chosen) > 0;
         for (model, crowd) in self.crowds.iter().filter(|(_, crowd)| crowd.pose.chunks.iter().any(is_seen)) {
             for (index, part) in model.parts_with_triangles().filter(|(_, part)| is_wanted(part)) {
-                let Some(pipeline) = pipeline(self.renderer.crowd_parts(), part) else { continue };
+                let mut set = None;
                 let mut is_bound = false;
                 for chunk in &crowd.pose.chunks {
                     let count = chunk.count(chosen);
                     let Some(own) = chunk.parts.get(index).filter(|_| count > 0) else { continue };
-                    if !std::mem::replace(&mut is_bound, true) {
+                    let effects = self.effects(part, chunk.is_wrinkled);
+                    if set.replace(effects) != Some(effects) {
+                        let Some(pipeline) = pipeline(self.renderer.crowd_parts(), part, effects) else {
+                            break;
+                        };
                         pass.set_pipeline(pipeline);
+                    }
+                    if !std::mem::replace(&mut is_bound, true) {
                         bind_part(pass, part);
                         pass.insert_debug_marker(&part.label);
                     }
@@ -58,7 +52,7 @@ impl<'a> Recording<'a> {
     ) {
         let chosen = if step == Step::CutShadow { Chosen::Casting } else { Chosen::Drawn };
         let is_wanted = |part: &ModelPart| part.finish.get().is_some_and(is_wanted);
-        self.draw_crowds(pass, chosen, is_wanted, |parts, part| {
+        self.draw_crowds(pass, chosen, is_wanted, |parts, part, _| {
             Some(self.standard_of(parts, step, sides(step, part), part))
         });
     }
@@ -70,12 +64,15 @@ impl<'a> Recording<'a> {
                 let finish = part.finish.get().filter(|finish| finish.is_blended());
                 finish.is_some_and(|finish| finish.is_double_sided || sides == Sides::Front)
             };
-            self.draw_crowds(pass, Chosen::Blended, is_wanted, |parts, part| {
+            self.draw_crowds(pass, Chosen::Blended, is_wanted, |parts, part, _| {
                 Some(self.standard_of(parts, Step::Blended, sides, part))
             });
         }
-        self.draw_crowds_kind(pass, Chosen::Blended, PartKind::Cornea, |parts| {
-            parts.picture.iter().find(|(drawable, _)| drawable.is_transparent).map(|(_, pipeline)| pipeline)
-        });
+        for (place, drawable) in self.renderer.parts.drawables().filter(|(_, one)| one.is_transparent) {
+            let is_wanted = |part: &ModelPart| part.kind == drawable.kind && part.finish.get().is_none();
+            self.draw_crowds(pass, Chosen::Blended, is_wanted, |parts, _, effects| {
+                parts.in_picture(&self.renderer.layouts, place, effects)
+            });
+        }
     }
 }

@@ -153,6 +153,40 @@ impl Renderer {
         crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
         timer: Option<&PassTimer>,
     ) -> Result<(), DrawError> {
+        self.record(encoder, view, targets, queue, scene, avatars, crowds, timer, false)
+    }
+
+    /// [`Renderer::draw`] by the programs that show wrinkles, whether there are any or not: the same picture.
+    /// [`Renderer::prepare`] makes what wrinkles need, but some adapters, software above all, compile it when
+    /// it first draws. Draw such a frame when nobody waits, and the first smile waits for nothing.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`].
+    pub fn rehearse(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &wgpu::TextureView,
+        targets: &Targets,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<(), DrawError> {
+        self.record(encoder, view, targets, queue, scene, avatars, &mut [], None, true)
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "those of `draw_crowds` and one more")]
+    fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &wgpu::TextureView,
+        targets: &Targets,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
+        timer: Option<&PassTimer>,
+        rehearses: bool,
+    ) -> Result<(), DrawError> {
         self.check(view, targets, avatars)?;
         if let Some(crowd) = crowds.iter().position(|(model, crowd)| !crowd.fits(model)) {
             return Err(DrawError::CrowdOfAnotherModel { crowd });
@@ -202,6 +236,7 @@ impl Renderer {
             }),
             sight,
             timer,
+            rehearses,
             has_hair,
             pixels_per_unit,
             queue,

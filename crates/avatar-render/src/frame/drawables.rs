@@ -2,6 +2,7 @@
 
 use crate::frame::programs::{NATURAL, OUTLINE, PLAIN, Programs, TOON};
 use crate::gpu::program::Program;
+use crate::model::effects::Effects;
 use crate::view::shading::Shading;
 use avatar_mesh::PartKind;
 
@@ -13,6 +14,8 @@ pub(crate) struct Drawable {
     /// Name of its group in graphics debuggers.
     pub(crate) label: &'static str,
     pub(crate) program: Program,
+    /// What its program can show.
+    pub(crate) effects: Effects,
     pub(crate) cull_mode: Option<wgpu::Face>,
     /// Whether it is blended over what is there, without writing depth.
     pub(crate) is_transparent: bool,
@@ -28,8 +31,18 @@ pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
         Shading::Natural(_) => NATURAL,
         Shading::Toon => TOON,
     };
-    let part =
-        |kind, label, program, cull_mode| Drawable { kind, label, program, cull_mode, is_transparent: false };
+    let part = |kind, label, program, cull_mode| Drawable {
+        kind,
+        label,
+        program,
+        effects: Effects::ALL,
+        cull_mode,
+        is_transparent: false,
+    };
+    let line = |kind, label| Drawable {
+        effects: Effects::NONE,
+        ..part(kind, label, OUTLINE, Some(wgpu::Face::Front))
+    };
     let (fronts, backs) = (Some(wgpu::Face::Back), Some(wgpu::Face::Front));
     let cornea = part(PartKind::Cornea, "cornea", programs.cornea, fronts);
     let mut order = vec![
@@ -38,11 +51,11 @@ pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
         part(PartKind::Surface, "teeth", programs.teeth, None),
         // Eyeballs are closed: their back sides are never seen.
         part(PartKind::Eyeball, "eyeball", programs.eyeball, fronts),
-        part(PartKind::Skin, "skin back", programs.skin_back, backs),
+        Drawable { effects: Effects::COLORS, ..part(PartKind::Skin, "skin back", programs.skin_back, backs) },
     ];
     if shading == Shading::Toon {
-        order.push(part(PartKind::Skin, "outline of skin", OUTLINE, backs));
-        order.push(part(PartKind::Eyeball, "outline of eyeball", OUTLINE, backs));
+        order.push(line(PartKind::Skin, "outline of skin"));
+        order.push(line(PartKind::Eyeball, "outline of eyeball"));
     }
     order.push(Drawable { is_transparent: true, ..cornea });
     order

@@ -13,6 +13,7 @@ pub(crate) mod pipelines;
 pub(crate) mod programs;
 pub(crate) mod record;
 pub(crate) mod renderer;
+pub(crate) mod see_through;
 pub(crate) mod sight;
 pub(crate) mod standard;
 pub(crate) mod strands;

@@ -7,8 +7,10 @@ use crate::frame::programs::{OCCLUSION_PASS, PREPASS, SCATTER_PASS, SHADOW_PASS,
 use crate::frame::vertices::{PipelineLayouts, Vertices, build};
 use crate::gpu::bindings::dynamic_uniform_entry;
 use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
+use crate::gpu::program::Program;
 use crate::gpu::ring::Ring;
 use crate::model::bone::GpuBone;
+use crate::model::effects::Effects;
 use crate::model::extras::GpuExtra;
 use crate::model::geometry::GpuVertex;
 use crate::model::part::look_layout;
@@ -79,7 +81,6 @@ pub(crate) struct PassPipelines {
     /// Skin and eyeballs from the front, teeth from both sides.
     pub(crate) prepass: Option<[wgpu::RenderPipeline; 2]>,
     pub(crate) occlusion: Option<wgpu::RenderPipeline>,
-    pub(crate) skin_light: Option<wgpu::RenderPipeline>,
     pub(crate) scatter_across: Option<wgpu::RenderPipeline>,
 }
 
@@ -91,7 +92,6 @@ impl PassPipelines {
         vertices: Vertices,
     ) -> Self {
         let terms = config.shading.terms();
-        let choices = config.choices();
         let bind = bind_attributes();
         let posed = posed_attributes();
         let curvature = curvature_attributes();
@@ -108,21 +108,14 @@ impl PassPipelines {
             target: color_target(NORMAL_FORMAT, None),
             beside: None,
         };
-        let on_skin = |program| Recipe {
-            program,
-            // Only what the depth pass saw.
-            depth: Some((wgpu::CompareFunction::GreaterEqual, false)),
-            target: color_target(SKIN_LIGHT_FORMAT, None),
-            ..front.clone()
-        };
         let shadow_position = [wgpu::VertexAttribute { shader_location: 0, ..posed[0] }];
         let shadow_buffers = [Some(buffer_layout(
             size_of::<GpuDeformedVertex>(),
             wgpu::VertexStepMode::Vertex,
             &shadow_position,
         ))];
-        let built =
-            |needed: bool, recipe: Recipe<'_>| needed.then(|| build(&recipe, device, &choices, vertices));
+        let build = |recipe: &Recipe<'_>| build(recipe, device, config, Effects::NONE, vertices);
+        let built = |needed: bool, recipe: Recipe<'_>| needed.then(|| build(&recipe));
         Self {
             shadow: built(
                 terms.shadows.lamps() > 0,
@@ -141,8 +134,7 @@ impl PassPipelines {
                 },
             ),
             prepass: terms.prepass().then(|| {
-                [front.clone(), Recipe { cull_mode: None, ..front.clone() }]
-                    .map(|recipe| build(&recipe, device, &choices, vertices))
+                [front.clone(), Recipe { cull_mode: None, ..front.clone() }].map(|recipe| build(&recipe))
             }),
             // Knows no parts: that of single avatars serves all.
             occlusion: built(
@@ -157,18 +149,56 @@ impl PassPipelines {
                     ..front.clone()
                 },
             ),
-            skin_light: built(terms.separable(), on_skin(&SKIN_LIGHT_PASS)),
-            scatter_across: built(terms.separable(), on_skin(&SCATTER_PASS)),
+            scatter_across: terms
+                .separable()
+                .then(|| on_skin(device, layouts, &SCATTER_PASS, config, Effects::NONE, vertices)),
         }
     }
 }
 
-/// Builds the pipeline of a drawable.
+/// Builds the pipeline that lights the skin before light spreads below it.
+pub(crate) fn skin_light_pipeline(
+    device: &wgpu::Device,
+    layouts: &Layouts,
+    config: RendererConfig,
+    effects: Effects,
+    vertices: Vertices,
+) -> wgpu::RenderPipeline {
+    on_skin(device, layouts, &SKIN_LIGHT_PASS, config, effects, vertices)
+}
+
+/// Builds the pipeline of a pass over the skin that is seen.
+fn on_skin(
+    device: &wgpu::Device,
+    layouts: &Layouts,
+    program: &Program,
+    config: RendererConfig,
+    effects: Effects,
+    vertices: Vertices,
+) -> wgpu::RenderPipeline {
+    let recipe = Recipe {
+        program,
+        layout: layouts.pipeline.of(vertices),
+        topology: wgpu::PrimitiveTopology::TriangleList,
+        buffers: &standard_buffers(false),
+        cull_mode: Some(wgpu::Face::Back),
+        // Only what the depth pass saw.
+        depth: Some((wgpu::CompareFunction::GreaterEqual, false)),
+        bias: Default::default(),
+        samples: 1,
+        target: color_target(SKIN_LIGHT_FORMAT, None),
+        beside: None,
+    };
+    build(&recipe, device, config, effects, vertices)
+}
+
+/// Builds the pipeline of a drawable that shows these effects.
 pub(crate) fn picture_pipeline(
     device: &wgpu::Device,
     layouts: &Layouts,
     drawable: &Drawable,
     config: RendererConfig,
+    effects: Effects,
     vertices: Vertices,
 ) -> wgpu::RenderPipeline {
     let bind = bind_attributes();
@@ -190,7 +220,7 @@ pub(crate) fn picture_pipeline(
         target: color_target(config.color_format, blend),
         beside: None,
     };
-    build(&recipe, device, &config.choices(), vertices)
+    build(&recipe, device, config, effects, vertices)
 }
 
 const fn attribute(format: wgpu::VertexFormat, offset: usize, shader_location: u32) -> wgpu::VertexAttribute {

@@ -13,6 +13,7 @@ macro_rules! module {
 
 const VERTEX: Module = module!("shared/vertex");
 const GROOVE: Module = module!("shared/groove");
+const RECOLORED: Module = module!("shared/recolored");
 const SURFACE: Module = module!("shared/surface");
 const MATTE: Module = module!("shared/matte");
 const SKIN_DIFFUSE: Module = module!("shared/skin_diffuse");
@@ -29,7 +30,7 @@ macro_rules! surface_program {
             label: $label,
             entry: $vertex,
             fragment: Some($fragment),
-            modules: &[FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, GROOVE, SURFACE, BRDF, OUTPUT, $($module,)* module!($file)],
+            modules: &[FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, GROOVE, RECOLORED, SURFACE, BRDF, OUTPUT, $($module,)* module!($file)],
         }
     };
 }
@@ -173,7 +174,7 @@ macro_rules! standard_programs {
 macro_rules! standards {
     ([$($light:expr),*]) => {{
         const MODULES: &[Module] = &[
-            FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, GROOVE, SURFACE, BRDF, OUTPUT, $($light,)*
+            FRAME, SHADOW_MAPS, VIEW, LOOK, VERTEX, GROOVE, RECOLORED, SURFACE, BRDF, OUTPUT, $($light,)*
             SAMPLED, STANDARD_VERTEX, STANDARD_SURFACE, STANDARD_PICTURE,
         ];
         const VERTICES: &[Module] = &[FRAME, LOOK, VERTEX, OUTPUT, SAMPLED, STANDARD_VERTEX, STANDARD_OUTLINE];
@@ -248,4 +249,12 @@ pub(crate) const SCATTER_PASS: Program = Program {
     entry: "vertex_main",
     fragment: Some("scatter_across_main"),
     modules: &[FRAME, VIEW, LOOK, VERTEX, SCATTER, module!("passes/scatter_across")],
+};
+
+/// Brings a picture with a transparent background to a surface.
+pub(crate) const SEE_THROUGH: Program = Program {
+    label: "see through",
+    entry: "see_through_vertex",
+    fragment: Some("see_through_main"),
+    modules: &[FRAME, OUTPUT, module!("passes/see_through")],
 };

@@ -5,9 +5,7 @@ use crate::avatar::model::AvatarModel;
 use crate::avatar::state::AvatarState;
 use crate::deform::crowd_chunk::Chosen;
 use crate::deform::posed::PosedPart;
-use crate::frame::part_pipelines::{
-    BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, EXTRA_SLOT, POSED_SLOT, PassPipelines,
-};
+use crate::frame::part_pipelines::{BIND_SLOT, BONE_SLOT, CURVATURE_SLOT, EXTRA_SLOT, POSED_SLOT};
 use crate::frame::passes::{Pass, PictureStep, depth_attachment};
 use crate::frame::pipelines::PartPipelines;
 use crate::frame::renderer::Renderer;
@@ -16,6 +14,7 @@ use crate::frame::standard::{Sides, Step};
 use crate::frame::targets::Targets;
 use crate::frame::timer::{PassTimer, Span};
 use crate::model::bone::GpuBone;
+use crate::model::effects::Effects;
 use crate::model::finish::{Finish, Opacity};
 use crate::model::part::ModelPart;
 use crate::view::lamps::SHADOW_COUNT;
@@ -36,6 +35,8 @@ pub(crate) struct Recording<'a> {
     pub(crate) shadow_offsets: [u32; SHADOW_COUNT],
     pub(crate) sight: Sight<'a>,
     pub(crate) timer: Option<&'a PassTimer>,
+    /// Whether everything is drawn by programs that show wrinkles.
+    pub(crate) rehearses: bool,
     /// Whether any of the avatars has hair in this view.
     pub(crate) has_hair: bool,
     /// Pixels that a unit of the world covers at distance 1.
@@ -55,6 +56,11 @@ impl<'a> Recording<'a> {
     /// Whether it may show the avatar or its shadow. Others are neither deformed nor drawn.
     pub(crate) fn concerns(&self, model: &AvatarModel, state: &AvatarState) -> bool {
         self.sight.concerns(model, state)
+    }
+
+    /// What the program of a part has to show.
+    pub(crate) fn effects(&self, part: &ModelPart, is_wrinkled: bool) -> Effects {
+        part.effects(is_wrinkled || self.rehearses)
     }
 
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, pass: Pass) {
@@ -84,17 +90,15 @@ impl<'a> Recording<'a> {
             }
             Pass::SkinLight => {
                 let group = &targets.for_skin_light;
-                self.on_skin(encoder, pass, |passes| passes.skin_light.as_ref(), &targets.skin_light, group);
+                self.on_skin(encoder, pass, &targets.skin_light, group, |parts, effects| {
+                    parts.skin_light(&renderer.layouts, effects)
+                });
             }
             Pass::ScatterAcross => {
                 let group = &targets.for_scattering;
-                self.on_skin(
-                    encoder,
-                    pass,
-                    |passes| passes.scatter_across.as_ref(),
-                    &targets.scattered,
-                    group,
-                );
+                self.on_skin(encoder, pass, &targets.scattered, group, |parts, _| {
+                    parts.passes.scatter_across.as_ref()
+                });
             }
             Pass::Picture => self.picture(encoder),
             Pass::Hair => self.strands(encoder),
@@ -103,16 +107,12 @@ impl<'a> Recording<'a> {
     }
 
     fn prepass(&self, encoder: &mut wgpu::CommandEncoder) {
-        let (targets, passes) = (self.targets, &self.renderer.parts.passes);
-        let Some([front, both]) = &passes.prepass else { return };
+        let targets = self.targets;
         let depth = depth_attachment(&targets.single_depth);
         let mut pass = self.begin(encoder, Pass::Prepass, Some(&targets.normals), Some(depth));
         self.set_groups(&mut pass, &targets.for_prepass);
         for (kind, place) in [(PartKind::Skin, 1), (PartKind::Surface, 1), (PartKind::Eyeball, 0)] {
-            pass.set_pipeline([front, both][place]);
-            self.draw_kind(&mut pass, kind);
-            let of_crowds = |parts: &'a PartPipelines| parts.passes.prepass.as_ref()?.get(place);
-            self.draw_crowds_kind(&mut pass, Chosen::Drawn, kind, of_crowds);
+            self.draw_kind(&mut pass, kind, |parts, _| parts.passes.prepass.as_ref()?.get(place));
         }
         for (sides, place) in [(Sides::Front, 0), (Sides::Both, 1)] {
             let is_wanted = move |part: &ModelPart| {
@@ -121,10 +121,7 @@ impl<'a> Recording<'a> {
                     finish.opacity == Opacity::Opaque && Sides::of(finish.is_double_sided) == sides
                 })
             };
-            pass.set_pipeline([front, both][place]);
-            self.draw_items(&mut pass, is_wanted);
-            let of_crowds = |parts: &'a PartPipelines| parts.passes.prepass.as_ref()?.get(place);
-            self.draw_crowds(&mut pass, Chosen::Drawn, is_wanted, |parts, _| of_crowds(parts));
+            self.draw_items(&mut pass, is_wanted, |parts, _| parts.passes.prepass.as_ref()?.get(place));
         }
         self.draw_standard(&mut pass, Step::CutPrepass, Finish::is_cut);
     }
@@ -134,11 +131,10 @@ impl<'a> Recording<'a> {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         pass: Pass,
-        pipeline: fn(&PassPipelines) -> Option<&wgpu::RenderPipeline>,
         color: &wgpu::TextureView,
         group: &wgpu::BindGroup,
+        pipeline: impl Fn(&'a PartPipelines, Effects) -> Option<&'a wgpu::RenderPipeline>,
     ) {
-        let Some(own) = pipeline(&self.renderer.parts.passes) else { return };
         let depth = wgpu::RenderPassDepthStencilAttachment {
             view: &self.targets.single_depth,
             // Read only: the pass reads the same texture.
@@ -147,9 +143,7 @@ impl<'a> Recording<'a> {
         };
         let mut pass = self.begin(encoder, pass, Some(color), Some(depth));
         self.set_groups(&mut pass, group);
-        pass.set_pipeline(own);
-        self.draw_kind(&mut pass, PartKind::Skin);
-        self.draw_crowds_kind(&mut pass, Chosen::Drawn, PartKind::Skin, |parts| pipeline(&parts.passes));
+        self.draw_kind(&mut pass, PartKind::Skin, pipeline);
     }
 
     fn shadows(&self, encoder: &mut wgpu::CommandEncoder) {
@@ -186,7 +180,7 @@ impl<'a> Recording<'a> {
                     pass.set_vertex_buffer(0, posed.vertices.slice(..));
                     pass.draw_indexed(0..part.geometry.index_count, 0, 0..1);
                 }
-                self.draw_crowds(&mut pass, Chosen::Casting, is_whole, |parts, _| {
+                self.draw_crowds(&mut pass, Chosen::Casting, is_whole, |parts, _, _| {
                     parts.passes.shadow.as_ref()
                 });
             }
@@ -215,13 +209,10 @@ impl<'a> Recording<'a> {
     }
 
     fn draw_opaque(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let picture = self.renderer.parts.picture.iter().enumerate();
-        for (place, (drawable, pipeline)) in picture.filter(|(_, (drawable, _))| !drawable.is_transparent) {
+        let layouts = &self.renderer.layouts;
+        for (place, drawable) in self.renderer.parts.drawables().filter(|(_, one)| !one.is_transparent) {
             pass.push_debug_group(drawable.label);
-            pass.set_pipeline(pipeline);
-            self.draw_kind(pass, drawable.kind);
-            let of_crowds = |parts: &'a PartPipelines| Some(&parts.picture.get(place)?.1);
-            self.draw_crowds_kind(pass, Chosen::Drawn, drawable.kind, of_crowds);
+            self.draw_kind(pass, drawable.kind, |parts, effects| parts.in_picture(layouts, place, effects));
             pass.pop_debug_group();
         }
         self.draw_standard(pass, Step::Opaque, |finish| finish.opacity == Opacity::Opaque);
@@ -232,8 +223,9 @@ impl<'a> Recording<'a> {
     /// Corneas and what else is blended, from far to near.
     fn draw_blended(&self, pass: &mut wgpu::RenderPass<'_>) {
         let eye = self.scene.camera.eye();
-        let corneas = self.renderer.parts.picture.iter().find(|(drawable, _)| drawable.is_transparent);
-        let Some((drawable, corneas)) = corneas else { return };
+        let (parts, layouts) = (&self.renderer.parts, &self.renderer.layouts);
+        let corneas = parts.drawables().find(|(_, drawable)| drawable.is_transparent);
+        let Some((place, drawable)) = corneas else { return };
         pass.push_debug_group(drawable.label);
         let mut far = self.renderer.far_to_near.lock().unwrap_or_else(PoisonError::into_inner);
         for (avatar, part) in far.sort(self.avatars, eye) {
@@ -255,8 +247,11 @@ impl<'a> Recording<'a> {
                 pass.set_pipeline(self.standard(Step::Blended, *sides, part));
                 draw_part(pass, part, posed, state);
             }
-            if sides.is_empty() {
-                pass.set_pipeline(corneas);
+            let effects = self.effects(part, state.pose.is_wrinkled());
+            if sides.is_empty()
+                && let Some(pipeline) = parts.in_picture(layouts, place, effects)
+            {
+                pass.set_pipeline(pipeline);
                 draw_part(pass, part, posed, state);
             }
         }
@@ -284,24 +279,38 @@ impl<'a> Recording<'a> {
         self.avatars.chunk_by(|(a, _), (b, _)| std::ptr::eq(*a, *b)).flat_map(of_group)
     }
 
-    /// The parts of a face of this kind.
-    fn draw_kind(&self, pass: &mut wgpu::RenderPass<'_>, kind: PartKind) {
-        self.draw_items(pass, move |part| part.kind == kind && part.finish.get().is_none());
+    /// The parts of faces of this kind, each with the pipeline for what has to be shown of it.
+    fn draw_kind(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        kind: PartKind,
+        pipeline: impl Fn(&'a PartPipelines, Effects) -> Option<&'a wgpu::RenderPipeline>,
+    ) {
+        let is_wanted = move |part: &ModelPart| part.kind == kind && part.finish.get().is_none();
+        self.draw_items(pass, is_wanted, pipeline);
     }
 
     fn draw_items<F: Fn(&ModelPart) -> bool + Copy + 'a>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         is_wanted: F,
+        pipeline: impl Fn(&'a PartPipelines, Effects) -> Option<&'a wgpu::RenderPipeline>,
     ) {
         let mut bound: Option<&ModelPart> = None;
+        let mut set = None;
         for (part, posed, state) in self.items(Chosen::Drawn, is_wanted) {
+            let effects = self.effects(part, state.pose.is_wrinkled());
+            if set.replace(effects) != Some(effects) {
+                let Some(pipeline) = pipeline(&self.renderer.parts, effects) else { break };
+                pass.set_pipeline(pipeline);
+            }
             if !bound.is_some_and(|bound| std::ptr::eq(bound, part)) {
                 bind_part(pass, part);
                 bound = Some(part);
             }
             draw_part(pass, part, posed, state);
         }
+        self.draw_crowds(pass, Chosen::Drawn, is_wanted, |parts, _, effects| pipeline(parts, effects));
     }
 
     /// Surfaces of interchange files that are wanted.

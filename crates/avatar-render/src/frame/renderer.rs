@@ -1,5 +1,7 @@
 //! What draws avatars: pipelines, tables and shadow maps.
 
+use crate::avatar::model::AvatarModel;
+use crate::avatar::state::AvatarState;
 use crate::deform::deformer::Deformer;
 use crate::frame::far_to_near::FarToNear;
 use crate::frame::part_pipelines::Layouts;
@@ -60,8 +62,9 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Builds the tables and shadow maps, and the pipelines of faces. Those of hair and of surfaces of
-    /// interchange files are built for the first picture with some.
+    /// Builds the tables and shadow maps, and the pipelines of faces at rest in their own colours. Those of
+    /// wrinkles, of other colours, of hair and of surfaces of interchange files are built for the first
+    /// picture with some; [`Renderer::prepare`] builds the first two ahead.
     ///
     /// # Errors
     /// A number of samples or a format that not every device draws.
@@ -97,9 +100,44 @@ impl Renderer {
         })
     }
 
+    /// Builds what draws hair that hangs still at once, rather than for the first picture with some: where
+    /// the hair is still on its way, that time is free. `is_draft` is for hair that is drawn coarsely
+    /// ([`HairDetail::draft`](crate::HairDetail::draft)).
+    pub fn prepare_hair(&self, is_draft: bool) {
+        self.grower.still();
+        match is_draft {
+            true => {
+                self.hair().draft(&self.device);
+            }
+            false => {
+                self.hair().fine(&self.device);
+            }
+        }
+    }
+
     /// What it was built for.
     pub fn config(&self) -> RendererConfig {
         self.config
+    }
+
+    /// Builds what faces of this model need as they look now, at rest and with wrinkles, so that the first
+    /// smile does not wait for its pipelines. Call it when there is time, such as after the first picture.
+    /// Where software draws, [`Renderer::rehearse`] does more.
+    pub fn prepare(&self, model: &AvatarModel) {
+        for (_, part) in model.parts_with_triangles().filter(|(_, part)| part.finish.get().is_none()) {
+            for is_wrinkled in [false, true] {
+                self.parts.prepare(&self.layouts, part, part.effects(is_wrinkled));
+            }
+        }
+    }
+
+    /// Whether a frame of these avatars as they are now builds nothing for their faces first: the time of
+    /// another one tells nothing about the next.
+    pub fn is_ready(&self, avatars: &[(&AvatarModel, &AvatarState)]) -> bool {
+        avatars.iter().all(|(model, state)| {
+            let mut parts = model.parts_with_triangles().filter(|(_, part)| part.finish.get().is_none());
+            parts.all(|(_, part)| self.parts.are_built(part, part.effects(state.pose.is_wrinkled())))
+        })
     }
 
     /// What draws strands.

@@ -6,6 +6,7 @@ use crate::frame::programs::{Standards, standards};
 use crate::frame::vertices::{Vertices, build as build_parts};
 use crate::gpu::pipeline::{Recipe, color_target};
 use crate::gpu::program::Program;
+use crate::model::effects::Effects;
 use crate::model::part::ModelPart;
 use crate::view::config::RendererConfig;
 use std::sync::OnceLock;
@@ -128,5 +129,5 @@ fn build(
         target,
         beside: None,
     };
-    build_parts(&recipe, device, &config.choices(), vertices)
+    build_parts(&recipe, device, config, Effects::NONE, vertices)
 }

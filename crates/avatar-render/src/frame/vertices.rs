@@ -2,7 +2,8 @@
 
 use crate::frame::crowd_programs::crowd_vertices;
 use crate::gpu::pipeline::Recipe;
-use crate::gpu::program::Constant;
+use crate::model::effects::Effects;
+use crate::view::config::RendererConfig;
 
 /// Where the vertices of a draw come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,20 +49,23 @@ impl PipelineLayouts {
     }
 }
 
-/// Builds the pipeline of a recipe that draws parts.
+/// Builds the pipeline of a recipe that draws parts with these effects.
 pub(crate) fn build(
     recipe: &Recipe<'_>,
     device: &wgpu::Device,
-    choices: &[Constant],
+    config: RendererConfig,
+    effects: Effects,
     vertices: Vertices,
 ) -> wgpu::RenderPipeline {
+    let mut choices = config.choices();
+    choices.extend(effects.choices());
     let of_crowd = crowd_vertices(recipe.program.entry).filter(|_| vertices == Vertices::OfCrowd);
-    let Some(stage) = of_crowd else { return recipe.build(device, choices) };
+    let Some(stage) = of_crowd else { return recipe.build(device, &choices) };
     // What crowds read from storage has no slot: positions and normals, and the bone of an instance.
     let is_own = |buffer: &&wgpu::VertexBufferLayout<'_>| {
         let is_posed = buffer.attributes.iter().any(|one| one.format == wgpu::VertexFormat::Float32x3);
         buffer.step_mode == wgpu::VertexStepMode::Vertex && !is_posed
     };
     let buffers: Vec<_> = recipe.buffers.iter().map(|slot| slot.as_ref().filter(is_own).cloned()).collect();
-    Recipe { buffers: &buffers, ..recipe.clone() }.build_with(device, choices, stage)
+    Recipe { buffers: &buffers, ..recipe.clone() }.build_with(device, &choices, stage)
 }

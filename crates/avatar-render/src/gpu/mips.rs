@@ -51,38 +51,49 @@ fn even(image: &Image, encoding: Encoding) -> Vec<u8> {
     match encoding {
         Encoding::Srgb => {
             let (linear, encoded) = (linear_table(), srgb8_table());
-            of_fours(image, |four| {
-                let mean = |channel: usize| {
-                    let [a, b, c, d] = four.map(|pixel| linear[usize::from(pixel[channel])]);
-                    srgb8_in(encoded, 0.25 * (a + b + c + d))
-                };
-                match four {
-                    [[.., 255], [.., 255], [.., 255], [.., 255]] => [mean(0), mean(1), mean(2), 255],
-                    _ => mean_of(four.into_iter().map(|pixel| (0.25, pixel)), encoding),
+            of_fours(image, |[a, b, c, d]| {
+                if a[3] & b[3] & c[3] & d[3] < 255 {
+                    return mean_of([a, b, c, d].into_iter().map(|pixel| (0.25, pixel)), encoding);
                 }
+                let light = |byte: u8| linear[usize::from(byte)];
+                let mean = |a, b, c, d| srgb8_in(encoded, 0.25 * (light(a) + light(b) + light(c) + light(d)));
+                [
+                    mean(a[0], b[0], c[0], d[0]),
+                    mean(a[1], b[1], c[1], d[1]),
+                    mean(a[2], b[2], c[2], d[2]),
+                    255,
+                ]
             })
         }
-        Encoding::Linear => of_fours(image, |four| {
-            let [a, b, c, d] = four.map(|pixel| Vec4::from_array(pixel.map(f32::from)) / 255.0);
+        Encoding::Linear => of_fours(image, |[a, b, c, d]| {
             // As `unorm8` of each.
-            (0.25 * (a + b + c + d) * 255.0 + 0.5).to_array().map(|byte| byte as u8)
+            let mean = 0.25 * (shares(a) + shares(b) + shares(c) + shares(d)) * 255.0 + 0.5;
+            [mean.x as u8, mean.y as u8, mean.z as u8, mean.w as u8]
         }),
-        Encoding::Red => of_fours(image, |four| {
-            let [a, b, c, d] = four.map(|pixel| f32::from(pixel[0]) / 255.0);
-            let red = unorm8(0.25 * (a + b + c + d));
+        Encoding::Red => of_fours(image, |[a, b, c, d]| {
+            let share = |pixel: [u8; 4]| f32::from(pixel[0]) / 255.0;
+            let red = unorm8(0.25 * (share(a) + share(b) + share(c) + share(d)));
             [red, red, red, 255]
         }),
     }
 }
 
-/// A pixel of each two by two.
+fn shares([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
+    Vec4::new(f32::from(red), f32::from(green), f32::from(blue), f32::from(alpha)) / 255.0
+}
+
+/// A pixel of each two by two. Plain loops: what adapters of iterators become is several times as slow in
+/// WebAssembly.
 fn of_fours(image: &Image, mean: impl Fn([[u8; 4]; 4]) -> [u8; 4]) -> Vec<u8> {
+    let width = image.width as usize;
     let (pixels, _) = image.rgba.as_chunks::<4>();
-    let mut means = Vec::with_capacity(pixels.len() / 4);
-    for rows in pixels.chunks_exact(2 * image.width as usize) {
-        let (upper, lower) = rows.split_at(image.width as usize);
-        let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
-        means.extend(pairs.map(|([a, b], [c, d])| mean([*a, *b, *c, *d])));
+    let mut means = vec![[0; 4]; pixels.len() / 4];
+    for (rows, means) in pixels.chunks_exact(2 * width).zip(means.chunks_exact_mut(width / 2)) {
+        let (upper, lower) = rows.split_at(width);
+        let (upper, lower) = (upper.as_chunks::<2>().0, lower.as_chunks::<2>().0);
+        for ((slot, [a, b]), [c, d]) in means.iter_mut().zip(upper).zip(lower) {
+            *slot = mean([*a, *b, *c, *d]);
+        }
     }
     means.into_flattened()
 }

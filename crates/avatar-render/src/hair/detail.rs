@@ -46,6 +46,10 @@ pub(crate) struct GpuHairView {
     pub(crate) stride: u32,
     /// Pieces that are drawn from one point of a strand to the next: more than one where strands curl.
     pub(crate) pieces: u32,
+    /// Width where strands leave the skin, by what they have further out: that of a strand of the model where
+    /// quality takes a share of them. Those of heads far away are not thinner there, since nobody sees single
+    /// ones, and what they cover counts.
+    pub(crate) root_width: f32,
 }
 
 const STRANDS_PER_PIXEL: f32 = 200.0;
@@ -103,7 +107,8 @@ impl HairDetail {
         let width = for_share * kept.max(1.0) / whole;
         // A brow of few strands that are as wide as those of the scalp would be a row of squares.
         let other_width = if self.draft.is_some() { width.min(WIDEST) } else { width };
-        GpuHairView { strands, fading, width, least_pixels, other_width, stride, pieces: 1 }
+        let root_width = if self.draft.is_some() { 1.0 } else { 1.0 / for_share };
+        GpuHairView { strands, fading, width, least_pixels, other_width, stride, pieces: 1, root_width }
     }
 }
 

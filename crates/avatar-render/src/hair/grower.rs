@@ -14,25 +14,41 @@ use std::sync::OnceLock;
 pub struct Grower {
     device: wgpu::Device,
     /// Made for the first hair that grows: most of the time until a bald face is drawn is compilation.
-    built: OnceLock<Pipelines>,
-}
-
-#[derive(Debug)]
-struct Pipelines {
-    still: wgpu::ComputePipeline,
-    swinging: wgpu::ComputePipeline,
-    swing: wgpu::ComputePipeline,
+    still: OnceLock<wgpu::ComputePipeline>,
+    /// Made for the first hair that swings.
+    swinging: OnceLock<wgpu::ComputePipeline>,
+    swing: OnceLock<wgpu::ComputePipeline>,
 }
 
 impl Grower {
-    /// The pipelines are built when the first hair grows.
+    /// The pipelines are built when the first hair grows, and when the first one swings.
     pub fn new(device: &wgpu::Device) -> Self {
-        Self { device: device.clone(), built: OnceLock::new() }
+        let device = device.clone();
+        Self { device, still: OnceLock::new(), swinging: OnceLock::new(), swing: OnceLock::new() }
+    }
+
+    /// Grows hair that hangs still.
+    pub(crate) fn still(&self) -> &wgpu::ComputePipeline {
+        self.still.get_or_init(|| self.pipeline(false))
+    }
+
+    fn swinging(&self) -> &wgpu::ComputePipeline {
+        self.swinging.get_or_init(|| self.pipeline(true))
+    }
+
+    fn swing(&self) -> &wgpu::ComputePipeline {
+        self.swing.get_or_init(|| swing_pipeline(&self.device))
+    }
+
+    fn pipeline(&self, is_swinging: bool) -> wgpu::ComputePipeline {
+        let [hair, skin] = grow_layouts(&self.device);
+        let groups = [&hair, &avatar_layout(&self.device), &skin];
+        compute_pipeline(&self.device, &GROW_PASS, &groups, &[swinging(is_swinging)])
     }
 
     #[cfg(test)]
     pub(crate) fn is_built(&self) -> bool {
-        self.built.get().is_some()
+        self.still.get().is_some()
     }
 
     /// Grows those of the given strands that are not where the pose and their swinging want them, and takes
@@ -64,7 +80,6 @@ impl Grower {
             }
             return;
         }
-        let pipelines = self.built.get_or_init(|| Pipelines::new(&self.device));
         // Growth reads textures: what earlier passes wrote to buffers is copied in between.
         growing.clone().for_each(|(_, hair, _)| hair.take_skin(encoder));
         let (start, end) = match timestamps {
@@ -76,28 +91,17 @@ impl Grower {
         };
         let mut pass = compute_pass(encoder, "grow guides of hair", start);
         for (pose, hair, _) in growing.clone() {
-            pass.set_pipeline(&pipelines.still);
+            pass.set_pipeline(self.still());
             dispatch(&mut pass, pose, hair, &hair.grow_guides, hair.guide_count);
-            hair.swing.record(&mut pass, &pipelines.swing);
+            hair.swing.record(&mut pass, || self.swing());
         }
         drop(pass);
         growing.clone().for_each(|(_, hair, _)| hair.take_guides(encoder));
         let mut pass = compute_pass(encoder, GROW_PASS.label, end);
         for (pose, hair, strands) in growing {
-            pass.set_pipeline(if hair.swing.is_moving() { &pipelines.swinging } else { &pipelines.still });
+            pass.set_pipeline(if hair.swing.is_moving() { self.swinging() } else { self.still() });
             dispatch(&mut pass, pose, hair, &hair.grow, strands);
         }
-    }
-}
-
-impl Pipelines {
-    fn new(device: &wgpu::Device) -> Self {
-        let [hair, skin] = grow_layouts(device);
-        let pipeline = |is_swinging| {
-            let groups = [&hair, &avatar_layout(device), &skin];
-            compute_pipeline(device, &GROW_PASS, &groups, &[swinging(is_swinging)])
-        };
-        Self { still: pipeline(false), swinging: pipeline(true), swing: swing_pipeline(device) }
     }
 }
 

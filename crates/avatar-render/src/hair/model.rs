@@ -17,8 +17,8 @@ use wgpu::util::DeviceExt;
 /// in proportion.
 const REFERENCE_STRANDS: f32 = 100_000.0;
 const WIDEST: f32 = 5.0;
-/// Pieces between two points of a strand that curls: a turn has four points.
-const CURLED_PIECES: u32 = 3;
+/// Pieces between two points of a strand that curls: a turn of tight curls has three points.
+const CURLED_PIECES: u32 = 4;
 const VEC4S_PER_VERTEX: usize = size_of::<GpuDeformedVertex>() / size_of::<[f32; 4]>();
 
 /// The hair that all avatars of a model share.
@@ -32,6 +32,8 @@ pub(crate) struct HairModel {
     pub(crate) guide_count: u32,
     /// The longest strand: how far hair reaches beyond the skin at most, up to its swinging.
     pub(crate) reach: f32,
+    /// How high it reaches at bind pose, in the world.
+    pub(crate) top: Option<f32>,
     /// Swings per second of the tips of guides.
     pub(crate) swing: f32,
     /// Pieces that are drawn from one point of a strand to the next.
@@ -121,6 +123,7 @@ impl HairModel {
             strand_count,
             guide_count,
             reach: groom.strands().iter().map(|planted| planted.length).fold(0.0, f32::max),
+            top: groom.top(),
             swing: groom.style().scalp.swing,
             pieces: if curls(&groom.style().scalp) { CURLED_PIECES } else { 1 },
             hair: device.create_buffer_init(&wgpu::util::BufferInitDescriptor {

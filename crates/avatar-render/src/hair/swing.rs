@@ -178,10 +178,14 @@ impl SwingState {
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&swing));
     }
 
-    /// Records the motion of guides, once after each change of the time.
-    pub(crate) fn record(&self, pass: &mut wgpu::ComputePass<'_>, pipeline: &wgpu::ComputePipeline) {
+    /// Records the motion of guides, once after each change of the time. `pipeline` is asked for then alone.
+    pub(crate) fn record<'a>(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        pipeline: impl FnOnce() -> &'a wgpu::ComputePipeline,
+    ) {
         if self.is_due.swap(false, Ordering::Relaxed) {
-            pass.set_pipeline(pipeline);
+            pass.set_pipeline(pipeline());
             pass.set_bind_group(0, &self.group, &[]);
             pass.dispatch_workgroups(self.guide_count.div_ceil(GROW_WORKGROUP_SIZE), 1, 1);
         }

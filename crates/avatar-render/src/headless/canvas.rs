@@ -145,6 +145,37 @@ impl Canvas {
         avatars: &[(&AvatarModel, &AvatarState)],
         crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
     ) -> Result<Image, RenderImageError> {
+        self.submit_crowds(gpu, scene, avatars, crowds)?;
+        let picture = self.read(gpu).await;
+        if picture.is_err() {
+            // Whether a picture that failed deformed them is not known.
+            avatars.iter().for_each(|(_, avatar)| avatar.redo());
+            crowds.iter_mut().for_each(|(_, crowd)| crowd.redo());
+        }
+        picture
+    }
+
+    /// Begins a picture, for callers that cannot keep the avatars while they wait for it: [`Self::read`] is
+    /// to follow. If that fails, call [`AvatarState::redo`].
+    ///
+    /// # Errors
+    /// Avatars that do not fit together.
+    pub fn submit(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<(), RenderImageError> {
+        self.submit_crowds(gpu, scene, avatars, &mut [])
+    }
+
+    fn submit_crowds(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+        crowds: &mut [(&AvatarModel, &mut AvatarCrowd)],
+    ) -> Result<(), RenderImageError> {
         let (_, height) = self.targets.size();
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
@@ -163,17 +194,14 @@ impl Canvas {
             self.color.size(),
         );
         gpu.queue.submit([encoder.finish()]);
-        let picture = self.read(gpu).await;
-        if picture.is_err() {
-            // Whether a picture that failed deformed them is not known.
-            avatars.iter().for_each(|(_, avatar)| avatar.redo());
-            crowds.iter_mut().for_each(|(_, crowd)| crowd.redo());
-        }
-        picture
+        Ok(())
     }
 
     /// Waits for the picture that was submitted last.
-    async fn read(&self, gpu: &Gpu) -> Result<Image, RenderImageError> {
+    ///
+    /// # Errors
+    /// A lost device, or what it complained about.
+    pub async fn read(&self, gpu: &Gpu) -> Result<Image, RenderImageError> {
         let (width, height) = self.targets.size();
         let view = mapped(&gpu.device, &self.readable).await?;
         let mut pixels = Vec::with_capacity(width as usize * height as usize);

@@ -21,6 +21,11 @@ impl GpuActiveShape {
         Self { index: shapes as u32, weight: wrinkles as f32 }
     }
 
+    /// Whether what this stands before ends with places of wrinkles.
+    pub(crate) fn is_wrinkled(&self) -> bool {
+        self.weight > 0.0
+    }
+
     /// Elements that the lists of an avatar with so many shapes take at most.
     pub(crate) fn room(shapes: usize) -> usize {
         1 + shapes + Wrinkle::MOST

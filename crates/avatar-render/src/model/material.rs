@@ -215,6 +215,11 @@ impl GpuMaterial {
             iris: eye.map_or_else(bytemuck::Zeroable::zeroed, |eye| GpuIris::new(&material.iris, eye)),
         }
     }
+
+    /// Whether skin or iris has another colour than it is painted in.
+    pub(crate) fn is_recolored(&self) -> bool {
+        self.tone != [1.0; 3] || self.iris.uv_radius > 0.0
+    }
 }
 
 /// The bits of the textures that lie by the second texture coordinates.

@@ -4,6 +4,7 @@ pub(crate) mod active_shapes;
 pub(crate) mod bone;
 pub(crate) mod curvature;
 pub(crate) mod desc;
+pub(crate) mod effects;
 pub(crate) mod error;
 pub(crate) mod extras;
 pub(crate) mod eye;

@@ -4,6 +4,7 @@ use crate::gpu::bindings::{sampler_entry, texture_binding, texture_entry, unifor
 use crate::gpu::image::Image;
 use crate::gpu::texture::{TextureUse, Textures};
 use crate::model::desc::{PartBones, PartDesc};
+use crate::model::effects::Effects;
 use crate::model::error::PartProblem;
 use crate::model::eye::{EyeShape, eye_shape};
 use crate::model::finish::{Finish, FinishCell};
@@ -15,6 +16,7 @@ use crate::model::material::{
 use avatar_look::{Material, Wrap, Wrinkle};
 use avatar_mesh::{Bounds, PartKind};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use wgpu::util::DeviceExt;
 
 /// A part on the GPU.
@@ -26,6 +28,8 @@ pub(crate) struct ModelPart {
     pub(crate) look: wgpu::BindGroup,
     /// How it is drawn if it looks as an interchange file says.
     pub(crate) finish: FinishCell,
+    /// Whether its skin or iris has another colour than it is painted in.
+    is_recolored: AtomicBool,
     material: wgpu::Buffer,
     textures: u32,
     eye: Option<EyeShape>,
@@ -193,14 +197,23 @@ impl ModelPart {
             ],
         });
         let (label, kind, finish) = (label.to_owned(), desc.kind, FinishCell::default());
+        let is_recolored = AtomicBool::new(gpu_material.is_recolored());
         let places = pictures.wrinkles.map_or(&[][..], |wrinkles| wrinkles.places);
         let wrinkles = places.iter().take(Wrinkle::MOST).cloned().collect();
-        Ok(Self { label, kind, geometry, look, finish, material, textures, eye, wrinkles })
+        Ok(Self { label, kind, geometry, look, finish, is_recolored, material, textures, eye, wrinkles })
     }
 
     /// Whether it is blended over what is behind.
     pub(crate) fn is_blended(&self) -> bool {
         self.kind == PartKind::Cornea || self.finish.get().is_some_and(Finish::is_blended)
+    }
+
+    /// What has to be shown of it where shapes wrinkle the avatar, or where they do not.
+    pub(crate) fn effects(&self, is_wrinkled: bool) -> Effects {
+        Effects {
+            has_grooves: is_wrinkled && self.textures & WRINKLE_TEXTURE != 0,
+            is_recolored: self.is_recolored.load(Ordering::Relaxed),
+        }
     }
 
     /// Replaces the looks, from the next submission on.
@@ -209,5 +222,6 @@ impl ModelPart {
             GpuMaterial::new(material, self.kind, &self.geometry, self.eye.as_ref(), height, self.textures);
         queue.write_buffer(&self.material, 0, bytemuck::bytes_of(&gpu));
         self.finish.set(Finish::of(self.kind, material));
+        self.is_recolored.store(gpu.is_recolored(), Ordering::Relaxed);
     }
 }

@@ -82,6 +82,25 @@ impl Camera {
         }
     }
 
+    /// The camera of a smaller picture that shows what this camera shows, in its whole picture of this width
+    /// and height, in the rectangle from `min` to `max`. All in pixels, y down. Returns this camera
+    /// unchanged if a side is below one pixel or not finite.
+    #[must_use]
+    pub fn part(self, size: Vec2, min: Vec2, max: Vec2) -> Self {
+        let (part, middle) = (max - min, (min + max) / 2.0);
+        if !(part.min_element() >= 1.0 && size.min_element() >= 1.0 && part.is_finite() && size.is_finite()) {
+            return self;
+        }
+        let slope = half_fov_tan(self.vertical_fov_rad) * part.y / size.y;
+        let middle = (middle / size * 2.0 - 1.0) * Vec2::new(1.0, -1.0);
+        Self {
+            vertical_fov_rad: 2.0 * slope.atan(),
+            aspect: valid_aspect(self.aspect) * (part.x / size.x) * (size.y / part.y),
+            shift: (self.valid_shift() - middle) * size / part,
+            ..self
+        }
+    }
+
     /// Where the camera stands.
     pub fn eye(&self) -> Vec3 {
         self.world_from_camera.translation.into()
@@ -229,6 +248,23 @@ mod tests {
             assert!((pixel(within, point, size) - (alone + min)).length() < 1e-3, "{point}");
         }
         assert_eq!(camera.within(size, max, min), camera);
+    }
+
+    #[test]
+    fn a_part_of_a_picture_is_the_same_picture() {
+        let straight = Camera::orbit(Vec3::new(1.0, 2.0, 3.0), 30.0, 0.4, -0.3, 0.5, 640.0 / 480.0);
+        let camera = Camera { shift: Vec2::new(0.4, -0.3), ..straight };
+        let (size, min, max) = (Vec2::new(640.0, 480.0), Vec2::new(320.0, 30.0), Vec2::new(620.0, 230.0));
+        let part = camera.part(size, min, max);
+        let pixel = |camera: Camera, point: Vec3, size: Vec2| {
+            let clip = camera.clip_from_world().project_point3(point);
+            (Vec2::new(clip.x, -clip.y) + 1.0) / 2.0 * size
+        };
+        for point in [Vec3::ZERO, Vec3::new(3.0, -2.0, 5.0), Vec3::new(-4.0, 8.0, -20.0)] {
+            let of_part = pixel(part, point, max - min) + min;
+            assert!((pixel(camera, point, size) - of_part).length() < 2e-3, "{point}");
+        }
+        assert_eq!(camera.part(size, max, min), camera);
     }
 
     #[test]

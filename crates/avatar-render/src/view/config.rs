@@ -21,24 +21,7 @@ pub struct RendererConfig {
 impl RendererConfig {
     /// Whether the shaders encode their colours because the target does not.
     pub(crate) fn encodes_in_shader(self) -> bool {
-        use wgpu::TextureFormat as F;
-        matches!(
-            self.color_format,
-            F::R8Unorm
-                | F::Rg8Unorm
-                | F::Rgba8Unorm
-                | F::Bgra8Unorm
-                | F::Rgb10a2Unorm
-                | F::R16Unorm
-                | F::Rg16Unorm
-                | F::Rgba16Unorm
-                | F::R8Snorm
-                | F::Rg8Snorm
-                | F::Rgba8Snorm
-                | F::R16Snorm
-                | F::Rg16Snorm
-                | F::Rgba16Snorm
-        )
+        encodes_in_shader(self.color_format)
     }
 
     /// The constants of all programs of the renderer.
@@ -67,6 +50,28 @@ impl RendererConfig {
             flag("TOON", self.shading == Shading::Toon),
         ]
     }
+}
+
+/// Whether shaders encode the colours of a target of this format because it does not.
+pub(crate) fn encodes_in_shader(color_format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    matches!(
+        color_format,
+        F::R8Unorm
+            | F::Rg8Unorm
+            | F::Rgba8Unorm
+            | F::Bgra8Unorm
+            | F::Rgb10a2Unorm
+            | F::R16Unorm
+            | F::Rg16Unorm
+            | F::Rgba16Unorm
+            | F::R8Snorm
+            | F::Rg8Snorm
+            | F::Rgba8Snorm
+            | F::R16Snorm
+            | F::Rg16Snorm
+            | F::Rgba16Snorm
+    )
 }
 
 #[cfg(test)]

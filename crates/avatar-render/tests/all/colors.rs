@@ -2,7 +2,7 @@
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
 use crate::common::stage::{bare_light, light_of, lit_scene};
-use crate::common::{ball, gpu, model, part};
+use crate::common::{ball, gpu, model, part, shadings};
 use avatar_mesh::PartKind;
 use avatar_render::{
     AvatarModel, AvatarState, Camera, Environment, Image, Material, PartTextures, Shading, Terms, Tone,
@@ -70,4 +70,20 @@ fn cloth_keeps_its_color_and_lips_follow_less_than_skin() {
     let left = |painted: [u8; 3]| (shown(painted, DARK) / shown(painted, PAINTED)).x;
     let [skin, lips, mouth] = [[203, 162, 139], [182, 95, 88], [96, 36, 40]].map(left);
     assert!(skin < 0.3 && skin < 0.8 * lips && lips < 0.8 * mouth && mouth < 1.0, "{skin} {lips} {mouth}");
+}
+
+/// What keeps its colour is drawn alike, to the bit, by the programs for other tones and by those without.
+#[test]
+fn what_keeps_its_color_is_the_same_in_another_tone() {
+    let Some(_) = gpu() else { return };
+    let cloth = plain_image([40, 60, 90]);
+    let of = Material::of(PartKind::Skin);
+    let [own, other] = [PAINTED, DARK].map(|color| {
+        let tone = Tone { color, painted: PAINTED };
+        skin(Some(&cloth), Material { tone, ..of })
+    });
+    for (name, shading) in shadings() {
+        let [own, other] = [&own, &other].map(|avatar| light_of(shading, SIZE, &scene(), avatar));
+        assert!(own.middle().min_element() > 0.0 && own.light == other.light, "{name}");
+    }
 }

@@ -139,22 +139,15 @@ fn hair_that_swings_stays_outside_of_the_head() {
             stage.turn(35.0 * phase.sin());
             stage.state.advance_hair(&gpu.queue, 1.0 / 30.0);
             let strands = stage.strands();
-            if frame % 5 != 4 {
-                continue;
-            }
             let weights = weights_of_skin(&stage.head.pack, &stage.face);
             deform(skin, stage.face.bones(), weights, &mut posed).expect("lengths fit");
             let nearest = Nearest::new(&posed.positions, &skin.triangles);
-            let mut deep = 0;
             for (i, points) in strands.iter().enumerate() {
                 for (k, point) in points.iter().enumerate() {
                     let depth = nearest.depth(*point) / height;
-                    assert!(depth <= 0.1, "frame {frame}, strand {i}, point {k}: {depth} at {point}");
-                    deep += usize::from(depth > 0.005);
+                    assert!(depth <= 0.005, "frame {frame}, strand {i}, point {k}: {depth} at {point}");
                 }
             }
-            // A tip is caught at times where the neck turns below an ear, as the field has the bind pose.
-            assert!(deep <= 2, "frame {frame}: {deep} points are deeper than they may be");
         }
     }
 }

@@ -4,8 +4,8 @@
 use crate::common::stage::Stage;
 use crate::common::{ball, checkered_eye, gpu, model, part, scene, shadings};
 use avatar_mesh::PartKind;
-use avatar_render::headless::{Canvas, RenderImageError, render_image};
-use avatar_render::{PartTextures, RendererError, Scene};
+use avatar_render::headless::{Canvas, Gpu, RenderImageError, render_image};
+use avatar_render::{PartTextures, RendererError, Scene, SeeThrough, linear_from_srgb8, wgpu};
 use glam::Vec3;
 
 const SIZE: u32 = 64;
@@ -131,4 +131,85 @@ fn formats_with_fewer_channels_hold_the_same_values() {
     let of_four = |channels: usize| four.chunks_exact(4).flat_map(move |p| p[..channels].to_vec());
     assert!(one.iter().copied().eq(of_four(1)), "{:?}", &one[..4]);
     assert!(two.iter().copied().eq(of_four(2)), "{:?}", &two[..4]);
+}
+
+/// Bytes of a small texture.
+fn bytes(gpu: &Gpu, texture: &wgpu::Texture) -> Vec<u8> {
+    let size = wgpu::BufferDescriptor {
+        label: None,
+        size: 256,
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    };
+    let buffer = gpu.device.create_buffer(&size);
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(256), rows_per_image: None };
+    let to = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+    encoder.copy_texture_to_buffer(texture.as_image_copy(), to, texture.size());
+    gpu.queue.submit([encoder.finish()]);
+    buffer.slice(..).map_async(wgpu::MapMode::Read, |mapped| mapped.expect("mapped"));
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the copy ends");
+    buffer.slice(..).get_mapped_range().expect("mapped").to_vec()
+}
+
+/// What is half covered has to look half covered once a compositor has blended encoded values, over any
+/// background: its colour there is that of the whole, weighted by the coverage.
+#[test]
+fn a_compositor_gets_encoded_colours_with_or_without_their_weight() {
+    use wgpu::TextureFormat::{Bgra8Unorm, Bgra8UnormSrgb, Rgba8Unorm, Rgba8UnormSrgb};
+    let Some(gpu) = gpu() else { return };
+    let device = &gpu.device;
+    // Orange in sRGB, half covered: light weighted by the coverage, as the renderer writes it.
+    let srgb = [240u8, 120, 30, 128];
+    let [light @ .., coverage] = linear_from_srgb8(srgb);
+    let weighted = light.map(|light| light * coverage);
+    let encode = |light: f32| match light <= 0.003_130_8 {
+        true => 12.92 * light,
+        false => 1.055 * light.powf(1.0 / 2.4) - 0.055,
+    };
+    for (format, is_encoded) in [(Rgba8Unorm, true), (Rgba8UnormSrgb, false)] {
+        for target in [Bgra8Unorm, Bgra8UnormSrgb] {
+            for premultiplied in [true, false] {
+                let mut through = SeeThrough::new(device, format, (3, 2), target, premultiplied);
+                through.resize(device, (1, 1));
+                let [r, g, b] =
+                    weighted.map(|light| f64::from(if is_encoded { encode(light) } else { light }));
+                let color = wgpu::Color { r, g, b, a: f64::from(coverage) };
+                let shown = device.create_texture(&wgpu::TextureDescriptor {
+                    label: None,
+                    size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+                    mip_level_count: 1,
+                    sample_count: 1,
+                    dimension: wgpu::TextureDimension::D2,
+                    format: target,
+                    usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+                    view_formats: &[],
+                });
+                let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
+                let mut encoder = device.create_command_encoder(&Default::default());
+                clear(&mut encoder, &view(through.texture()), color);
+                through.show(&mut encoder, &view(&shown));
+                gpu.queue.submit([encoder.finish()]);
+                let found = bytes(gpu, &shown);
+                let weigh =
+                    |byte: u8| if premultiplied { f32::from(byte) * coverage } else { f32::from(byte) };
+                let [red, green, blue, alpha] = srgb;
+                let expected = [weigh(blue), weigh(green), weigh(red), f32::from(alpha)];
+                for (found, expected) in found.iter().zip(expected) {
+                    // The picture has 8 bits, and half of its light is dark.
+                    let off = (f32::from(*found) - expected).abs();
+                    assert!(off <= 2.0, "{format:?} {target:?} {premultiplied}: {found} for {expected}");
+                }
+            }
+        }
+    }
+}
+
+/// Fills a view with a colour.
+fn clear(encoder: &mut wgpu::CommandEncoder, view: &wgpu::TextureView, color: wgpu::Color) {
+    let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(color), store: wgpu::StoreOp::Store };
+    let attachment = wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops };
+    let descriptor =
+        wgpu::RenderPassDescriptor { color_attachments: &[Some(attachment)], ..Default::default() };
+    drop(encoder.begin_render_pass(&descriptor));
 }

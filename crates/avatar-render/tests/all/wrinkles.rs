@@ -1,11 +1,12 @@
 //! Wrinkles: there where and when shapes bring them in, and lit as grooves are.
 #![allow(clippy::expect_used, reason = "helpers of tests fail the test")]
 
-use crate::common::stage::{Picture, key_light, light_of, lit_scene};
+use crate::common::stage::{Picture, Stage, key_light, light_of, lit_scene};
 use crate::common::{gpu, model, part, shadings};
 use avatar_mesh::{Mesh, PartKind, Shape};
 use avatar_render::{
-    AvatarModel, AvatarState, Camera, Image, Light, Material, PartTextures, Shading, Terms, Wrinkle, Wrinkles,
+    AvatarCrowd, AvatarModel, AvatarState, Camera, Image, Light, Material, PartTextures, Shading, Terms,
+    Tone, Wrinkle, Wrinkles,
 };
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -136,5 +137,98 @@ fn wrinkles_are_there_only_where_and_when_their_shapes_bring_them_in() {
     assert!(change(&whole, 0.4) > 1.3 * change(&half, 0.4) && change(&half, 0.4) > 0.01);
     for beyond in [-0.9, -0.3, -0.15, 0.95] {
         assert_eq!(change(&whole, beyond), 0.0, "{beyond}");
+    }
+}
+
+/// Where the skin is smooth, the programs with grooves draw what those without them draw, to the bit.
+#[test]
+fn smooth_skin_is_the_same_beside_wrinkles() {
+    let Some(gpu) = gpu() else { return };
+    // The second shape wrinkles a place where the sheet has nothing.
+    let mut avatar = wrinkled(Vec3::splat(1e4), 1.0);
+    avatar.0.set_material(&gpu.queue, 0, &Material::of(PartKind::Skin)).expect("a part");
+    let light = Light::studio();
+    for (name, shading) in shadings() {
+        let [rest, beside] = [0.0, 1.0].map(|weight| shown(&mut avatar, [0.0, weight], &light, shading));
+        assert!(rest.middle().min_element() > 0.0, "{name}");
+        assert!(rest.light == beside.light, "{name}");
+    }
+}
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+
+/// A crowd of which one has wrinkles looks as its avatars do one by one, and so does one that had some.
+#[test]
+fn one_of_a_crowd_may_be_wrinkled() {
+    let Some(gpu) = gpu() else { return };
+    let (model, _) = wrinkled(Vec3::new(0.4, 0.0, 0.0), 0.5);
+    let place = |avatar: usize| Affine3A::from_translation(Vec3::X * (2.2 * avatar as f32 - 1.1));
+    let camera = Camera::orbit(Vec3::ZERO, 12.0, 0.0, 0.0, 0.4, 1.0);
+    let scene = lit_scene(camera, Light::studio());
+    let mut crowd = AvatarCrowd::new(&gpu.device, &model, 2).expect("room");
+    for (name, shading) in shadings() {
+        let stage = Stage::new(gpu, shading, SIZE, FORMAT);
+        let mut at_rest = None;
+        for wrinkled in [[false; 2], [false, true], [true, true], [false; 2]] {
+            // Boxes of usual weights are wider in crowds, and shadow maps are fitted around them: the first
+            // weight, which moves nothing, is unusual.
+            let weights = wrinkled.map(|wrinkled| [-0.5, if wrinkled { 1.0 } else { 0.0 }]);
+            let mut states = [(); 2].map(|()| AvatarState::new(&gpu.device, &model));
+            for (avatar, weights) in weights.iter().enumerate() {
+                let bones = [place(avatar)];
+                states[avatar].set(&gpu.queue, &bones, weights).expect("a bone and two weights");
+                crowd.set(&model, avatar, &bones, weights).expect("a bone and two weights");
+            }
+            let one_by_one = stage.bytes(gpu, &scene, &states.each_ref().map(|state| (&model, state)));
+            let together = stage.bytes_of_crowds(gpu, &scene, &[], &mut [(&model, &mut crowd)]);
+            assert!(one_by_one == together, "{name}: {wrinkled:?}");
+            let rest = at_rest.get_or_insert_with(|| together.clone());
+            assert_eq!(*rest == together, wrinkled == [false; 2], "{name}: {wrinkled:?}");
+        }
+    }
+}
+
+#[test]
+fn what_wrinkles_need_is_made_when_they_come_or_ahead() {
+    let Some(gpu) = gpu() else { return };
+    let scene = lit_scene(camera(), Light::studio());
+    let set = |state: &mut AvatarState, weight: f32| {
+        state.set(&gpu.queue, &[Affine3A::IDENTITY], &[0.0, weight]).expect("a bone and two weights");
+    };
+    for (name, shading) in shadings() {
+        let (model, mut state) = wrinkled(Vec3::ZERO, 30.0);
+        let stage = || Stage::new(gpu, shading, SIZE, FORMAT);
+        let (by_drawing, ahead) = (stage(), stage());
+        for weight in [0.0, 1.0] {
+            set(&mut state, weight);
+            let is_ready = by_drawing.renderer.is_ready(&[(&model, &state)]);
+            assert_eq!(is_ready, weight == 0.0, "{name}");
+            by_drawing.bytes(gpu, &scene, &[(&model, &state)]);
+            assert!(by_drawing.renderer.is_ready(&[(&model, &state)]), "{name}, {weight}");
+        }
+        ahead.renderer.prepare(&model);
+        set(&mut state, 0.0);
+        let [drawn, rehearsed] = [false, true].map(|rehearses| {
+            ahead.bytes_after(gpu, |encoder| {
+                let view = ahead.texture.create_view(&wgpu::TextureViewDescriptor::default());
+                let (renderer, targets, avatars) = (&ahead.renderer, &ahead.targets, [(&model, &state)]);
+                let recorded = match rehearses {
+                    true => renderer.rehearse(encoder, &view, targets, &gpu.queue, &scene, &avatars),
+                    false => renderer.draw(encoder, &view, targets, &gpu.queue, &scene, &avatars),
+                };
+                recorded.expect("what belongs together");
+            })
+        });
+        assert!(drawn == rehearsed, "{name}");
+        for weight in [0.0, 1.0] {
+            set(&mut state, weight);
+            assert!(ahead.renderer.is_ready(&[(&model, &state)]), "{name}, {weight}");
+        }
+        // Another tone of the skin needs others.
+        let tone = Tone { color: [0.2, 0.1, 0.05], ..matte().tone };
+        model.set_material(&gpu.queue, 0, &Material { tone, ..matte() }).expect("a part");
+        assert!(!ahead.renderer.is_ready(&[(&model, &state)]), "{name}");
+        model.set_material(&gpu.queue, 0, &matte()).expect("a part");
+        assert!(ahead.renderer.is_ready(&[(&model, &state)]), "{name}");
     }
 }

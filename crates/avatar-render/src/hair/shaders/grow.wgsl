@@ -117,7 +117,7 @@ fn grow_main(@builtin(global_invocation_id) id: vec3u) {
         var placed = before + curl;
         if SWINGING && has_guide {
             let offset = posed_rows * textureLoad(offsets, texel_of(guide + i), 0).xyz;
-            placed = swung(grid, placed, offset, skin.shares, margin * min(4.0 * t, 1.0));
+            placed = swung(grid, placed, offset, skin, margin * min(4.0 * t, 1.0));
         }
         points[out + i] = vec4f(head_position + placed * posed_rows, max(skin.distance, least));
         skin_normal = skin.outward;

@@ -17,6 +17,8 @@ struct HairView {
     stride: u32,
     // Pieces that are drawn from one point of a strand to the next.
     pieces: u32,
+    // Width where strands leave the skin, by what they have further out.
+    root_width: f32,
 }
 
 @group(2) @binding(0) var<uniform> hair: Hair;
@@ -46,6 +48,36 @@ fn random_of(strand: u32) -> vec3f {
     return bitcast<vec3f>(textureLoad(roots, texel_of(4u * strand + 3u), 0).xyz);
 }
 
+struct Curve {
+    position: vec3f,
+    along: vec3f,
+}
+
+// A strand that curls, between the points of numbers `i` and `i + 1`, from the points before to after these.
+// Around the middle of a curl each point is turned by the same angle from the one before: the second
+// difference of points says where the middle is, as that of a helix is its radius times 2 cos(turn) - 2.
+fn curve_at(before: vec3f, a: vec3f, b: vec3f, after: vec3f, t: f32, i: u32, turn: vec2f) -> Curve {
+    let way = b - a;
+    if i > 0u && i + 2u <= SEGMENTS && abs(turn.y) > 0.2 {
+        let per_radius = 1.0 / (2.0 * turn.x - 2.0);
+        let from_middle = (before - 2.0 * a + b) * per_radius;
+        let to_middle = (a - 2.0 * b + after) * per_radius;
+        let angle = atan2(turn.y, turn.x);
+        let shares = vec2f(sin((1.0 - t) * angle), sin(t * angle)) / turn.y;
+        let speeds = vec2f(-cos((1.0 - t) * angle), cos(t * angle)) * (angle / turn.y);
+        let middle_way = way + from_middle - to_middle;
+        return Curve(
+            a - from_middle + middle_way * t + from_middle * shares.x + to_middle * shares.y,
+            middle_way + from_middle * speeds.x + to_middle * speeds.y);
+    }
+    // A curve through the points: E. Catmull and R. Rom, "A Class of Local Interpolating Splines", 1974.
+    let in = 0.5 * (b - before);
+    let out = 0.5 * (after - a);
+    let square = 3.0 * way - 2.0 * in - out;
+    let cube = in + out - 2.0 * way;
+    return Curve(a + t * (in + t * (square + t * cube)), in + t * (2.0 * square + t * 3.0 * cube));
+}
+
 // `corner` counts the corners of the ribbon, two at each point.
 fn strand_point(strand: u32, corner: u32, kind: u32) -> StrandPoint {
     let region = kind & 255u;
@@ -61,17 +93,12 @@ fn strand_point(strand: u32, corner: u32, kind: u32) -> StrandPoint {
     point.position = here.xyz;
     point.height = here.w;
     var along = after.xyz - before;
-    if between > 0.0 {
-        // A curve through the points: E. Catmull and R. Rom, "A Class of Local Interpolating Splines", 1974.
+    if hair_view.pieces > 1u {
         let next = points[first + min(i + 2u, SEGMENTS)].xyz;
-        let in = 0.5 * along;
-        let out = 0.5 * (next - here.xyz);
-        let way = after.xyz - here.xyz;
-        let square = 3.0 * way - 2.0 * in - out;
-        let cube = in + out - 2.0 * way;
-        point.position += between * (in + between * (square + between * cube));
+        let curve = curve_at(before, here.xyz, after.xyz, next, between, i, style.curl_turn);
+        point.position = curve.position;
         point.height = mix(here.w, after.w, between);
-        along = in + between * (2.0 * square + between * 3.0 * cube);
+        along = curve.along;
     }
     point.tangent = normalize(along + vec3f(1e-9, 0.0, 0.0));
     point.along = (f32(i) + between) / f32(SEGMENTS);
@@ -79,8 +106,11 @@ fn strand_point(strand: u32, corner: u32, kind: u32) -> StrandPoint {
     // Strands near the cut fade, so that they do not pop where the cut moves.
     let share = saturate((hair_view.strands - f32(strand)) / max(hair_view.fading, 1e-3));
     let factor = select(hair_view.other_width, hair_view.width, region == SCALP);
+    // Strands that stand for several leave the skin thinner: where they part, their ends would be a row of
+    // wide stubs.
+    let leaves = mix(hair_view.root_width, 1.0, saturate(0.5 * (f32(i) + between)));
     let width = hair.width_factor * factor * share * (f32(kind >> 8u) * (1.0 / 255.0));
-    point.radius = mix(style.root_radius, style.tip_radius, point.along) * width;
+    point.radius = mix(style.root_radius, style.tip_radius, point.along) * width * leaves;
     return point;
 }
 

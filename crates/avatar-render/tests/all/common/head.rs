@@ -93,9 +93,12 @@ impl Head {
         &self.pack.parts()[0].mesh
     }
 
-    /// The box around the head, without the shoulders.
+    /// The box around the head, down to where the sculptor says that shoulders begin: pictures and hair
+    /// stay as they are where rows of vertices above that are moved.
     pub(crate) fn head(&self) -> Bounds {
-        self.pack.head().expect("a head with shoulders")
+        let mut head = self.pack.head().expect("a head with shoulders");
+        head.min.y = -15.4;
+        head
     }
 
     /// The skin with this hair, at bind pose.

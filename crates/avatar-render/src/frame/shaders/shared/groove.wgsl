@@ -17,7 +17,7 @@ struct Groove {
 // Mapping Unparametrized Surfaces on the GPU", 2010.
 fn groove_at(position: vec3f, uv: vec2f, normal: vec3f, relief: vec3f, wrinkled: f32) -> Groove {
     var out = Groove(relief, 0.0);
-    if (material.textures & WRINKLE_TEXTURE) == 0u {
+    if !GROOVES || (material.textures & WRINKLE_TEXTURE) == 0u {
         return out;
     }
     let position_dx = dpdx(position);
