@@ -50,8 +50,33 @@ pub enum Action {
     /// Begins to record the face's motion into a new clip.
     StartRecording,
 
+    /// Asks for a recording, or a file of sounds and their times, to speak by it.
+    OpenSpeech,
+    /// Has a text read aloud, and speaks it.
+    Say {
+        /// The text; not empty.
+        text: String,
+        /// The voice that reads it; `None` is the usual one.
+        voice: Option<String>,
+    },
+    /// Speaks by the file or text, from its beginning.
+    Speak,
+    /// Stops speaking.
+    StopSpeaking,
+    /// Says what the microphone hears, or no longer.
+    Microphone,
+    /// Films the face while it speaks by the file or text: the index in [`crate::Model::film_formats`].
+    FilmSpeech(usize),
+    /// The mouth moves so much while it speaks, 0 to 1.
+    SpeechAmount(f32),
+
+    /// Changes who drives the face from outside.
+    Live(Wish),
+
     /// Lets the eyes follow the pointer, or ends that.
     Gaze,
+    /// Lets the face live by itself, or keeps it still.
+    Life,
     /// Gives the face other hair.
     Hair {
         /// The one before, instead of the next.
@@ -87,6 +112,34 @@ pub enum Action {
     Remember,
     /// Ends the program.
     Quit,
+}
+
+/// A change of who drives the face from outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wish {
+    /// Begins to listen, or ends that.
+    Listen {
+        /// Index in [`crate::Live::inlets`].
+        inlet: usize,
+        /// Whether it is to be listened there.
+        is_wanted: bool,
+    },
+    /// Hears other computers, too, or this one alone.
+    HearOthers(bool),
+    /// Asks for a recording and plays it.
+    Play,
+    /// Follows the sender of this index in [`crate::Live::senders`]; `None` whoever sends a face.
+    Follow(Option<usize>),
+    /// Calls what the person's face is now neutral.
+    Calibrate,
+    /// Takes the person's face as it is sent again.
+    ForgetCalibration,
+    /// Swaps left and right, or does not.
+    Mirror(bool),
+    /// Smooths so much, 0 to 1.
+    Smooth(f32),
+    /// Keeps the window above others, or does not.
+    OnTop(bool),
 }
 
 /// A change of poses or clips. Those that write a text or its file can be undone.

@@ -4,21 +4,26 @@ use crate::widgets::{Icon, icon_button, icon_button_if};
 use crate::{Action, Edit, Model};
 use egui::{Button, RichText, ScrollArea, Ui};
 
-pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, actions: &mut Vec<Action>) {
-    ui.horizontal_wrapped(|ui| {
-        match model.playback.recording_secs {
-            Some(secs) => {
-                if icon_button(ui, Icon::Stop, "Stop recording").clicked() {
-                    actions.push(Action::Edit(Edit::StopRecording));
-                }
-                ui.colored_label(crate::style::palette(ui).record, format!("{secs:.1} s"));
+/// The button that begins a recording of the face's motion or ends it, and how long it has run.
+pub(crate) fn recording(ui: &mut Ui, model: &Model<'_>, actions: &mut Vec<Action>) {
+    match model.playback.recording_secs {
+        Some(secs) => {
+            if icon_button(ui, Icon::Stop, "Stop recording").clicked() {
+                actions.push(Action::Edit(Edit::StopRecording));
             }
-            None => {
-                if icon_button(ui, Icon::Record, "Record the face's motion").clicked() {
-                    actions.push(Action::StartRecording);
-                }
+            ui.colored_label(crate::style::palette(ui).record, format!("{secs:.1} s"));
+        }
+        None => {
+            if icon_button(ui, Icon::Record, "Record the face's motion").clicked() {
+                actions.push(Action::StartRecording);
             }
         }
+    }
+}
+
+pub(crate) fn show(ui: &mut Ui, model: &Model<'_>, chosen: &mut Option<usize>, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        recording(ui, model, actions);
         if icon_button(ui, Icon::Plus, "New clip").clicked() {
             actions.push(Action::Edit(Edit::NewClip));
         }

@@ -1,4 +1,5 @@
-//! The panel over the picture: sliders, poses, clips, help, messages and statistics of a face.
+//! The panel over the picture: sliders, poses, clips, speech, live faces, help, messages and statistics of a
+//! face.
 //!
 //! ```text
 //!  Model (borrowed) ──▶ Panel::show(ui, …) ──▶ Vec<Action>, the rectangle left for the face
@@ -63,18 +64,21 @@ mod pose_form;
 mod action;
 mod clips;
 mod face;
+mod live;
 mod notices;
 mod pose_cards;
 mod poses;
+mod speak;
 mod timeline;
 mod view;
 mod panel;
 
-pub use action::{Action, Edit};
+pub use action::{Action, Edit, Wish};
 /// The version of egui that the interface speaks.
 pub use egui;
 pub use model::{
-    FileClip, FilePlayback, FilmProgress, KeyRow, Loading, Message, Model, Playback, Severity, Stats,
+    FileClip, FilePlayback, FilmProgress, Inlet, KeyRow, Live, LiveSender, Loading, Message, Model, Playback,
+    Severity, Speaking, Stats,
 };
 pub use panel::Panel;
 pub use pose_form::PoseForm;

@@ -36,8 +36,16 @@ pub struct Model<'a> {
     /// Which of them plays or is paused, by its index in [`Model::file_clips`].
     pub file_playback: Option<FilePlayback>,
 
+    /// What the face says.
+    pub speaking: Speaking<'a>,
+
+    /// Who drives the face from outside; `None` where the program does not listen.
+    pub live: Option<Live<'a>>,
+
     /// Whether the eyes follow the pointer; `None` where they cannot.
     pub gaze: Option<bool>,
+    /// Whether the face lives by itself; `None` where it cannot.
+    pub life: Option<bool>,
     /// Name of the face's present hair; `None` if there is no hair to choose from.
     pub hair: Option<&'a str>,
 
@@ -91,7 +99,10 @@ impl<'a> Model<'a> {
             },
             file_clips: &[],
             file_playback: None,
+            speaking: Speaking::NOTHING,
+            live: None,
             gaze: None,
+            life: None,
             hair: None,
             keys: &[],
             help_keys: &["F1", "?"],
@@ -127,6 +138,118 @@ impl Default for Playback {
     fn default() -> Self {
         Self { clip: None, time_secs: 0.0, playing: false, recording_secs: None, frame_rate: 60.0 }
     }
+}
+
+/// What the face says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Speaking<'a> {
+    /// Name of the file that it speaks by, or the beginning of the text, if there is one.
+    pub file: Option<&'a str>,
+    /// Whether its sound can be played, or why not, as a sentence; `None` where it has no sound.
+    pub sound: Option<Result<(), &'a str>>,
+    /// Seconds from its beginning.
+    pub time_secs: f64,
+    /// How long it is.
+    pub duration_secs: f64,
+    /// Whether the face speaks by it now.
+    pub is_speaking: bool,
+    /// How much the mouth moves, 0 to 1.
+    pub amount: f32,
+    /// Whether it says what the microphone hears; or why it cannot hear at all, as a sentence.
+    pub microphone: Result<bool, &'a str>,
+    /// How loud that is, 0 to 1.
+    pub heard: f32,
+    /// Why this face cannot speak at all, as a sentence.
+    pub cannot: Option<&'a str>,
+}
+
+impl Speaking<'_> {
+    /// Nothing, in full, of a face that could speak.
+    pub const NOTHING: Self = Self {
+        file: None,
+        sound: None,
+        time_secs: 0.0,
+        duration_secs: 0.0,
+        is_speaking: false,
+        amount: 1.0,
+        microphone: Ok(false),
+        heard: 0.0,
+        cannot: None,
+    };
+}
+
+/// Who drives the face from outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Live<'a> {
+    /// What can be listened to.
+    pub inlets: &'a [Inlet<'a>],
+    /// Whether other computers are heard, too.
+    pub hears_others: bool,
+    /// Name of the recording that is played.
+    pub recording: Option<&'a str>,
+    /// Who has sent something.
+    pub senders: &'a [LiveSender<'a>],
+    /// Whether the sender that is followed was chosen; otherwise whoever sends a face is.
+    pub is_choice: bool,
+    /// Milliseconds from the time for which a frame is computed to when it is handed to the screen.
+    pub draw_ms: Option<f32>,
+    /// Whether something else than zero counts as the person's neutral face.
+    pub is_calibrated: bool,
+    /// The file that keeps the person's neutral face.
+    pub calibration_file: Option<&'a str>,
+    /// Whether left and right are swapped.
+    pub is_mirrored: bool,
+    /// How much is smoothed, 0 to 1.
+    pub smooth: f32,
+    /// Whether the window stays above others.
+    pub is_on_top: bool,
+}
+
+/// A format in which faces arrive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Inlet<'a> {
+    /// What people call it.
+    pub name: &'a str,
+    /// Where it is listened to, such as `127.0.0.1:11111`; `None` if it is not.
+    pub place: Option<&'a str>,
+}
+
+/// Somebody who sends a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LiveSender<'a> {
+    /// What it calls itself.
+    pub name: &'a str,
+    /// What it speaks.
+    pub protocol: &'a str,
+    /// Whether the face follows it.
+    pub is_followed: bool,
+    /// Whether it sends, and sees a face.
+    pub is_live: bool,
+    /// Frames a second, of late.
+    pub rate_hz: f64,
+    /// Frames that came.
+    pub received: u64,
+    /// Frames that did not come.
+    pub lost: u64,
+    /// Frames that came when their time was over.
+    pub late: u64,
+    /// Milliseconds from a fast packet's arrival to its frame in the face.
+    pub delay_ms: f64,
+}
+
+impl LiveSender<'_> {
+    /// Nobody.
+    pub const NONE: Self = Self {
+        name: "",
+        protocol: "",
+        is_followed: false,
+        is_live: false,
+        rate_hz: 0.0,
+        received: 0,
+        lost: 0,
+        late: 0,
+        delay_ms: 0.0,
+    };
 }
 
 /// A clip that the avatar's file brings along.

@@ -3,7 +3,7 @@ use crate::face::Face;
 use crate::poses::Poses;
 use crate::timeline::Timeline;
 use crate::widgets::{Icon, icon_button};
-use crate::{Action, Model, PanelState, Tab, Theme, help, notices, overlay, style, view};
+use crate::{Action, Model, PanelState, Tab, Theme, help, live, notices, overlay, speak, style, view};
 use egui::{Align, Align2, Area, Context, Id, Key, Layout, Order, Rect, Ui, vec2};
 
 /// The panel over the picture, and what it has in mind from frame to frame. One panel goes with one
@@ -168,6 +168,8 @@ impl Panel {
                 Tab::Face => self.face.show(ui, model, actions),
                 Tab::Poses => self.poses.show(ui, model, actions),
                 Tab::Clips => clips::show(ui, model, &mut self.timeline.clip, actions),
+                Tab::Speak => speak::show(ui, model, actions),
+                Tab::Live => live::show(ui, model, actions),
                 Tab::View => view::show(ui, model, &mut self.state, self.timeline.clip, actions),
             }
             if self.state.tab != Tab::Face {
@@ -184,9 +186,10 @@ impl Panel {
 
     fn tabs(&mut self, ui: &mut Ui) {
         // Side by side they need so much.
-        let narrow = ui.available_width() < 250.0;
+        let narrow = ui.available_width() < 292.0;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
+            ui.spacing_mut().button_padding.x = 4.0;
             for (tab, name) in Tab::ALL {
                 let button = ui.selectable_label(self.state.tab == tab, name);
                 crate::widgets::named(&button, || format!("{name} tab"));

@@ -70,14 +70,24 @@ pub enum Tab {
     Poses,
     /// Clips; the timeline comes with them.
     Clips,
+    /// What the face says.
+    Speak,
+    /// Who drives the face from outside.
+    Live,
     /// Files, camera and display.
     View,
 }
 
 impl Tab {
     /// All of them, in their order, with what stands on them.
-    pub const ALL: [(Self, &'static str); 4] =
-        [(Self::Face, "Face"), (Self::Poses, "Poses"), (Self::Clips, "Clips"), (Self::View, "View")];
+    pub const ALL: [(Self, &'static str); 6] = [
+        (Self::Face, "Face"),
+        (Self::Poses, "Poses"),
+        (Self::Clips, "Clips"),
+        (Self::Speak, "Speak"),
+        (Self::Live, "Live"),
+        (Self::View, "View"),
+    ];
 }
 
 /// Light or dark.

@@ -47,8 +47,13 @@ pub(crate) fn show(
                 }
             });
         }
-        if model.gaze.is_some() || model.hair.is_some() {
+        if model.gaze.is_some() || model.hair.is_some() || model.life.is_some() {
             section(ui, "Face");
+        }
+        if let Some(mut life) = model.life
+            && ui.add(Checkbox::new(&mut life, "The face lives by itself")).changed()
+        {
+            actions.push(Action::Life);
         }
         if let Some(mut gaze) = model.gaze
             && ui.add(Checkbox::new(&mut gaze, "Eyes follow the pointer")).changed()

@@ -8,6 +8,7 @@ pub(crate) enum Icon {
     Play,
     Pause,
     Stop,
+    Again,
     Record,
     Up,
     Down,
@@ -69,6 +70,11 @@ fn paint(ui: &Ui, icon: Icon, rect: Rect, color: Color32) {
         Icon::Play => drop(painter.add(solid(&[at(0.1, 0.0), at(1.0, 0.5), at(0.1, 1.0)]))),
         Icon::Pause => painter.extend([bar(0.1), bar(0.6)]),
         Icon::Stop => drop(painter.rect_filled(rect.shrink(0.5), 1, color)),
+        Icon::Again => {
+            let bar = Rect::from_min_max(at(0.0, 0.05), at(0.2, 0.95));
+            painter.rect_filled(bar, 1, color);
+            painter.add(solid(&[at(1.0, 0.0), at(0.3, 0.5), at(1.0, 1.0)]));
+        }
         Icon::Record => drop(painter.circle_filled(rect.center(), 0.5 * rect.width(), color)),
         Icon::Up => drop(painter.add(lines(&[at(0.1, 0.7), at(0.5, 0.3), at(0.9, 0.7)]))),
         Icon::Down => drop(painter.add(lines(&[at(0.1, 0.3), at(0.5, 0.7), at(0.9, 0.3)]))),

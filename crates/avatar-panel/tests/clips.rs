@@ -6,7 +6,7 @@ use avatar_panel::{Action, Edit, FileClip, FilePlayback, Tab};
 use egui::{Key, Modifiers, Pos2, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pose_anim::{Easing, Transition, Wrap};
-use support::{Window, World};
+use support::{Window, World, click};
 
 const MIDDLE: &str = "key 2 of head.bow, 0.50 s, 10.00";
 
@@ -14,11 +14,6 @@ fn window<'a>(world: World) -> Window<'a> {
     let mut window = world.on(Tab::Clips).window([900.0, 700.0]);
     window.run_steps(4);
     window
-}
-
-fn click(window: &mut Window<'_>, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(4);
 }
 
 /// Where a time lies on the ruler: from where two keys lie.

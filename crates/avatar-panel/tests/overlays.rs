@@ -7,17 +7,12 @@ use egui::accesskit::Role;
 use egui::{Event, Key};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::collections::BTreeSet;
-use support::{Window, World};
+use support::{Window, World, click};
 
 fn window<'a>(world: World) -> Window<'a> {
     let mut window = world.window([900.0, 700.0]);
     window.run_steps(4);
     window
-}
-
-fn click(window: &mut Window<'_>, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(4);
 }
 
 const ERROR: Message<'static> = Message {

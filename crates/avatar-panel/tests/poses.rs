@@ -7,17 +7,12 @@ use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use pose_anim::{DEFAULT_POSES_TOML, PoseSet};
-use support::{Window, World};
+use support::{Window, World, click};
 
 fn window<'a>(world: World) -> Window<'a> {
     let mut window = world.on(Tab::Poses).window([900.0, 700.0]);
     window.run_steps(3);
     window
-}
-
-fn click(window: &mut Window<'_>, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(4);
 }
 
 fn write(window: &mut Window<'_>, field: &str, text: &str) {

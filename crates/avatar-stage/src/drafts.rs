@@ -28,8 +28,8 @@ pub enum DraftError {
 pub struct Drafts {
     format: wgpu::TextureFormat,
     shading: Shading,
-    /// With shadows and without.
-    renderers: [Option<Renderer>; 2],
+    /// One for each shading that was needed.
+    renderers: Vec<Renderer>,
     picture: Option<Picture>,
     enlarging: TextureBlitter,
 }
@@ -38,7 +38,7 @@ pub struct Drafts {
 struct Picture {
     view: wgpu::TextureView,
     targets: Targets,
-    has_shadows: bool,
+    shading: Shading,
 }
 
 impl Drafts {
@@ -46,7 +46,7 @@ impl Drafts {
     pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat, shading: Shading) -> Self {
         let enlarging =
             TextureBlitterBuilder::new(device, format).sample_type(wgpu::FilterMode::Linear).build();
-        Self { format, shading, renderers: [None, None], picture: None, enlarging }
+        Self { format, shading, renderers: Vec::new(), picture: None, enlarging }
     }
 
     /// Records a draft of a picture of this size. Returns whether all of what draws it was there before: the
@@ -68,32 +68,81 @@ impl Drafts {
         avatars: &[(&AvatarModel, &AvatarState)],
         timer: Option<&PassTimer>,
     ) -> Result<bool, DraftError> {
-        let (device, queue) = gpu;
-        // Cartoons are what they are by their shadows.
-        let has_shadows = step.has_shadows || self.shading == Shading::Toon;
-        let renderer = &mut self.renderers[usize::from(!has_shadows)];
-        let mut was_there = renderer.is_some();
-        let renderer = match renderer {
-            Some(renderer) => renderer,
-            None => {
-                let shading = of_draft(self.shading, has_shadows);
-                let config = RendererConfig { color_format: self.format, samples: 1, shading };
-                renderer.insert(Renderer::new(device, queue, config)?)
-            }
-        };
+        let (picture, renderer, mut was_there) = self.made(gpu, step, size)?;
+        was_there &= renderer.is_ready(avatars);
+        let Picture { view, targets, .. } = picture;
+        renderer.draw_timed(encoder, view, targets, gpu.1, scene, avatars, timer)?;
+        Ok(was_there)
+    }
+
+    /// Records a draft that is not to be shown, and another one by the programs that show wrinkles
+    /// ([`Renderer::rehearse`]), so that nothing has to be compiled in the middle of a motion.
+    ///
+    /// # Errors
+    /// As [`Drafts::draw`].
+    pub fn rehearse(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        encoder: &mut wgpu::CommandEncoder,
+        step: Step,
+        size: (u32, u32),
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<(), DraftError> {
+        let (Picture { view, targets, .. }, renderer, _) = self.made(gpu, step, size)?;
+        renderer.draw(encoder, view, targets, gpu.1, scene, avatars)?;
+        Ok(renderer.rehearse(encoder, view, targets, gpu.1, scene, avatars)?)
+    }
+
+    /// What draws a draft, and whether it was there before.
+    fn made(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        step: Step,
+        size: (u32, u32),
+    ) -> Result<(&Picture, &Renderer, bool), DraftError> {
+        let shading = of_draft(self.shading, step);
+        let (place, mut was_there) = self.place(gpu, shading)?;
+        let renderer = &self.renderers[place];
         let size = step.size(size);
-        let fits = |picture: &Picture| picture.targets.size() == size && picture.has_shadows == has_shadows;
+        let fits = |picture: &Picture| picture.targets.size() == size && picture.shading == shading;
         let picture = match self.picture.take().filter(fits) {
             Some(picture) => picture,
             None => {
                 was_there = false;
-                let targets = Targets::new(device, renderer, size.0, size.1)?;
-                Picture { view: small_picture(device, self.format, size), targets, has_shadows }
+                let targets = Targets::new(gpu.0, renderer, size.0, size.1)?;
+                Picture { view: picture_to_show(gpu.0, "draft", self.format, size), targets, shading }
             }
         };
-        let Picture { view, targets, .. } = self.picture.insert(picture);
-        renderer.draw_timed(encoder, view, targets, queue, scene, avatars, timer)?;
-        Ok(was_there)
+        Ok((self.picture.insert(picture), renderer, was_there))
+    }
+
+    /// Builds what draws drafts of this care, unless it is there.
+    ///
+    /// # Errors
+    /// A format that cannot be drawn.
+    pub fn prepare(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        step: Step,
+    ) -> Result<&Renderer, DraftError> {
+        let (place, _) = self.place(gpu, of_draft(self.shading, step))?;
+        Ok(&self.renderers[place])
+    }
+
+    /// Where the renderer of this shading is, and whether it was there before.
+    fn place(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        shading: Shading,
+    ) -> Result<(usize, bool), DraftError> {
+        let found = self.renderers.iter().position(|renderer| renderer.config().shading == shading);
+        if let Some(place) = found {
+            return Ok((place, true));
+        }
+        let config = RendererConfig { color_format: self.format, samples: 1, shading };
+        self.renderers.push(Renderer::new(device, queue, config)?);
+        Ok((self.renderers.len() - 1, false))
     }
 
     /// Records that the last draft is shown on a target of any size, of the format given to [`Drafts::new`].
@@ -121,11 +170,13 @@ impl Step {
 }
 
 /// The shading of drafts of pictures that have this one.
-fn of_draft(shading: Shading, has_shadows: bool) -> Shading {
+fn of_draft(shading: Shading, step: Step) -> Shading {
     match shading {
+        // Cartoons are what they are by their shadows.
         Shading::Plain | Shading::Toon => shading,
+        Shading::Natural(_) if step.is_plain => Shading::Plain,
         Shading::Natural(terms) => {
-            let shadows = match has_shadows && terms.shadows != Shadows::Off {
+            let shadows = match step.has_shadows && terms.shadows != Shadows::Off {
                 true => Terms::LOW.shadows,
                 false => Shadows::Off,
             };
@@ -134,9 +185,15 @@ fn of_draft(shading: Shading, has_shadows: bool) -> Shading {
     }
 }
 
-fn small_picture(device: &wgpu::Device, format: wgpu::TextureFormat, size: (u32, u32)) -> wgpu::TextureView {
+/// A picture that is drawn on, and then shown elsewhere.
+pub(crate) fn picture_to_show(
+    device: &wgpu::Device,
+    label: &str,
+    format: wgpu::TextureFormat,
+    size: (u32, u32),
+) -> wgpu::TextureView {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("draft"),
+        label: Some(label),
         size: wgpu::Extent3d { width: size.0, height: size.1, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
@@ -145,7 +202,7 @@ fn small_picture(device: &wgpu::Device, format: wgpu::TextureFormat, size: (u32,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
-    texture.create_view(&wgpu::TextureViewDescriptor { label: Some("draft"), ..Default::default() })
+    texture.create_view(&wgpu::TextureViewDescriptor { label: Some(label), ..Default::default() })
 }
 
 #[cfg(test)]
@@ -168,12 +225,15 @@ mod tests {
 
     #[test]
     fn drafts_have_no_terms_that_the_picture_lacks() {
-        assert_eq!(of_draft(Shading::Plain, true), Shading::Plain);
-        assert_eq!(of_draft(Shading::Toon, false), Shading::Toon);
-        assert_eq!(of_draft(Shading::Natural(Terms::HIGH), true), Shading::Natural(Terms::LOW));
+        let shaded = |shading, has_shadows| of_draft(shading, Step { has_shadows, ..Pace::STEPS[0] });
+        assert_eq!(shaded(Shading::Plain, true), Shading::Plain);
+        assert_eq!(shaded(Shading::Toon, false), Shading::Toon);
+        assert_eq!(shaded(Shading::Natural(Terms::HIGH), true), Shading::Natural(Terms::LOW));
         let dark = Shading::Natural(Terms { shadows: Shadows::Off, ..Terms::LOW });
-        assert_eq!(of_draft(Shading::Natural(Terms::LOW), false), dark);
-        assert_eq!(of_draft(dark, true), dark);
-        assert_eq!(of_draft(Shading::Natural(Terms::NONE), true), Shading::Natural(Terms::NONE));
+        assert_eq!(shaded(Shading::Natural(Terms::LOW), false), dark);
+        assert_eq!(shaded(dark, true), dark);
+        assert_eq!(shaded(Shading::Natural(Terms::NONE), true), Shading::Natural(Terms::NONE));
+        assert_eq!(of_draft(Shading::Natural(Terms::LOW), Pace::FIRST), Shading::Plain);
+        assert_eq!(of_draft(Shading::Toon, Pace::FIRST), Shading::Toon);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  Pack, Textures ──upload──▶ AvatarModel ────────────────────┐
-//!  Pack ──Performer──▶ press, play, look_at; advance(dt)      ├──▶ Renderer::draw ──▶ your texture view
+//!  Pack ──Performer──▶ press, play, speak, …; advance(dt)     ├──▶ Renderer::draw ──▶ your texture view
 //!                      └──▶ bones, weights ──▶ AvatarState ───┤
 //!  Pack ──portrait, View::scene──▶ Scene ─────────────────────┘
 //! ```
@@ -41,9 +41,9 @@
 mod upload;
 mod view;
 mod performer;
-mod screen;
 mod pace;
 mod drafts;
+mod screen;
 #[cfg(feature = "default-face")]
 mod default_face;
 
@@ -55,11 +55,13 @@ pub use avatar_pack;
 /// with them.
 pub use avatar_render;
 pub use avatar_render::{glam, wgpu};
+/// The crate that knows what faces do while they speak.
+pub use avatar_speech;
 #[cfg(feature = "default-face")]
 pub use default_face::DefaultFace;
 pub use drafts::{DraftError, Drafts};
 pub use pace::{Pace, Step};
-pub use performer::{Performer, PerformerError};
+pub use performer::{Attention, Performer, PerformerError, Words};
 /// The crate that moves controls.
 pub use pose_anim;
 pub use screen::{Screen, ScreenError};

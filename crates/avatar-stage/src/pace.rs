@@ -9,10 +9,14 @@ pub struct Step {
     pub has_shadows: bool,
     /// The most strands of hair ([`HairDetail::draft`](avatar_render::HairDetail::draft)).
     pub strands: u32,
+    /// Whether the light on natural skin and eyes is simplified as well ([`Shading::Plain`]).
+    ///
+    /// [`Shading::Plain`]: avatar_render::Shading::Plain
+    pub is_plain: bool,
 }
 
 const fn step(shorter_side: u32, has_shadows: bool, strands: u32) -> Step {
-    Step { shorter_side, has_shadows, strands }
+    Step { shorter_side, has_shadows, strands, is_plain: false }
 }
 
 /// Chooses how frames in motion are drawn, so that they follow each other smoothly where drawing is slow. It
@@ -95,6 +99,10 @@ impl Pace {
         step(232, false, 1600),
         step(180, false, 1200),
     ];
+
+    /// How the very first frame is drawn where all of what draws is still to be compiled, which takes longer
+    /// than drawing: with the least of it.
+    pub const FIRST: Step = Step { is_plain: true, ..step(360, false, 2400) };
 
     /// The level of the next frame.
     pub fn level(&self) -> usize {

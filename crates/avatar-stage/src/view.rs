@@ -29,6 +29,9 @@ pub struct View {
     pub pan: [f32; 2],
     /// What fills the picture.
     pub framing: Framing,
+    /// How high hair reaches ([`avatar_render::AvatarModel::hair_top`]): a portrait shows all of hair that
+    /// stands.
+    pub hair_top: Option<f32>,
 }
 
 /// What fills the picture, measured at bind pose.
@@ -98,14 +101,20 @@ impl NamedView {
 
 impl View {
     /// The whole avatar from the front.
-    pub const FRONT: Self =
-        Self { yaw_degrees: 0.0, pitch_degrees: 0.0, distance: 1.0, pan: [0.0; 2], framing: Framing::Whole };
+    pub const FRONT: Self = Self {
+        yaw_degrees: 0.0,
+        pitch_degrees: 0.0,
+        distance: 1.0,
+        pan: [0.0; 2],
+        framing: Framing::Whole,
+        hair_top: None,
+    };
 
     /// The camera of a picture of this aspect (width by height).
     pub fn camera(&self, pack: &Pack, aspect: f32) -> Camera {
         let (framed, nearer) = match (self.framing, pack.face()) {
             (Framing::Whole, _) | (Framing::Head, None) => (None, 1.0),
-            (Framing::Portrait, _) => (pack.head().map(with_shoulders), 1.0),
+            (Framing::Portrait, _) => (pack.head().map(|head| with_shoulders(head, self.hair_top)), 1.0),
             (Framing::Face, Some(head)) if pack.head().is_some() => (Some(head), FACE_DISTANCE),
             (Framing::Head | Framing::Face, Some(face)) => (Some(face), 1.0),
             (Framing::Face, None) => (None, FACE_DISTANCE),
@@ -157,10 +166,14 @@ impl Default for View {
 }
 
 /// The box around a head, and below it what a portrait shows of neck and shoulders; above it a trace of room
-/// for hair.
-fn with_shoulders(head: Bounds) -> Bounds {
+/// for hair. Beside the box a picture has room for hair that lies on the head; only hair that stands makes it
+/// higher.
+fn with_shoulders(head: Bounds, hair_top: Option<f32>) -> Bounds {
     let height = head.size().y;
-    Bounds { min: head.min - Vec3::Y * 0.14 * height, max: head.max + Vec3::Y * 0.04 * height }
+    // No hair that stands is longer than a head, whatever a file says.
+    let rises = hair_top.map_or(0.0, |top| (top - head.max.y) / height - 0.06);
+    let room = if rises > 0.04 { rises.min(1.0) } else { 0.04 };
+    Bounds { min: head.min - Vec3::Y * 0.14 * height, max: head.max + Vec3::Y * room * height }
 }
 
 /// [`Framing::Portrait`] from the front, before [`BACKGROUND`], in the light of a studio, for a picture of

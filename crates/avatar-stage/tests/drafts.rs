@@ -3,6 +3,7 @@
 
 mod common;
 
+use avatar_stage::avatar_pack::FaceState;
 use avatar_stage::avatar_render::avatar_groom::Hair;
 use avatar_stage::avatar_render::headless::Gpu;
 use avatar_stage::avatar_render::{
@@ -103,6 +104,37 @@ fn drafts_show_the_same_face_in_the_same_place() {
     println!("steps {differences:.2?}, turned by 12 degrees {elsewhere:.2}");
     for difference in &differences {
         assert!(*difference < 0.75 * elsewhere, "{differences:?} beside {elsewhere}");
+    }
+    assert_eq!(gpu.errors.take(), None);
+}
+
+#[test]
+fn a_smile_waits_for_nothing_after_a_rehearsal() {
+    let Some(gpu) = gpu() else { return };
+    let pack = pack();
+    let (device, queue) = (&gpu.device, &gpu.queue);
+    let model = upload_with_hair(device, queue, pack, textures(), None).expect("a model");
+    let [rest, mut smiling] = [(); 2].map(|()| AvatarState::new(device, &model));
+    let mut weights = vec![0.0; pack.shapes().len()];
+    let brow =
+        pack.wrinkles().iter().flat_map(|place| &place.shapes).next().expect("a shape with wrinkles").0;
+    weights[brow] = 1.0;
+    let face = FaceState::new(pack);
+    smiling.set(queue, face.bones(), &weights).expect("a pose");
+    let (scene, step) = (portrait(pack, SIZE.0 as f32 / SIZE.1 as f32), Pace::STEPS[0]);
+    for rehearses in [false, true] {
+        let mut drafts = Drafts::new(device, FORMAT, Quality::Low.shading(Style::Natural));
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let (at, encoder) = ((device, queue), &mut encoder);
+        if rehearses {
+            drafts.rehearse(at, encoder, step, SIZE, &scene, &[(&model, &rest)]).expect("recorded");
+        } else {
+            drafts.draw(at, encoder, step, SIZE, &scene, &[(&model, &rest)], None).expect("recorded");
+        }
+        for (avatar, is_known) in [(&rest, true), (&smiling, rehearses), (&smiling, true)] {
+            let was_there = drafts.draw(at, encoder, step, SIZE, &scene, &[(&model, avatar)], None);
+            assert_eq!(was_there.expect("recorded"), is_known, "{rehearses}");
+        }
     }
     assert_eq!(gpu.errors.take(), None);
 }

@@ -4,13 +4,26 @@
 mod common;
 
 use avatar_stage::Performer;
+use avatar_stage::avatar_pack::Springs;
+use avatar_stage::avatar_pack::joint_springs::{Law, Spring};
 use avatar_stage::glam::Vec3;
 use avatar_stage::pose_anim::face;
 use common::pack;
 
 #[test]
 fn no_frame_allocates() {
-    let mut performer = Performer::new(pack().clone());
+    let jaw = pack().rig().joint("JawJoint").unwrap().index();
+    let law = Law::Oscillator { frequency_hz: 2.0, damping_ratio: 0.2, gravity: Vec3::NEG_Y };
+    let mut swinging = pack().clone();
+    swinging
+        .set_springs(Springs { springs: vec![Spring::new(jaw, Vec3::NEG_Y, law)], ..Springs::default() })
+        .unwrap();
+    for pack in [pack().clone(), swinging] {
+        without_allocation(Performer::new(pack));
+    }
+}
+
+fn without_allocation(mut performer: Performer) {
     let size = pack().bounds().unwrap();
     let near = size.center() + Vec3::Z * 3.0 * size.size().z;
     let allocated = allocation_counter::measure(|| {

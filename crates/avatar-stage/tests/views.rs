@@ -69,6 +69,26 @@ fn a_portrait_of_a_bust_holds_its_head_and_leaves_out_its_lower_edge() {
 }
 
 #[test]
+fn a_portrait_holds_hair_that_stands_and_is_the_same_with_hair_that_lies() {
+    let head = pack().head().unwrap();
+    let height = head.size().y;
+    let camera = |rises: f32| {
+        let hair_top = Some(head.max.y + rises * height);
+        View { framing: Framing::Portrait, hair_top, ..View::FRONT }.camera(pack(), 1.0)
+    };
+    assert_eq!(camera(0.08), portrait(pack(), 1.0).camera);
+    for rises in [0.3, 0.5] {
+        let top = head.center().with_y(head.max.y + rises * height);
+        let at = |camera: Camera| camera.clip_from_world().project_point3(top).y;
+        assert!((0.8..1.0).contains(&at(camera(rises))), "{rises}: {}", at(camera(rises)));
+        assert!(at(camera(0.0)) > 1.0, "{rises}: it is cut otherwise");
+    }
+    // Whatever a file says, a picture has a head.
+    assert_eq!(camera(1e30), camera(2.0));
+    assert_eq!(camera(f32::NAN), camera(0.0));
+}
+
+#[test]
 fn nearer_framings_show_more_of_less() {
     let distance = |framing: Framing| {
         let view = View { framing, ..View::FRONT };

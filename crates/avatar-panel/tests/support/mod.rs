@@ -5,14 +5,21 @@
 pub(crate) mod canvas;
 
 use avatar_panel::{
-    Action, Edit, FileClip, FilePlayback, FilmProgress, KeyRow, Loading, Message, Model, Panel, PanelState,
-    Playback, PoseForm, Stats, Tab,
+    Action, Edit, FileClip, FilePlayback, FilmProgress, KeyRow, Live, Loading, Message, Model, Panel,
+    PanelState, Playback, PoseForm, Speaking, Stats, Tab,
 };
 use egui::{Rect, UiBuilder, Vec2};
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
 use pose_anim::{Clip, Control, ControlTable, Drive, Key, Pace, Pose, PoseSet, Track, Transition};
 
 pub(crate) type Window<'a> = Harness<'a, World>;
+
+/// Clicks what has this label, and lets the panel answer.
+pub(crate) fn click(window: &mut Window<'_>, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(4);
+}
 
 pub(crate) struct World {
     pub(crate) panel: Panel,
@@ -29,6 +36,9 @@ pub(crate) struct World {
     pub(crate) playback: Playback,
     pub(crate) file_clips: Vec<FileClip<'static>>,
     pub(crate) file_playback: Option<FilePlayback>,
+    pub(crate) speaking: Speaking<'static>,
+    pub(crate) live: Option<Live<'static>>,
+    pub(crate) life: Option<bool>,
     pub(crate) keys: Vec<KeyRow<'static>>,
     pub(crate) messages: Vec<Message<'static>>,
     pub(crate) loading: Option<Loading<'static>>,
@@ -59,6 +69,9 @@ impl World {
             playback: Playback { frame_rate: 50.0, ..Playback::default() },
             file_clips: Vec::new(),
             file_playback: None,
+            speaking: Speaking::NOTHING,
+            live: None,
+            life: None,
             keys: vec![
                 KeyRow { key: "F1, ?", meaning: "this help", group: "Window" },
                 KeyRow { key: "F11", meaning: "full screen", group: "Window" },
@@ -114,6 +127,9 @@ impl World {
             playback: self.playback,
             file_clips: &self.file_clips,
             file_playback: self.file_playback,
+            speaking: self.speaking,
+            live: self.live,
+            life: self.life,
             keys: &self.keys,
             reserved_keys: &["F1"],
             messages: &self.messages,
@@ -159,6 +175,13 @@ impl World {
             Action::Play(clip) => {
                 self.playback = Playback { clip: Some(*clip), playing: true, ..self.playback };
             }
+            Action::Speak => self.speaking.is_speaking = true,
+            Action::Microphone => {
+                self.speaking.microphone = self.speaking.microphone.map(|is_on| !is_on);
+            }
+            Action::StopSpeaking => self.speaking.is_speaking = false,
+            Action::SpeechAmount(amount) => self.speaking.amount = *amount,
+            Action::Life => self.life = self.life.map(|lives| !lives),
             Action::Pause => self.playback.playing = false,
             Action::Edit(Edit::SetWrap { clip, wrap }) => self.clips[*clip].wrap = *wrap,
             Action::Edit(Edit::InsertKey { clip, control, time_secs }) => {

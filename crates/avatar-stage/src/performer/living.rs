@@ -1,17 +1,18 @@
 //! What a face does by itself, over everything that it is told.
 
 use super::{Performer, PerformerError};
-use avatar_life::Life;
+use avatar_life::{Life, LifeError};
 
 impl Performer {
-    /// Puts life on top of everything else, and poses the face.
-    pub(super) fn pose(&mut self) -> Result<(), PerformerError> {
-        let Self { layers, life, shown, pack, state, .. } = self;
+    /// Puts speech and life on top of everything else.
+    pub(super) fn show(&mut self) -> Result<(), PerformerError> {
+        self.say();
+        let Self { spoken, life, shown, .. } = self;
         match life {
-            Some(life) => life.apply(layers.values(), shown)?,
-            None => shown.copy_from_slice(layers.values()),
+            Some(life) => life.apply(spoken, shown)?,
+            None => shown.copy_from_slice(spoken),
         }
-        Ok(state.pose(pack, shown)?)
+        Ok(())
     }
 
     /// Lets the face live by itself, over all poses and clips; or be still. Made with [`Life::new`] for the
@@ -21,9 +22,11 @@ impl Performer {
     /// A life of an avatar with another number of controls; then the face goes on as it did.
     pub fn set_life(&mut self, life: Option<Life>) -> Result<(), PerformerError> {
         if let Some(life) = &life {
-            life.apply(self.layers.values(), &mut self.shown)?;
+            life.apply(&self.spoken, &mut self.shown)?;
         }
         self.life = life;
+        self.take_role();
+        self.show()?;
         self.pose()
     }
 
@@ -37,7 +40,27 @@ impl Performer {
         self.life.as_mut()
     }
 
-    /// Values of the controls as they are shown, with life on top.
+    /// Lays what the face says and its life over other values of all controls than its own, one value per
+    /// control in both slices.
+    ///
+    /// # Errors
+    /// Slices of another length; then nothing is written.
+    pub fn over(&self, below: &[f32], out: &mut [f32]) -> Result<(), PerformerError> {
+        let check = |what, found: usize| match found == self.shown.len() {
+            true => Ok(()),
+            false => Err(LifeError::Length { what, expected: self.shown.len(), found }),
+        };
+        check("values", below.len())?;
+        check("values to be written", out.len())?;
+        out.copy_from_slice(below);
+        self.speak_over(out);
+        if let Some(life) = &self.life {
+            life.apply_in_place(out)?;
+        }
+        Ok(())
+    }
+
+    /// Values of the controls as they are shown, with speech and life on top.
     pub fn shown(&self) -> &[f32] {
         &self.shown
     }

@@ -1,16 +1,26 @@
+mod error;
+mod live;
+mod words;
+mod talk;
 mod living;
+mod passing;
+mod speaking;
+mod attending;
 
-use avatar_life::{Life, LifeError};
+pub use attending::Attention;
+use avatar_life::Life;
 use avatar_look::Materials;
-use avatar_pack::{ContentsError, FaceError, FaceState, Gaze, Pack};
+use avatar_pack::{ContentsError, FaceState, Gaze, Pack};
 use avatar_render::avatar_groom::Hair;
 use avatar_render::glam::{Affine3A, Vec3};
+use avatar_speech::{Mouth, SpeechMap};
+pub use error::PerformerError;
 #[cfg(doc)]
 use pose_anim::Player;
-use pose_anim::{
-    AdvanceError, Clip, ClipError, ClipSet, JumpError, Layers, MixError, Pose, PoseSet, Wrap, face,
-};
+use pose_anim::{Clip, ClipSet, Layers, Pose, PoseSet, Wrap, face};
 use std::sync::Arc;
+use talk::Talk;
+pub use words::Words;
 
 /// Seconds in which a single control goes to its value: as fast as a hand moves a slider.
 const SET_SECS: f64 = 0.12;
@@ -29,51 +39,6 @@ const AT_START: f64 = 1e-3;
 const GAZE_CONTROLS: usize = 16;
 /// Share of its range by which a control has to be off that follows a file's rule of looking.
 const OFF_SHARE: f32 = 1e-4;
-
-/// Why a performer does not do what it was told. Nothing has changed then, except after [`Self::Face`], where
-/// time has passed or values were set.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PerformerError {
-    /// No pose of this name, or a mixture that cannot be read.
-    #[error(transparent)]
-    Pose(#[from] MixError),
-    /// No control of this name.
-    #[error("expected the name of a control, found {found:?}{}", hint(.nearest))]
-    UnknownControl {
-        /// The name.
-        found: String,
-        /// The name that is probably meant.
-        nearest: Option<String>,
-    },
-    /// No clip of this name.
-    #[error("expected the name of a clip, found {found:?}{}", hint(.nearest))]
-    UnknownClip {
-        /// The name.
-        found: String,
-        /// The name that is probably meant.
-        nearest: Option<String>,
-    },
-    /// A time to start at that is NaN or infinite.
-    #[error(transparent)]
-    Clip(#[from] ClipError),
-    /// A time step that is negative or NaN.
-    #[error(transparent)]
-    Advance(#[from] AdvanceError),
-    /// Another number of values than there are controls, or a value that is not finite.
-    #[error(transparent)]
-    Jump(#[from] JumpError),
-    /// A life of an avatar with other controls, or a step that is too long for it.
-    #[error(transparent)]
-    Life(#[from] LifeError),
-    /// Control values that do not become a face.
-    #[error(transparent)]
-    Face(#[from] FaceError),
-}
-
-fn hint(nearest: &Option<String>) -> String {
-    nearest.as_ref().map(|name| format!("; did you mean {name:?}?")).unwrap_or_default()
-}
 
 /// A face that acts: a pack, the motion of its controls, and the bones and weights that come of it.
 ///
@@ -98,10 +63,23 @@ pub struct Performer {
     found: Vec<(usize, f32)>,
     /// A pose that is filled anew for each press of single controls.
     single: Pose,
+    /// What the face says, and how this avatar says it.
+    talk: Talk,
+    speech_map: SpeechMap,
+    /// Whether it listens where it does not speak.
+    listens: bool,
+    /// The mouth as it was posed last; none where nothing is said.
+    mouth: Option<Mouth>,
+    /// Values of the controls with speech on top.
+    spoken: Vec<f32>,
     /// What the face does by itself.
     life: Option<Life>,
-    /// Values of the controls with life on top.
+    /// Values of the controls with speech and life on top.
     shown: Vec<f32>,
+    /// Time that has passed since the face was posed last: what swings is still to follow it.
+    waiting_secs: f64,
+    /// Whether any has passed since the start or the last jump.
+    has_moved: bool,
 }
 
 /// A clip that was started.
@@ -121,18 +99,25 @@ impl Performer {
         let mut state = FaceState::new(&pack);
         let layers = Layers::new(pack.controls());
         // The defaults of a pack's own table always fit it; should they not, the face is at bind pose.
-        let _ = state.pose(&pack, layers.values());
+        let _ = state.pose(&pack, layers.values()).and_then(|()| state.settle(&pack));
         Self {
             gaze: Gaze::new(&pack),
             playing: None,
             targets: Vec::with_capacity(pack.controls().len()),
             found: Vec::with_capacity(GAZE_CONTROLS),
             single: Pose::new("single controls", Vec::with_capacity(GAZE_CONTROLS)),
+            talk: Talk::new(),
+            speech_map: SpeechMap::new(pack.controls()),
+            listens: false,
+            mouth: None,
+            spoken: layers.values().to_vec(),
             life: None,
             shown: layers.values().to_vec(),
             layers,
             state,
             pack,
+            waiting_secs: 0.0,
+            has_moved: false,
         }
     }
 
@@ -182,14 +167,26 @@ impl Performer {
         self.press_single([(control, value)].into_iter(), Some(SET_SECS));
     }
 
-    /// Puts all controls at rest at these values, at once; they are clamped to their ranges.
+    /// Puts all controls at rest at these values, at once; they are clamped to their ranges. What swings
+    /// hangs still there.
     ///
     /// # Errors
     /// Not one value per control, or a value that is not finite; then nothing changes.
     pub fn jump_to(&mut self, values: &[f32]) -> Result<(), PerformerError> {
+        self.follow(values)?;
+        (self.waiting_secs, self.has_moved) = (0.0, false);
+        self.pose()
+    }
+
+    /// Puts all controls at these values while time goes on, as for a face that somebody else drives. The
+    /// next [`Self::advance`] or [`Self::pose_with`] poses it, and what swings follows.
+    ///
+    /// # Errors
+    /// As [`Self::jump_to`].
+    pub fn follow(&mut self, values: &[f32]) -> Result<(), PerformerError> {
         self.layers.jump_to(values)?;
         self.playing = None;
-        self.pose()
+        self.show()
     }
 
     /// Plays a clip of the pack from its start.
@@ -298,31 +295,7 @@ impl Performer {
         self.layers.base().press(&self.single);
     }
 
-    /// Lets time pass, and poses the face.
-    ///
-    /// # Errors
-    /// A time step that is negative or NaN, or longer than a day for a face that lives; then nothing changes.
-    pub fn advance(&mut self, dt_secs: f64) -> Result<(), PerformerError> {
-        if let Some(life) = &mut self.life {
-            life.advance(dt_secs)?;
-        }
-        self.layers.advance(dt_secs)?;
-        self.pose()
-    }
-
-    /// Poses the face in another way than by its values alone, until the next [`Self::advance`]: `pose` gets
-    /// the pack, the values of the controls as they are shown and the state to be posed.
-    ///
-    /// # Errors
-    /// What `pose` returns.
-    pub fn pose_with<E>(
-        &mut self,
-        pose: impl FnOnce(&Pack, &[f32], &mut FaceState) -> Result<(), E>,
-    ) -> Result<(), E> {
-        pose(&self.pack, &self.shown, &mut self.state)
-    }
-
-    /// Whether all controls have arrived, whatever the face does by itself.
+    /// Whether all controls have arrived, whatever the face says or does by itself.
     pub fn is_at_rest(&self) -> bool {
         self.layers.is_at_rest()
     }
@@ -337,7 +310,7 @@ impl Performer {
         self.state.weights()
     }
 
-    /// Values of the controls as they are now, in degrees or as weights, without life and before couplings.
+    /// Values of the controls as they are now, in degrees or as weights, without speech, life and couplings.
     pub fn values(&self) -> &[f32] {
         self.layers.values()
     }
