@@ -2,13 +2,17 @@ use crate::face_args::FaceArgs;
 use crate::hair_args::HairArgs;
 use crate::identity_args::IdentityArg;
 use crate::life_args::LifeArgs;
+use crate::live_args::LiveOptions;
 use crate::lod_args::LodArgs;
 use crate::look_args::LookArgs;
 use crate::numbers::{count, positive};
 use crate::output::STANDARD;
-use crate::picture_args::PictureArgs;
+use crate::picture_args::{Background, PictureArgs};
+use crate::spaces_args::{WayArgs, shapes};
+use crate::speech_args::SpeechArgs;
 use avatar_film::Rate;
 use clap::{ArgGroup, Args, Parser, Subcommand};
+use face_space::Standard;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -44,6 +48,13 @@ pub(crate) struct WindowArgs {
     /// Show nothing but the face
     #[arg(long)]
     pub(crate) no_panel: bool,
+    /// What is behind the face: `transparent` where the desktop can, or `#RRGGBB` in sRGB, as a key for
+    /// streaming programs [default: the theme's]
+    #[arg(long, value_name = "COLOUR")]
+    pub(crate) background: Option<Background>,
+    /// Keep the window above others
+    #[arg(long)]
+    pub(crate) on_top: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -52,7 +63,7 @@ pub(crate) enum Verb {
     Render(RenderArgs),
     /// Records a film of poses being pressed, or of a clip: frame k shows the face at k / fps seconds
     Record(RecordArgs),
-    /// Films a face that speaks
+    /// Films a face that speaks, by labels, a recording or a text
     Speak(SpeakArgs),
     /// Renders all poses, labelled, from the front and three-quarter
     Sheet(SheetArgs),
@@ -67,10 +78,15 @@ pub(crate) enum Verb {
     Strands(StrandsArgs),
     /// Prints the motion of all controls while poses are pressed, as CSV
     Trace(TraceArgs),
+    /// Lets a phone, a webcam or a recording drive the face, in a window or without one
+    Live(LiveArgs),
     /// Prints what is in a pack
     Info(InfoArgs),
     /// Prints the table of keys
     Keys(KeysArgs),
+    /// Prints the names that trackers and avatars have for what a face does, maps between them, and what the
+    /// maps lose
+    Spaces(SpacesArgs),
 }
 
 #[derive(Debug, Args)]
@@ -114,7 +130,7 @@ pub(crate) struct RenderArgs {
 
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("motion").args(["script", "clip"])))]
-#[command(group(ArgGroup::new("moving").required(true).multiple(true).args(["script", "clip", "life", "visemes"])))]
+#[command(group(ArgGroup::new("moving").required(true).multiple(true).args(["script", "clip", "life", "visemes", "audio", "say"])))]
 pub(crate) struct RecordArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
@@ -125,9 +141,8 @@ pub(crate) struct RecordArgs {
     /// Clip of the avatar's file or clips.toml, as `info` lists them; or a face tracker's recording, FILE.csv
     #[arg(long, value_name = "NAME")]
     pub(crate) clip: Option<String>,
-    /// Sounds that the face speaks, with their times (docs/speech.md), on top of the script or clip
-    #[arg(long, value_name = "FILE")]
-    pub(crate) visemes: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) speech: SpeechArgs,
     #[command(flatten)]
     pub(crate) life: LifeArgs,
     #[command(flatten)]
@@ -135,13 +150,12 @@ pub(crate) struct RecordArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(group(ArgGroup::new("speaking").required(true).multiple(true).args(["visemes", "audio", "say"])))]
 pub(crate) struct SpeakArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
-    /// Sounds with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival or MBROLA labels,
-    /// marks of cloud services, subtitles (docs/speech.md)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) visemes: PathBuf,
+    #[command(flatten)]
+    pub(crate) speech: SpeechArgs,
     /// Pose that the face has while it speaks, or a mixture: "smile:0.3"
     #[arg(long, value_name = "NAME")]
     pub(crate) expression: Option<String>,
@@ -242,6 +256,10 @@ pub(crate) struct ConvertArgs {
     /// Format of what goes to standard output: glb or obj [default: glb]
     #[arg(long, value_name = "FORMAT")]
     pub(crate) format: Option<String>,
+    /// The morph targets of a .glb: those of arkit, vrm, visemes or another space (`spaces` lists them),
+    /// mixed from what the face has, in place of its own [default: its own shapes and mixtures]
+    #[arg(long, value_name = "SPACE", value_parser = shapes)]
+    pub(crate) shapes: Option<Standard>,
 }
 
 #[derive(Debug, Args)]
@@ -266,15 +284,14 @@ pub(crate) struct TraceArgs {
     pub(crate) pack: PackArg,
     /// Poses (or mixtures) and the seconds at which they are pressed: "0 smile; 0.3 frown; 0.9 smile:0.5
     /// wink-left"
-    #[arg(long, allow_hyphen_values = true, required_unless_present_any = ["life", "visemes"])]
+    #[arg(long, allow_hyphen_values = true, required_unless_present_any = ["life", "visemes", "audio", "say"])]
     pub(crate) script: Option<String>,
-    /// Sounds that the face speaks, with their times (docs/speech.md), on top of the script
-    #[arg(long, value_name = "FILE", conflicts_with = "derivatives")]
-    pub(crate) visemes: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) speech: SpeechArgs,
     #[command(flatten)]
     pub(crate) life: LifeArgs,
     /// After all values, also each control's velocity (CONTROL') and acceleration (CONTROL''), per second
-    #[arg(long, conflicts_with = "life")]
+    #[arg(long, conflicts_with_all = ["life", "visemes", "audio", "say"])]
     pub(crate) derivatives: bool,
     /// Rows per second
     #[arg(long, default_value = "240", value_parser = positive, allow_hyphen_values = true, value_name = "RATE")]
@@ -285,6 +302,14 @@ pub(crate) struct TraceArgs {
     /// The motion, as .csv; `-` is standard output
     #[arg(long, default_value = STANDARD, value_name = "FILE")]
     pub(crate) out: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LiveArgs {
+    #[command(flatten)]
+    pub(crate) window: WindowArgs,
+    #[command(flatten)]
+    pub(crate) live: LiveOptions,
 }
 
 #[derive(Debug, Args)]
@@ -303,6 +328,14 @@ pub(crate) struct InfoArgs {
 pub(crate) struct KeysArgs {
     #[command(flatten)]
     pub(crate) pack: PackArg,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SpacesArgs {
+    #[command(flatten)]
+    pub(crate) pack: PackArg,
+    #[command(flatten)]
+    pub(crate) way: WayArgs,
 }
 
 /// A picture's size in pixels.

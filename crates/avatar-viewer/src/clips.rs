@@ -1,15 +1,12 @@
 //! Clips by their names: those of a file of an interchange format, those of a pack's `clips.toml`, and
 //! recordings, whose names are those of files.
 
+use crate::recordings;
 use crate::usage::{unknown, usage};
-use crate::{reading, standard};
-use anyhow::{Result, anyhow, bail};
+use anyhow::Result;
 use avatar_pack::{MotionAt, Pack, SceneMotion};
-use pose_anim::{Clip, Recording, Wrap};
+use pose_anim::{Clip, ClipError, ControlTable, Wrap};
 use std::path::Path;
-
-/// Columns that a warning names.
-const TOLD: usize = 8;
 
 /// A clip that exists.
 #[derive(Clone, Debug)]
@@ -29,7 +26,7 @@ pub(crate) fn find(pack: &Pack, name: &str) -> Result<FoundClip> {
     let is_recording = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     match of_file.iter().any(|clip| clip == name) {
         true => Ok(FoundClip::File(name.to_owned())),
-        false if is_recording => Ok(FoundClip::Controls(recording(pack, Path::new(name))?)),
+        false if is_recording => Ok(FoundClip::Controls(recordings::read(pack, Path::new(name))?)),
         false => {
             let of_controls = pack.clips().clips.iter().map(|clip| clip.name.as_str());
             Err(unknown("clip", name, of_file.iter().map(String::as_str).chain(of_controls)))
@@ -37,24 +34,27 @@ pub(crate) fn find(pack: &Pack, name: &str) -> Result<FoundClip> {
     }
 }
 
-/// Reads the recording of a face tracker, and says what of it the face cannot show.
-fn recording(pack: &Pack, path: &Path) -> Result<Clip> {
-    let Some(text) = reading::text(path)? else {
-        bail!("{}: expected a recording of a face, found nothing of that name", path.display())
-    };
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let recording = Recording::from_csv(&name, &text, pack.controls());
-    let recording = recording.map_err(|error| anyhow!("{}: {error}", path.display()))?;
-    let over = &recording.passed_over;
-    if !over.is_empty() {
-        let first = over.iter().take(TOLD).map(String::as_str).collect::<Vec<_>>().join(", ");
-        let more = if over.len() > TOLD { " and others" } else { "" };
-        let (file, count) = (path.display(), over.len());
-        standard::warn(format_args!(
-            "{file}: the face has no control for {count} columns, which are passed over: {first}{more}"
-        ));
+/// Share of a control's range by which a clip of what was recorded may stray from it.
+const RECORDED_TOLERANCE: f64 = 0.005;
+
+/// A recording with as few keys as are needed.
+pub(crate) fn reduced(clip: &Clip, controls: &ControlTable) -> Result<Clip, ClipError> {
+    let controls = controls.controls();
+    let range =
+        |control: usize| controls.get(control).map_or(1.0, |control| f64::from(control.max - control.min));
+    let (mut clip, _) = clip.reduced(|control| range(control) * RECORDED_TOLERANCE)?;
+    // A file takes no key beyond its control's range, not even by rounding.
+    for (index, control) in controls.iter().enumerate() {
+        let Some(track) = clip.track_mut(index) else { continue };
+        let (min, max) = (f64::from(control.min), f64::from(control.max));
+        for index in 0..track.keys().len() {
+            let key = track.keys()[index];
+            if key.value.clamp(min, max) != key.value {
+                track.move_key(index, key.time_secs, key.value.clamp(min, max))?;
+            }
+        }
     }
-    Ok(recording.clip)
+    Ok(clip)
 }
 
 impl FoundClip {

@@ -90,7 +90,9 @@ fn unknown_option(command: &Command, verb: Option<&Command>, found: &str) -> any
     let bare = found.trim_start_matches('-');
     let has = |command: &Command| options(command).any(|option| option == bare);
     let (place, own) = verb.map_or(("the window", command), |verb| (verb.get_name(), verb));
-    let others: Vec<_> = command.get_subcommands().filter(|verb| has(verb)).map(Command::get_name).collect();
+    // `live` takes the window's options, and opens it.
+    let is_other = |verb: &&Command| has(verb) && !(verb.get_name() == "live" && has(command));
+    let others: Vec<_> = command.get_subcommands().filter(is_other).map(Command::get_name).collect();
     let is_whole = found.starts_with("--");
     let hint = match placed_toml::nearest(bare, options(own)) {
         _ if is_whole && !others.is_empty() => format!(", an option of {}", others.join(", ")),

@@ -2,6 +2,7 @@ use crate::clips::{self, FoundClip};
 use crate::life_args::{LifeArgs, Living};
 use crate::numbers::{finite, seconds};
 use crate::speech::Spoken;
+use crate::speech_args::SpeechArgs;
 use crate::standard;
 use crate::usage::{self, unknown};
 use anyhow::Result;
@@ -11,12 +12,11 @@ use glam::Affine3A;
 use pose_anim::{Control, Drive};
 use rig_core::{Axis, Elementary, JointId, product};
 use std::borrow::Cow;
-use std::path::PathBuf;
 use std::str::FromStr;
 
 /// A face state on the command line: a pose, then single controls and joints.
 #[derive(Clone, Debug, Default, Args)]
-#[command(group(ArgGroup::new("timed").args(["clip", "life", "visemes"]).multiple(true)))]
+#[command(group(ArgGroup::new("timed").args(["clip", "life", "visemes", "audio", "say"]).multiple(true)))]
 pub(crate) struct FaceArgs {
     /// Pose to start from, or a mixture: "smile:0.5 wink-left"
     #[arg(long, value_name = "NAME")]
@@ -32,11 +32,8 @@ pub(crate) struct FaceArgs {
     /// recording, FILE.csv; what --set and --rotate concern is theirs
     #[arg(long, value_name = "NAME", conflicts_with = "pose")]
     clip: Option<String>,
-    /// Sounds that the face speaks, with their times: of Rhubarb (.tsv, .xml, .json), TextGrid, HTK, Festival
-    /// or MBROLA labels, marks of cloud services, subtitles (docs/speech.md). They add to --pose, --clip and
-    /// --set
-    #[arg(long, value_name = "FILE")]
-    visemes: Option<PathBuf>,
+    #[command(flatten)]
+    speech: SpeechArgs,
     #[command(flatten)]
     life: LifeArgs,
     /// Seconds from the beginning of the clip, of the speech and of the life
@@ -182,23 +179,54 @@ impl FaceChoice {
         values
     }
 
-    /// Brings the state into this choice.
-    pub(crate) fn apply(&self, pack: &Pack, state: &mut FaceState) -> Result<()> {
-        self.apply_with(self.life.as_ref(), pack, state)
+    /// Values of the controls, without single settings.
+    pub(crate) fn values(&self) -> &[f32] {
+        &self.values
     }
 
-    /// The same with this life on top, or none.
-    pub(crate) fn apply_with(&self, life: Option<&Living>, pack: &Pack, state: &mut FaceState) -> Result<()> {
+    /// The same choice with something laid over its values. They are described by themselves, unless joints
+    /// or shapes come from a clip, which no values could tell.
+    pub(crate) fn showing(mut self, lay: impl FnOnce(&[f32], &mut [f32]) -> Result<()>) -> Self {
+        let mut values = self.values.clone();
+        if self.weights.is_empty()
+            && self.locals.len() == self.rotations.len()
+            && lay(&self.values, &mut values).is_ok()
+        {
+            self.values = values;
+            self.start.clear();
+        }
+        self
+    }
+
+    /// Brings the state into this choice, as a picture of one moment shows it: what swings hangs still.
+    pub(crate) fn apply(&self, pack: &Pack, state: &mut FaceState) -> Result<()> {
+        self.pose(pack, state)?;
+        Ok(state.settle(pack)?)
+    }
+
+    /// The same as the next frame of a film, so many seconds after the one before: what swings follows.
+    pub(crate) fn apply_after(&self, secs: f64, pack: &Pack, state: &mut FaceState) -> Result<()> {
+        self.pose(pack, state)?;
+        Ok(state.swing(pack, secs)?)
+    }
+
+    /// The pose with life on top; what swings is where the pose has it.
+    fn pose(&self, pack: &Pack, state: &mut FaceState) -> Result<()> {
+        let mut values = Cow::Borrowed(&self.values);
+        if let Some(life) = &self.life {
+            life.over(values.to_mut())?;
+        }
+        self.apply_values(&values, pack, state)
+    }
+
+    /// The same with these values in place of its own: under single settings.
+    pub(crate) fn apply_values(&self, values: &[f32], pack: &Pack, state: &mut FaceState) -> Result<()> {
         let set = |values: &mut [f32]| {
             for &(control, value) in &self.settings {
                 values[control] = value;
             }
         };
-        let mut values = Cow::Borrowed(&self.values);
-        if let Some(life) = life {
-            life.over(&self.values, values.to_mut())?;
-        }
-        state.pose_with(pack, &values, set, &self.locals)?;
+        state.pose_with(pack, values, set, &self.locals)?;
         state.set_weights(&self.weights);
         Ok(())
     }
@@ -208,7 +236,12 @@ impl FaceArgs {
     /// Whether any face but that at rest is asked for.
     pub(crate) fn is_given(&self) -> bool {
         let is_posed = self.pose.is_some() || !self.set.is_empty() || !self.rotate.is_empty();
-        is_posed || self.clip.is_some() || self.visemes.is_some() || self.life.is_given()
+        is_posed || self.clip.is_some() || self.speech.is_given() || self.life.is_given()
+    }
+
+    /// Whether it is said how the face lives, or that it does not.
+    pub(crate) fn says_life(&self) -> bool {
+        self.life.is_given()
     }
 
     /// Looks all names up. `matches` tells the order in which options were given: where `--set` and
@@ -279,12 +312,11 @@ impl FaceArgs {
     /// Adds what is spoken. Controls that speech concerns and that were set are part of the expression that
     /// it adds to, so that lips close all the same.
     fn speak(&self, pack: &Pack, choice: &mut FaceChoice) -> Result<()> {
-        let Some(path) = &self.visemes else { return Ok(()) };
-        let spoken = Spoken::read(path, pack)?;
+        let Some(spoken) = Spoken::read(&self.speech, pack)? else { return Ok(()) };
         let (under, exact): (Vec<_>, Vec<_>) =
             choice.settings.iter().partition(|(control, _)| spoken.concerns(*control));
         choice.settings = exact;
-        choice.start.push(format!("visemes={}", path.display()));
+        choice.start.extend(self.speech.describe());
         if self.clip.is_none() {
             choice.start.push(format!("time={}", self.time));
         }

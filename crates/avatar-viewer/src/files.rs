@@ -8,7 +8,9 @@ use crate::threads;
 use anyhow::{Context, Result, anyhow, bail};
 use avatar_exchange::vrm::VrmModel;
 use avatar_exchange::{Format, Scene, TextFile};
-use avatar_pack::{Import, ImportReport, Pack, Source, SourceError, Texture, Textures, Warning, load_poses};
+use avatar_pack::{
+    Import, ImportReport, Pack, Source, SourceError, Springs, Texture, Textures, Warning, files, load_poses,
+};
 use avatar_stage::DefaultFace;
 use pose_anim::{ClipSet, ControlTable, PoseSet};
 use std::borrow::Cow;
@@ -86,6 +88,12 @@ impl Files {
         Store::new(paths, !matches!(self.place, Place::BuiltIn))
     }
 
+    /// Where a file of the user's is kept that goes with the avatar, if there can be one; and whether links
+    /// must not lead out of its folder.
+    pub(crate) fn kept(&self, name: &str) -> Option<(PathBuf, bool)> {
+        Some((self.path_of(name)?, !matches!(self.place, Place::BuiltIn)))
+    }
+
     fn path_of(&self, name: &str) -> Option<PathBuf> {
         match &self.place {
             Place::Folder(folder) => Some(folder.join(name)),
@@ -129,7 +137,7 @@ impl Files {
         let mut pack = match &self.place {
             Place::Folder(_) => return self.person(Pack::load(self)?),
             Place::BuiltIn => Pack::load(self)?,
-            Place::File(.., import) => import.pack.clone(),
+            Place::File(.., import) => self.with_springs(import.pack.clone())?,
         };
         // Such an avatar has no folder of its own: what its user has made is elsewhere.
         let store = self.store();
@@ -142,6 +150,17 @@ impl Files {
             pack.set_clips(clips.map_err(|error| store.placed(store::CLIPS, &error))?)?;
         }
         self.person(pack)
+    }
+
+    /// Springs that lie beside a file take the place of its own; joints that turn with others still do.
+    fn with_springs(&self, mut pack: Pack) -> Result<Pack> {
+        let Some(path) = self.path_of(files::SPRINGS) else { return Ok(pack) };
+        let Some(text) = reading::text_within_its_folder(&path)? else { return Ok(pack) };
+        let placed = |error: &dyn Display| anyhow!("{}: {error}", path.display());
+        let read = Springs::from_toml(&text, pack.rig()).map_err(|error| placed(&error))?;
+        let springs = Springs { constraints: pack.springs().constraints.clone(), ..read };
+        pack.set_springs(springs).map_err(|error| placed(&error))?;
+        Ok(pack)
     }
 
     fn person(&self, pack: Pack) -> Result<Pack> {
@@ -166,7 +185,9 @@ impl Files {
             };
             match pack.map(|pack| self.person(pack)) {
                 Ok(Ok(pack)) => {
-                    standard::warn(format_args!("{error:#}: poses and clips of its own are left out"));
+                    standard::warn(format_args!(
+                        "{error:#}: poses, clips and springs of its own are left out"
+                    ));
                     Ok(pack)
                 }
                 _ => Err(error),

@@ -7,10 +7,12 @@ use crate::face_args::FaceChoice;
 use crate::offscreen::Offscreen;
 use crate::output::{Contents, OutputFile, OutputFolder, is_nameless};
 use crate::picture_file::no_alpha;
+use crate::standard;
 use crate::usage::usage;
 use anyhow::{Context, Error, Result, anyhow, bail};
-use avatar_film::{Film, FilmError, Format, Rate};
+use avatar_film::{Film, FilmError, Format, Rate, Soundtrack};
 use avatar_pack::Pack;
+use avatar_sound::Sound;
 use avatar_stage::View;
 use image::RgbaImage;
 use std::io::BufWriter;
@@ -20,6 +22,9 @@ use std::thread::JoinHandle;
 
 /// Frames that may wait for the encoder: it works while the next one is drawn, and memory stays bounded.
 const WAITING: usize = 2;
+
+/// The sound of a folder of pictures.
+const SOUND_NAME: &str = "sound.wav";
 
 /// More pictures of one name than these are not looked through.
 const MOST_NAMES: u32 = 100_000;
@@ -95,9 +100,12 @@ impl Take<'_> {
         mut at: impl FnMut(f64) -> Result<(FaceChoice, View)>,
         mut shot: impl FnMut(u64) -> Result<()>,
     ) -> Result<()> {
+        let mut before = None;
         for frame in 0..self.frames {
-            let (face, view) = at(self.rate.time_secs(frame))?;
-            film.push(offscreen.picture(self.pack, &face, view, self.size, self.background)?)?;
+            let secs = self.rate.time_secs(frame);
+            let (face, view) = at(secs)?;
+            let after_secs = before.replace(secs).map(|before| secs - before);
+            film.push(offscreen.frame(self.pack, &face, view, self.size, self.background, after_secs)?)?;
             shot(frame + 1)?;
         }
         Ok(())
@@ -124,17 +132,29 @@ pub(crate) struct FilmSink {
 }
 
 impl FilmSink {
-    /// Begins a film of `frames` frames, as far as that is known; names of numbered pictures depend on it.
-    pub(crate) fn create(target: FilmTarget, size: Size, rate: Rate, frames: u64) -> Result<Self> {
+    /// Begins a film of `frames` frames, as far as that is known; names of numbered pictures depend on it,
+    /// and how much of the sound there is.
+    pub(crate) fn create(
+        target: FilmTarget,
+        size: Size,
+        rate: Rate,
+        frames: u64,
+        sound: Option<Sound>,
+    ) -> Result<Self> {
+        let sound = sound.map(|sound| cut(sound, rate.time_secs(frames)));
         let (messages, received) = sync_channel(WAITING);
         // Made here, so that a folder that cannot be written to is reported before anything is drawn.
         let write: Box<dyn FnOnce() -> Result<()> + Send> = match target {
             FilmTarget::File(out, format) => {
                 let draft = out.draft()?;
-                Box::new(move || write_film(&received, &out, draft, format, size, rate))
+                let sound = sound.map(|sound| soundtrack(&sound, format)).transpose()?.flatten();
+                Box::new(move || write_film(&received, &out, draft, (format, sound), size, rate))
             }
             FilmTarget::Folder(out) => {
                 let draft = out.draft()?;
+                if let Some(sound) = sound {
+                    draft.write(SOUND_NAME, &sound.to_wav()?).with_context(|| out.expected())?;
+                }
                 Box::new(move || write_folder(&received, &out, draft, frames))
             }
         };
@@ -179,16 +199,48 @@ impl Drop for FilmSink {
     }
 }
 
+/// The sound of a film: one or two channels, at a rate that films have. A format without sound is warned of.
+fn soundtrack(sound: &Sound, format: Format) -> Result<Option<Soundtrack>> {
+    if !format.keeps_sound() {
+        let others = Format::ALL.iter().filter(|format| format.keeps_sound());
+        let others = ending::listed(others.flat_map(|format| format.extensions()).copied());
+        standard::warn(format_args!(
+            "{format} is silent: {others} has the sound, and a folder gets it as {SOUND_NAME}"
+        ));
+        return Ok(None);
+    }
+    let mixed;
+    let sound = match sound.channels {
+        1 | 2 => sound,
+        _ => {
+            mixed = Sound { rate_hz: sound.rate_hz, channels: 1, samples: sound.mono().into_owned() };
+            &mixed
+        }
+    };
+    let Sound { rate_hz, channels, samples } = sound.resampled(Soundtrack::rate_for(sound.rate_hz))?;
+    Ok(Some(Soundtrack { rate_hz, channels, samples }))
+}
+
+/// The sound up to a time.
+fn cut(mut sound: Sound, secs: f64) -> Sound {
+    let frames = (secs * f64::from(sound.rate_hz)).ceil() as usize;
+    sound.samples.truncate(frames.saturating_mul(sound.channels.into()));
+    sound
+}
+
 fn write_film(
     received: &Receiver<Message>,
     out: &OutputFile,
     draft: DraftFile,
-    format: Format,
+    (format, sound): (Format, Option<Soundtrack>),
     size: Size,
     rate: Rate,
 ) -> Result<()> {
     let failed = |error: FilmError| with_place(error, || out.expected());
     let mut film = Film::new(format, BufWriter::new(draft), size.width, size.height, rate).map_err(failed)?;
+    if let Some(sound) = sound {
+        film.set_sound(sound).map_err(failed)?;
+    }
     while let Ok(message) = received.recv() {
         match message {
             Message::Frame(frame) => film.push(frame.as_raw()).map_err(failed)?,

@@ -66,6 +66,11 @@ impl Living {
         Self { life, seed }
     }
 
+    /// How it lives.
+    pub(crate) fn style(&self) -> Style {
+        *self.life.style()
+    }
+
     /// What it was made with.
     pub(crate) fn seed(&self) -> u64 {
         self.seed
@@ -82,9 +87,9 @@ impl Living {
         self.life.advance(secs).map_err(|error| usage(format!("--time: {error}")))
     }
 
-    /// Values of all controls, with life on top.
-    pub(crate) fn over(&self, below: &[f32], out: &mut [f32]) -> Result<()> {
-        Ok(self.life.apply(below, out)?)
+    /// Lays life over values of all controls.
+    pub(crate) fn over(&self, values: &mut [f32]) -> Result<()> {
+        Ok(self.life.apply_in_place(values)?)
     }
 
     /// The life as options of the command line say it.

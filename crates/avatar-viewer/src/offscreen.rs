@@ -126,8 +126,11 @@ impl Offscreen {
         format!("{} ({:?}, {:?})", info.name, info.backend, info.device_type)
     }
 
-    fn pose(&mut self, pack: &Pack, face: &FaceChoice) -> Result<()> {
-        face.apply(pack, &mut self.state)?;
+    fn pose(&mut self, pack: &Pack, face: &FaceChoice, after_secs: Option<f64>) -> Result<()> {
+        match after_secs {
+            Some(secs) => face.apply_after(secs, pack, &mut self.state)?,
+            None => face.apply(pack, &mut self.state)?,
+        }
         self.avatar.set(&self.gpu.queue, self.state.bones(), self.state.weights())?;
         Ok(())
     }
@@ -141,7 +144,20 @@ impl Offscreen {
         size: Size,
         background: [u8; 4],
     ) -> Result<RgbaImage> {
-        self.pose(pack, face)?;
+        self.frame(pack, face, view, size, background, None)
+    }
+
+    /// The same as the next frame of a film, so many seconds after the picture before; `None` for the first.
+    pub(crate) fn frame(
+        &mut self,
+        pack: &Pack,
+        face: &FaceChoice,
+        view: View,
+        size: Size,
+        background: [u8; 4],
+        after_secs: Option<f64>,
+    ) -> Result<RgbaImage> {
+        self.pose(pack, face, after_secs)?;
         let canvas = match self.canvas.take_if(|(old, _)| *old == size) {
             Some((_, canvas)) => canvas,
             None => {
@@ -149,6 +165,7 @@ impl Offscreen {
                 Canvas::new(&self.gpu, size.width, size.height, self.samples, shading)?
             }
         };
+        let view = View { hair_top: self.model.hair_top(), ..view };
         let scene = view.scene(pack, size.aspect(), background, self.look.light());
         let picture = canvas.render(&self.gpu, &scene, &[(&self.model, &self.avatar)])?;
         self.canvas = Some((size, canvas));
@@ -157,7 +174,7 @@ impl Offscreen {
 
     /// The strands, grown on the GPU by the pass that draws, and read back.
     pub(crate) fn strands(&mut self, pack: &Pack, face: &FaceChoice) -> Result<Vec<[Vec3; SEGMENTS + 1]>> {
-        self.pose(pack, face)?;
+        self.pose(pack, face, None)?;
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let strands =
             Grower::new(device).run(device, queue, &Deformer::new(device), &self.model, &self.avatar);
@@ -167,7 +184,7 @@ impl Offscreen {
 
     /// One part, deformed on the GPU by the function that draws, and read back.
     pub(crate) fn deform(&mut self, pack: &Pack, face: &FaceChoice, part: usize) -> Result<Deformed> {
-        self.pose(pack, face)?;
+        self.pose(pack, face, None)?;
         let deformer = Deformer::new(&self.gpu.device);
         let deformed = deformer.run(&self.gpu.device, &self.gpu.queue, &self.model, &self.avatar, part);
         // The device's own words say more than that nothing came back.

@@ -7,8 +7,9 @@ use crate::usage::usage;
 use anyhow::{Result, anyhow};
 use avatar_exchange::glb;
 use avatar_mesh::obj::{self, ObjPart};
-use avatar_pack::{FaceState, Pack, Texture};
+use avatar_pack::{ExportTarget, FaceState, Pack, Texture, retarget};
 use clap::ArgMatches;
+use face_space::{Route, Standard};
 use std::path::Path;
 
 /// What can be written.
@@ -36,7 +37,11 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
     let Some(path) = args.out.as_ref().or(args.target.as_ref()) else {
         return Err(usage("expected the file to write, as a second name or after --out, found none"));
     };
-    match Target::of(path, args.format.as_deref())? {
+    let target = Target::of(path, args.format.as_deref())?;
+    if args.shapes.is_some() && target != Target::Glb {
+        return Err(usage("expected --shapes with a .glb, which has morph targets, found another format"));
+    }
+    match target {
         Target::Folder => {
             at_rest(args)?;
             let out = OutputFolder::check(path)?;
@@ -52,7 +57,10 @@ pub(super) fn run(args: &ConvertArgs, matches: &ArgMatches) -> Result<()> {
             let out = OutputFile::check(path, Contents::Binary("GLB"))?;
             let files = super::open(&args.pack)?;
             let pack = files.load_pack()?;
-            out.write(&glb(&files, &pack)?)
+            match args.shapes {
+                Some(space) => out.write(&with_shapes(&files, &pack, space)?),
+                None => out.write(&glb(&files, &pack)?),
+            }
         }
         Target::Obj => {
             let out = OutputFile::check(path, Contents::Text)?;
@@ -98,6 +106,43 @@ fn glb(files: &Files, pack: &Pack) -> Result<Vec<u8>> {
         }
     };
     written.map_err(|error| anyhow!("{}: {error}", files.name()))
+}
+
+/// The avatar with the morph targets of a space in place of its own.
+fn with_shapes(files: &Files, pack: &Pack, space: Standard) -> Result<Vec<u8>> {
+    let Some(mut way) = Route::between(space, Standard::ArKit) else {
+        return Err(anyhow!("expected a way from {} to arkit, found none", space.key()));
+    };
+    let mut retarget = retarget(pack);
+    let (mut said, mut arkit) = (space.space().rest(), Standard::ArKit.space().rest());
+    let mut targets = Vec::new();
+    for (place, name) in space.space().names().iter().enumerate() {
+        said[place] = name.max;
+        way.apply(&said, &mut arkit);
+        said[place] = name.rest;
+        let mut values = pack.controls().defaults();
+        retarget.apply_arkit(&arkit, &mut values);
+        targets.push(ExportTarget { name: name.name.clone(), values });
+    }
+    let rest = pack.controls().defaults();
+    let still: Vec<&str> =
+        targets.iter().filter(|target| target.values == rest).map(|target| target.name.as_str()).collect();
+    if still.len() == targets.len() {
+        return Err(anyhow!(
+            "{}: expected a face that can show names of {}, found none",
+            files.name(),
+            space.key()
+        ));
+    }
+    if !still.is_empty() {
+        standard::warn(format_args!(
+            "the face does not show, and the file does not have: {}",
+            still.join(", ")
+        ));
+    }
+    let raw = avatar_pack::export_targets(pack, &files.load_textures(&Texture::ALL), &targets);
+    raw.notes.iter().for_each(standard::warn);
+    glb::write_raw(&raw).map_err(|error| anyhow!("{}: {error}", files.name()))
 }
 
 /// All parts in world space, one object each.

@@ -10,6 +10,9 @@ use std::fmt::Write;
 struct Report<'a> {
     parts: Vec<PartReport<'a>>,
     joints: Vec<String>,
+    /// What moves by itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    springs: Option<SpringsReport>,
     /// Shapes beside the two of the raw format.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     further_shapes: Vec<String>,
@@ -44,6 +47,24 @@ struct ControlReport {
     default: f32,
     #[serde(skip_serializing_if = "Option::is_none")]
     group: Option<String>,
+}
+
+/// Joints that swing and joints that turn with others.
+#[derive(Serialize)]
+struct SpringsReport {
+    swinging: Vec<String>,
+    colliders: usize,
+    turning: Vec<String>,
+}
+
+fn springs(pack: &Pack) -> Option<SpringsReport> {
+    let springs = pack.springs();
+    let name = |joint: usize| pack.rig().names().get(joint).cloned();
+    (!springs.is_empty()).then(|| SpringsReport {
+        swinging: springs.springs.iter().filter_map(|spring| name(spring.joint)).collect(),
+        colliders: springs.colliders.len(),
+        turning: springs.constraints.iter().filter_map(|constraint| name(constraint.joint)).collect(),
+    })
 }
 
 /// An axis of the identity, from -1 to 1, and what the face is called at both ends.
@@ -169,6 +190,7 @@ fn report<'a>(pack: &'a Pack, textures: &Textures) -> Report<'a> {
     Report {
         parts: parts.collect(),
         joints: pack.rig().names().to_vec(),
+        springs: springs(pack),
         further_shapes: further.map(|shape| shape.name.clone()).collect(),
         controls: controls.collect(),
         identity: axes.collect(),
@@ -200,6 +222,14 @@ fn text(report: &Report<'_>) -> String {
         );
     }
     let _ = writeln!(out, "\njoints: {}", report.joints.join(", "));
+    if let Some(SpringsReport { swinging, colliders, turning }) = &report.springs {
+        if !swinging.is_empty() {
+            let _ = writeln!(out, "\njoints that swing, with {colliders} colliders: {}", swinging.join(", "));
+        }
+        if !turning.is_empty() {
+            let _ = writeln!(out, "\njoints that turn with others: {}", turning.join(", "));
+        }
+    }
     if !report.further_shapes.is_empty() {
         let _ = writeln!(out, "\nfurther shapes: {}", report.further_shapes.join(", "));
     }

@@ -5,9 +5,11 @@ mod convert;
 mod deform;
 mod info;
 mod keys;
+mod live;
 mod record;
 mod render;
 mod sheet;
+mod spaces;
 mod strands;
 mod trace;
 
@@ -38,8 +40,10 @@ pub(crate) fn run(cli: Cli, matches: &ArgMatches) -> Result<()> {
         Verb::Convert(args) => convert::run(&args, matches),
         Verb::Strands(args) => strands::run(&args, matches),
         Verb::Trace(args) => trace::run(&args),
+        Verb::Live(args) => live::run(&args, matches),
         Verb::Info(args) => info::run(&args),
         Verb::Keys(args) => keys::run(&args),
+        Verb::Spaces(args) => spaces::run(&args),
     }
 }
 

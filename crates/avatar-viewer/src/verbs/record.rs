@@ -34,7 +34,7 @@ pub(super) fn run(args: &RecordArgs) -> Result<()> {
             values: pack.controls().defaults(),
             script: args.script.as_deref().map(|script| Script::parse(script, pack)).transpose()?,
             clip: args.clip.as_deref().map(|clip| clips::find(pack, clip)).transpose()?,
-            spoken: args.visemes.as_deref().map(|path| Spoken::read(path, pack)).transpose()?,
+            spoken: Spoken::read(&args.speech, pack)?,
             life: args.life.begin(pack),
         })
     })
@@ -48,7 +48,7 @@ pub(super) fn speak(args: &SpeakArgs) -> Result<()> {
             let pose = usage::pose(pack, name)?;
             pose.values.iter().for_each(|&(control, value)| values[control] = value);
         }
-        let spoken = Some(Spoken::read(&args.visemes, pack)?);
+        let spoken = Spoken::read(&args.speech, pack)?;
         Ok(Motion { values, script: None, clip: None, spoken, life: args.life.begin(pack) })
     })
 }
@@ -59,7 +59,7 @@ fn shoot(pack: &PackArg, args: &FilmArgs, motion: impl FnOnce(&Pack) -> Result<M
     let files = super::open(pack)?;
     let pack = files.load_pack()?;
     let view = args.picture.view(&pack)?;
-    let Motion { values, script, clip, spoken, mut life } = motion(&pack)?;
+    let Motion { values, script, clip, mut spoken, mut life } = motion(&pack)?;
     let of_faces = match (&script, &clip) {
         (Some(script), _) => through(args.fps, script.rest_secs(&pack)?),
         (None, Some(clip)) if clip.repeats() => args.fps.frames_before(clip.duration_secs(&pack)),
@@ -79,7 +79,8 @@ fn shoot(pack: &PackArg, args: &FilmArgs, motion: impl FnOnce(&Pack) -> Result<M
     let level = args.lod.level(&pack, &args.look, &view, args.size.sides(), frames);
     let mut offscreen = Offscreen::of_files(&files, &level, args.size, args.picture.samples, args.look)?;
     let interrupts = Interrupts::poll()?;
-    let mut film = FilmSink::create(target, args.size, args.fps, frames)?;
+    let sound = spoken.as_mut().and_then(Spoken::take_sound);
+    let mut film = FilmSink::create(target, args.size, args.fps, frames, sound)?;
     let mut motion = script.as_ref().map(|script| script.motion(&pack));
     let mut progress = Progress::new("frame", frames);
     let (pack, background) = (&pack, args.picture.background.0);

@@ -19,7 +19,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<()> {
     let pack = super::open(&args.pack)?.load_pack()?;
     let script = Script::parse(args.script.as_deref().unwrap_or_default(), &pack)?;
     let mut life = args.life.begin(&pack);
-    let spoken = args.visemes.as_deref().map(|path| Spoken::read(path, &pack)).transpose()?;
+    let spoken = Spoken::read(&args.speech, &pack)?;
     // The product may lie a rounding error below a whole number of ticks.
     let last_row = (args.duration * args.hz * (1.0 + 1e-12)).floor();
     if last_row > MAX_ROWS {
@@ -45,34 +45,48 @@ fn trace(
     out: &mut dyn Write,
 ) -> Result<()> {
     let mut motion = script.motion(pack);
-    write!(out, "t")?;
     let suffixes: &[&str] = if rows.derivatives { &["", "'", "''"] } else { &[""] };
-    for suffix in suffixes {
-        for control in pack.controls().controls() {
-            write!(out, ",{}", quoted(&format!("{}{suffix}", control.name)))?;
-        }
-    }
-    writeln!(out)?;
-    for row in 0..=rows.last {
-        let t = row as f64 / rows.hz;
+    header(pack, suffixes, out)?;
+    for number in 0..=rows.last {
+        let t = number as f64 / rows.hz;
         let player = motion.at(t)?;
-        write!(out, "{t}")?;
         let mut values = player.values().to_vec();
         if let Some(spoken) = spoken {
             spoken.say(t, &mut values);
         }
         if let Some(life) = life {
             life.go_to(t)?;
-            life.over(&values.clone(), &mut values)?;
+            life.over(&mut values)?;
         }
         let columns = [&values[..], player.velocities(), player.accelerations()];
-        for number in columns.iter().take(suffixes.len()).copied().flatten() {
-            // The sum turns −0 into 0.
-            write!(out, ",{}", number + 0.0)?;
-        }
-        writeln!(out)?;
+        row(t, columns.into_iter().take(suffixes.len()).flatten(), out)?;
     }
     Ok(())
+}
+
+/// The line with the names of the columns: the time, and all controls with each of the suffixes.
+pub(super) fn header(pack: &Pack, suffixes: &[&str], out: &mut dyn Write) -> Result<()> {
+    write!(out, "t")?;
+    for suffix in suffixes {
+        for control in pack.controls().controls() {
+            write!(out, ",{}", quoted(&format!("{}{suffix}", control.name)))?;
+        }
+    }
+    Ok(writeln!(out)?)
+}
+
+/// A row: the time and its values.
+pub(super) fn row<'a>(
+    secs: f64,
+    values: impl IntoIterator<Item = &'a f32>,
+    out: &mut dyn Write,
+) -> Result<()> {
+    write!(out, "{secs}")?;
+    for value in values {
+        // The sum turns −0 into 0.
+        write!(out, ",{}", value + 0.0)?;
+    }
+    Ok(writeln!(out)?)
 }
 
 /// A column's name as CSV wants it (RFC 4180).

@@ -4,6 +4,8 @@ use super::App;
 use super::action::Action;
 use super::camera::{CameraMove, Place};
 use super::messages::About;
+use super::talking::Script;
+use crate::speech::Line;
 use anyhow::Result;
 use avatar_panel::{Action as Panel, Edit};
 use winit::event_loop::ActiveEventLoop;
@@ -24,7 +26,6 @@ impl App {
                 self.play(clip);
             }
             Action::PlayOrPause => self.act_on_panel(event_loop, self.play_or_pause()),
-            Action::Life => self.session.face.toggle_life(),
             Action::Record => {
                 let wanted = match self.session.face.recorded_secs() {
                     Some(_) => Panel::Edit(Edit::StopRecording),
@@ -78,6 +79,15 @@ impl App {
                 let done = face.start_recording();
                 self.messages.report(About::Clips, "Nothing is recorded.", done);
             }
+            Panel::OpenSpeech => super::loading::ask_for_speech(&Script::endings(), self.proxy.clone()),
+            Panel::Speak => self.speak(),
+            Panel::StopSpeaking => self.stop_speaking(),
+            Panel::Say { text, voice } => self.say(text, voice),
+            Panel::Microphone => self.toggle_microphone(),
+            Panel::FilmSpeech(format) => self.film_speech(format),
+            Panel::SpeechAmount(amount) => self.set_speech_amount(amount),
+            Panel::Live(wish) => self.wish(wish),
+            Panel::Life => self.presenter.toggle_life(face),
             Panel::Gaze => self.presenter.toggle_gaze(face),
             Panel::Hair { backward } => self.next_hair(backward),
             Panel::OpenFile => super::loading::ask(self.proxy.clone()),
@@ -91,7 +101,7 @@ impl App {
                 Ok(path) => self.messages.news(About::Picture, format!("Saved {}.", path.display()), ""),
                 Err(error) => self.messages.error(About::Picture, "The picture was not saved.", &error),
             },
-            Panel::Film { format, clip } => self.film(format, clip),
+            Panel::Film { format, clip } => self.film(format, clip, None),
             Panel::StopFilm => self.session.stop_film(),
             Panel::Camera(place) => {
                 if let Some(place) = Place::ALL.get(place) {
@@ -132,12 +142,13 @@ impl App {
         }
     }
 
-    /// Begins a film of a clip, or of the present face from all around.
-    fn film(&mut self, format: usize, clip: Option<usize>) {
+    /// Begins a film of a clip, of something that is said and the beginning of its name, or of the present
+    /// face from all around.
+    pub(super) fn film(&mut self, format: usize, clip: Option<usize>, said: Option<(Line, String)>) {
         if self.session.filming.is_some() {
             return;
         }
-        match self.presenter.film(&self.session, format, clip, self.proxy.clone()) {
+        match self.presenter.film(&self.session, format, (clip, said), self.proxy.clone()) {
             Ok(filming) => {
                 self.messages.settle(About::Film);
                 self.session.filming = Some(filming);

@@ -13,8 +13,6 @@ pub(crate) enum Action {
     PressClip(usize),
     /// Plays the clip, or halts what plays.
     PlayOrPause,
-    /// Lives, or is still.
-    Life,
     /// Begins to record a clip, or ends it.
     Record,
     /// Shows or hides the keys.

@@ -5,8 +5,10 @@ use crate::cli::Size;
 use crate::clips::FoundClip;
 use crate::face_args::FaceChoice;
 use crate::film::{FilmSink, FilmTarget, Take, through};
+use crate::life_args::Living;
 use crate::look_args::LookArgs;
 use crate::offscreen::Offscreen;
+use crate::speech::Spoken;
 use anyhow::{Result, bail};
 use avatar_film::{Format, Rate};
 use avatar_pack::{Pack, Textures};
@@ -59,8 +61,12 @@ pub(super) struct Subject {
     pub(super) pack: Arc<Pack>,
     pub(super) textures: Textures,
     pub(super) look: LookArgs,
-    /// The clip; without one the present face is looked at from all around.
+    /// The clip; without one the present face is looked at from all around, unless it speaks.
     pub(super) clip: Option<FoundClip>,
+    /// What the present face says.
+    pub(super) spoken: Option<Spoken>,
+    /// How it lives while it speaks.
+    pub(super) life: Option<Living>,
     pub(super) values: Vec<f32>,
     pub(super) view: View,
     pub(super) size: Size,
@@ -80,9 +86,10 @@ impl Filming {
     pub(super) fn start(subject: Subject, path: PathBuf, window: EventLoopProxy<Wake>) -> Result<Self> {
         let rate = Rate::new(FPS, 1)?;
         let target = FilmTarget::check(&path, None, subject.size, rate, subject.background)?;
-        let frames = match &subject.clip {
-            Some(clip) => length(clip, &subject.pack, rate),
-            None => rate.frames_before(TURN_SECS),
+        let frames = match (&subject.clip, &subject.spoken) {
+            (Some(clip), _) => length(clip, &subject.pack, rate),
+            (None, Some(spoken)) => through(rate, spoken.rest_secs()),
+            (None, None) => rate.frames_before(TURN_SECS),
         };
         let (sender, news) = channel();
         let stop = Arc::new(AtomicBool::new(false));
@@ -144,12 +151,20 @@ impl Subject {
         frames: u64,
         shot: impl FnMut(u64) -> Result<()>,
     ) -> Result<()> {
-        let Self { pack, textures, look, clip, values, view, size, background } = self;
+        let Self { pack, textures, look, clip, mut spoken, mut life, values, view, size, background } = self;
         let mut offscreen = Offscreen::open(&pack, &textures, SAMPLES, look)?;
-        let mut film = FilmSink::create(target, size, rate, frames)?;
-        let at = |secs: f64| match &clip {
-            Some(clip) => Ok((FaceChoice::of_found(clip, &pack, secs)?, view)),
-            None => {
+        let sound = spoken.as_mut().and_then(Spoken::take_sound);
+        let mut film = FilmSink::create(target, size, rate, frames, sound)?;
+        let at = |secs: f64| match (&clip, &spoken) {
+            (Some(clip), _) => Ok((FaceChoice::of_found(clip, &pack, secs)?, view)),
+            (None, Some(spoken)) => {
+                if let Some(life) = &mut life {
+                    life.go_to(secs)?;
+                }
+                let face = FaceChoice::of_values(values.clone()).speaking(spoken, secs);
+                Ok((face.with_life(life.clone()), view))
+            }
+            (None, None) => {
                 let yaw_degrees = view.yaw_degrees + (secs / TURN_SECS * 360.0) as f32;
                 Ok((FaceChoice::of_values(values.clone()), View { yaw_degrees, ..view }))
             }

@@ -6,10 +6,13 @@ use super::action::Action;
 use super::camera::Place;
 use super::filming::{Filming, formats};
 use super::keys::MOUSE;
+use super::messages::About;
 use super::overlay::Painted;
 use super::presenter::Presenter;
 use super::session::Session;
 use super::stage::Stage;
+use super::stirring::Change;
+use super::talking::Talking;
 use anyhow::Result;
 use avatar_panel::{Edit, FileClip, FilePlayback, KeyRow, Message, Model, Playback, Stats};
 use std::path::PathBuf;
@@ -25,6 +28,8 @@ struct Around<'a> {
     messages: &'a [Message<'a>],
     /// Files that were opened before.
     recent: &'a [PathBuf],
+    talking: &'a Talking,
+    live: avatar_panel::Live<'a>,
 }
 
 impl App {
@@ -37,10 +42,16 @@ impl App {
         if self.presenter.frames.runs() {
             self.catch_up();
         }
+        if let Err(error) = self.live.frame(&mut self.session.face) {
+            self.messages.error(About::Live, "The recording has ended.", &error);
+        }
+        self.keep_calibration();
         if self.session.face.recording_is_full() {
             self.act(event_loop, Action::Panel(avatar_panel::Action::Edit(Edit::StopRecording)));
         }
-        let is_at_rest = !self.session.face.moves();
+        let drive = self.live.wakes_at();
+        let is_driven = drive.is_some_and(|then| then <= Instant::now());
+        let acts = self.session.face.acts() || is_driven;
         let has_more = self.presenter.draw_miniature(&self.session, !self.session.face.acts())?;
 
         let mut actions = Vec::new();
@@ -50,26 +61,66 @@ impl App {
             self.act(event_loop, Action::Panel(action));
         }
         self.input.heard();
-        let free = painted.as_ref().map(|painted| painted.free);
-        let Self { session, presenter, input, .. } = self;
-        presenter.look(session, input, free);
+        let Self { session, presenter, input, live, .. } = self;
+        presenter.free = painted.as_ref().map(|painted| painted.free);
+        presenter.look(session, input);
         session.face.pose()?;
-        presenter.point(session, input, free, is_at_rest);
+        let change = if acts { presenter.stirring.forget() } else { presenter.change(session) };
+        presenter.point(session, input, acts, change);
         if let (Some(overlay), Some(painted)) = (&presenter.overlay, &mut painted) {
             overlay.mark(painted);
         }
-        let is_whole_again = presenter.draw(session, painted.as_ref(), is_at_rest)?;
+        let is_whole_again = presenter.draw(session, painted.as_ref(), acts, change)?;
+        live.drawn(is_driven);
 
-        let (moves, swings) = (session.face.moves(), presenter.frames.swings());
+        let acts = session.face.acts() || is_driven;
+        let (lives, swings) = (session.face.lives(), presenter.frames.swings());
         let again = painted.map_or(Duration::MAX, |painted| painted.again);
-        presenter.frames.end(began, moves, again);
+        let runs = acts || lives || presenter.frames.sounds;
+        presenter.frames.end(began, acts, runs, again);
+        presenter.stir_later(session);
         // Nothing moves: no frame until something happens.
-        if moves || swings || has_acted || again.is_zero() || has_more || is_whole_again {
+        if acts || swings || has_acted || again.is_zero() || has_more || is_whole_again {
             presenter.redraw();
         } else if let Some(due) = presenter.stage.as_mut().and_then(Stage::comes_to_rest) {
             presenter.frames.no_later(due);
         }
+        if let Some(then) = drive.filter(|_| !is_driven) {
+            presenter.frames.no_later(then);
+        }
         Ok(())
+    }
+
+    /// Brings the motion to this moment, so that a press acts at the time of the press.
+    pub(super) fn catch_up(&mut self) {
+        let Self { session: Session { face, .. }, presenter: Presenter { frames, .. }, talking, .. } = self;
+        frames.sounds = talking.go_on(&mut face.performer);
+        face.advance(frames.catch_up(Instant::now(), face.recorded_secs().is_some()));
+    }
+
+    /// A face that does nothing but live has lived a little, or heard something: draws it if anybody could
+    /// see that.
+    pub(super) fn stir(&mut self) {
+        self.catch_up();
+        let Self { session, presenter, input, talking, .. } = self;
+        if talking.listens() {
+            // The panel shows how loud it is.
+            presenter.frames.soon();
+        }
+        if session.face.acts() {
+            return presenter.redraw();
+        }
+        if !session.face.lives() {
+            return presenter.stir_later(session);
+        }
+        presenter.look(session, input);
+        // What cannot be posed is told by the frame.
+        let is_posed = session.face.pose().is_ok();
+        if is_posed && presenter.change(session) == Change::Nothing {
+            presenter.stir_later(session);
+        } else {
+            presenter.redraw();
+        }
     }
 
     /// Lets the panel see what has happened so far. It looks at the pointer where it is in the end: who
@@ -85,7 +136,15 @@ impl App {
 
     fn lay_out(&mut self, actions: &mut Vec<avatar_panel::Action>) -> Option<Painted> {
         let messages: Vec<_> = self.messages.shown().collect();
-        let around = Around { keys: &self.input.keys, messages: &messages, recent: &self.config.recent };
+        let live = &self.live;
+        let (inlets, senders) = (live.inlets(), live.senders());
+        let around = Around {
+            keys: &self.input.keys,
+            messages: &messages,
+            recent: &self.config.recent,
+            talking: &self.talking,
+            live: live.model(&inlets, &senders),
+        };
         self.presenter.lay_out(&self.session, &around, actions)
     }
 }
@@ -123,8 +182,10 @@ impl Presenter {
         let recent: Vec<String> = around.recent.iter().map(|path| path.display().to_string()).collect();
         let formats: Vec<&str> = formats().into_iter().map(|(name, _)| name).collect();
         let thumbnails: Vec<_> = books.poses().iter().map(|pose| self.frames.miniature(pose)).collect();
-        let loading = session.loading.as_ref().map(|loading| loading.path.display().to_string());
-        let loading = session.loading.as_ref().zip(loading.as_deref());
+        let avatar = session.loading.as_ref();
+        let loading = avatar.map(|loading| loading.path.display().to_string());
+        let loading = loading.or_else(|| around.talking.reading().map(str::to_owned));
+        let fraction = avatar.map(|loading| loading.fraction);
         let file_clips = face.file_clips.iter();
         let file_clips: Vec<_> =
             file_clips.map(|(name, secs)| FileClip { name, duration_secs: *secs }).collect();
@@ -149,7 +210,10 @@ impl Presenter {
                 recording_secs: face.recorded_secs(),
                 frame_rate: FRAME_RATE,
             },
+            speaking: around.talking.shown(face),
+            live: Some(around.live),
             gaze: Some(self.pointing.follows),
+            life: Some(face.lives()),
             hair: Some(&hair),
             file_clips: &file_clips,
             file_playback: motion.map(|motion| FilePlayback {
@@ -161,8 +225,7 @@ impl Presenter {
             help_keys: &help,
             reserved_keys: &reserved,
             messages: around.messages,
-            loading: loading
-                .map(|(loading, what)| avatar_panel::Loading { what, fraction: Some(loading.fraction) }),
+            loading: loading.as_deref().map(|what| avatar_panel::Loading { what, fraction }),
             stats: Stats {
                 adapter,
                 triangles,
@@ -180,12 +243,24 @@ impl Presenter {
         Some(overlay.run(stage.window(), &model, actions))
     }
 
-    fn draw(&mut self, session: &Session, painted: Option<&Painted>, is_at_rest: bool) -> Result<bool> {
+    /// Draws the face and the panel. Returns whether a draft gave way to the whole picture.
+    fn draw(
+        &mut self,
+        session: &Session,
+        painted: Option<&Painted>,
+        acts: bool,
+        change: Change,
+    ) -> Result<bool> {
         let shot = self.shot(session, painted.map(|painted| painted.free));
         let Some(stage) = &mut self.stage else { return Ok(false) };
-        stage.advance_hair(self.frames.swing(is_at_rest, stage.has_swinging_hair()), is_at_rest);
-        let moves = !is_at_rest || self.frames.swings();
-        stage.draw(&shot, self.overlay.as_mut().zip(painted), moves)
+        let hangs = !acts && (!session.face.lives() || change.spares_hair(stage.is_software()));
+        stage.advance_hair(self.frames.swing(!acts, stage.has_swinging_hair()), hangs);
+        let moves = acts || self.frames.swings();
+        let drawn = stage.draw(&shot, self.overlay.as_mut().zip(painted), moves, change)?;
+        if drawn.is_shown && !acts {
+            self.stirring.drawn(drawn.all, drawn.part);
+        }
+        Ok(drawn.whole_again)
     }
 
     /// Draws the small picture of one pose that has none, while nothing moves and the poses are seen. Returns

@@ -23,6 +23,10 @@ pub(super) struct Frames {
     swing: Option<(Instant, Instant)>,
     /// When the panel wants to be drawn again.
     again: Option<Instant>,
+    /// When to look next whether a face that lives has changed.
+    stir: Option<Instant>,
+    /// Whether there is sound that has to be looked after, whatever the face does.
+    pub(super) sounds: bool,
     /// Milliseconds from frame to frame.
     history: Vec<f32>,
     passes: Vec<(&'static str, f32)>,
@@ -55,6 +59,21 @@ impl Frames {
         self.again.take_if(|again| *again <= Instant::now()).is_some()
     }
 
+    /// When to look next whether a face that lives has changed.
+    pub(super) fn next_stir(&self) -> Option<Instant> {
+        self.stir
+    }
+
+    /// Sets that time.
+    pub(super) fn stir_at(&mut self, then: Option<Instant>) {
+        self.stir = then;
+    }
+
+    /// Whether it has come.
+    pub(super) fn is_stirring(&mut self) -> bool {
+        self.stir.take_if(|stir| *stir <= Instant::now()).is_some()
+    }
+
     /// A frame is to be drawn at that time, if none is before.
     pub(super) fn no_later(&mut self, then: Instant) {
         self.again = Some(self.again.map_or(then, |again| again.min(then)));
@@ -85,10 +104,11 @@ impl Frames {
         }
     }
 
-    /// A frame that began then has ended; the panel wants to be drawn again after a while.
-    pub(super) fn end(&mut self, began: Instant, moves: bool, again: Duration) {
-        self.drawn = moves.then_some(began);
-        if moves {
+    /// A frame that began then has ended; whether others follow it at once, and whether time passes for the
+    /// face. The panel wants to be drawn again after a while.
+    pub(super) fn end(&mut self, began: Instant, is_followed: bool, runs: bool, again: Duration) {
+        self.drawn = is_followed.then_some(began);
+        if runs {
             self.last.get_or_insert_with(Instant::now);
         } else {
             self.last = None;

@@ -95,7 +95,7 @@ pub(crate) static ROWS: [Row; 27] = [
         Action::Camera(CameraMove::Go(Place::Face)),
     ),
     row("gaze", &["g"], "eyes follow the pointer, or no longer", FACE, Action::Panel(Panel::Gaze)),
-    row("life", &["Shift+l"], "the face lives by itself, or is still", FACE, Action::Life),
+    row("life", &["Shift+l"], "the face lives by itself, or is still", FACE, Action::Panel(Panel::Life)),
     row("hair", &["h"], "other hair", FACE, Action::Panel(Panel::Hair { backward: false })),
     row("hair-before", &["Shift+h"], "the hair before", FACE, Action::Panel(Panel::Hair { backward: true })),
     row(

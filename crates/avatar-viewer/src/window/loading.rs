@@ -73,29 +73,53 @@ impl Loading {
     }
 }
 
-/// Asks the user for a file, beside the running window.
+/// Asks the user for an avatar, beside the running window.
 pub(super) fn ask(window: EventLoopProxy<Wake>) {
     let endings: Vec<&str> =
         avatar_exchange::Format::ALL.iter().flat_map(|format| format.extensions()).copied().collect();
-    // Made here, awaited there: some systems want dialogs to begin on the window's own thread.
     let dialog = rfd::AsyncFileDialog::new()
         .set_title("Open an avatar")
         .add_filter("Avatars", &endings)
-        .add_filter("Packs (their Transformations.xml)", &["xml"])
-        .pick_file();
-    std::thread::spawn(move || {
-        let asked = Instant::now();
-        let Some(chosen) = pollster::block_on(dialog) else {
-            // Nobody cancels that fast: there was no dialog.
-            if asked.elapsed() < AT_ONCE {
-                let _ = window.send_event(Wake::NoDialog);
-            }
-            return;
-        };
-        let path = chosen.path();
+        .add_filter("Packs (their Transformations.xml)", &["xml"]);
+    wait_for(dialog, window, |path| {
         // A pack is a folder, which this dialog shows by the file that every pack has.
         let is_pack = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xml"));
-        let path = if is_pack { path.parent().unwrap_or(path) } else { path };
-        let _ = window.send_event(Wake::Chosen(path.to_owned()));
+        let folder = path.parent().filter(|_| is_pack).map(Path::to_owned);
+        Wake::Chosen(folder.unwrap_or(path))
+    });
+}
+
+/// Asks the user for a file to speak by, beside the running window.
+pub(super) fn ask_for_speech(endings: &[&str], window: EventLoopProxy<Wake>) {
+    let dialog = rfd::AsyncFileDialog::new().set_title("Open something to speak");
+    wait_for(
+        dialog.add_filter("Recordings, and sounds with their times", endings),
+        window,
+        Wake::ChosenSpeech,
+    );
+}
+
+/// Asks the user for a recording of a face to play, beside the running window.
+pub(super) fn ask_for_recording(window: EventLoopProxy<Wake>) {
+    let dialog = rfd::AsyncFileDialog::new().set_title("Play a recording");
+    wait_for(dialog.add_filter("Tables of Live Link Face", &["csv"]), window, Wake::ChosenRecording);
+}
+
+/// Waits for what the user chooses, and tells the window.
+fn wait_for(
+    dialog: rfd::AsyncFileDialog,
+    window: EventLoopProxy<Wake>,
+    chosen: impl FnOnce(PathBuf) -> Wake + Send + 'static,
+) {
+    // Made here, awaited there: some systems want dialogs to begin on the window's own thread.
+    let dialog = dialog.pick_file();
+    std::thread::spawn(move || {
+        let asked = Instant::now();
+        match pollster::block_on(dialog) {
+            Some(file) => drop(window.send_event(chosen(file.path().to_owned()))),
+            // Nobody cancels that fast: there was no dialog.
+            None if asked.elapsed() < AT_ONCE => drop(window.send_event(Wake::NoDialog)),
+            None => {}
+        }
     });
 }

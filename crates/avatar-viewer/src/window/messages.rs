@@ -26,6 +26,9 @@ const NEWS: Duration = Duration::from_secs(6);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum About {
     Opening,
+    Speech,
+    Sound,
+    Live,
     Poses,
     Clips,
     Materials,

@@ -16,10 +16,12 @@ mod messages;
 mod watch;
 mod books;
 mod face;
+mod live;
 mod loading;
 mod filming;
 mod session;
 mod input;
+mod stirring;
 mod shot;
 mod overlay;
 mod stage;
@@ -30,24 +32,31 @@ mod point;
 mod frame;
 mod act;
 mod follow;
+mod failing;
+mod driven;
+mod talking;
 mod open;
 
 use crate::cli::WindowArgs;
 use crate::config::Config;
 use crate::files::Files;
+use crate::live_args::LiveOptions;
+use crate::picture_args::Background;
 use crate::standard;
 use anyhow::{Context, Result, anyhow};
 use avatar_pack::Texture;
 use clap::ArgMatches;
+use face::Lively;
 use input::Input;
 use keys::Keys;
+use live::Live;
 use loading::Loaded;
 use messages::{About, Messages};
 use pointing::Pointing;
 use presenter::Presenter;
 use session::Session;
 use stage::Stage;
-use std::time::Instant;
+use talking::Talking;
 use watch::Wake;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
@@ -57,9 +66,17 @@ use winit::window::WindowId;
 
 /// Opens the window and runs until it is closed.
 pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
+    open(args, matches, None)
+}
+
+/// Opens the window with a face that follows a sender.
+pub(crate) fn run_live(args: &WindowArgs, matches: &ArgMatches, live: &LiveOptions) -> Result<()> {
+    open(args, matches, Some(live))
+}
+
+fn open(args: &WindowArgs, matches: &ArgMatches, live: Option<&LiveOptions>) -> Result<()> {
     let files = Files::of_args(&args.pack)?;
     let pack = files.load_pack_in_any_case()?;
-    let textures = files.load_textures(&Texture::DRAWN);
     let start = args.face.resolve(&pack, matches)?;
     let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|_| no_display())?;
     let mut messages = Messages::default();
@@ -85,22 +102,34 @@ pub(crate) fn run(args: &WindowArgs, matches: &ArgMatches) -> Result<()> {
         (None, None) => [1280, 720],
     };
     let proxy = event_loop.create_proxy();
-    let session = Session::new(Loaded { files, pack, textures }, start, proxy.clone())?;
+    let loaded = Loaded { textures: files.load_textures(&Texture::DRAWN), files, pack };
+    let session = Session::new(loaded, start, Lively::default(), proxy.clone())?;
     let pointing = Pointing::new(session.face.performer.pack(), proxy.clone(), false);
+    // A face that a tracker drives blinks as its person does.
+    let says_life = args.face.says_life() || live.is_some();
+    let live = Live::new(live, &session, &mut messages, proxy.clone())?;
     let mut app = App {
         session,
-        presenter: Presenter::new(args.look, pointing),
+        live,
+        presenter: Presenter::new(args.look, pointing, args.background.map(|Background(color)| color)),
         input: Input::new(keys),
         messages,
+        talking: Talking::default(),
         config,
-        opening: Opening { size: PhysicalSize::new(size[0], size[1]), with_panel: !args.no_panel },
+        opening: Opening {
+            size: PhysicalSize::new(size[0], size[1]),
+            with_panel: !args.no_panel,
+            says_life,
+            is_on_top: args.on_top,
+        },
         proxy,
         failed_frames: 0,
         failure: None,
     };
     event_loop.run_app(&mut app).context("the window's event loop")?;
     app.remember();
-    app.failure.map_or(Ok(()), Err)
+    let finished = app.live.finish(app.session.face.pack());
+    app.failure.map_or(finished, Err)
 }
 
 /// winit's own message names its source files. This one names the two variables that a user can change.
@@ -116,9 +145,12 @@ fn no_display() -> anyhow::Error {
 /// The program behind the window: the session, its presentation and the user's input.
 struct App {
     session: Session,
+    /// What drives the face from outside.
+    live: Live,
     presenter: Presenter,
     input: Input,
     messages: Messages,
+    talking: Talking,
     config: Config,
     opening: Opening,
     proxy: EventLoopProxy<Wake>,
@@ -132,6 +164,10 @@ struct App {
 struct Opening {
     size: PhysicalSize<u32>,
     with_panel: bool,
+    /// Whether the command line says how the face lives, or that it does not, or somebody drives it.
+    says_life: bool,
+    /// Whether it stays above others.
+    is_on_top: bool,
 }
 
 impl ApplicationHandler<Wake> for App {
@@ -146,9 +182,14 @@ impl ApplicationHandler<Wake> for App {
             Wake::Ready => {
                 self.presenter.pointing.take();
                 self.take_loaded();
+                self.take_speech();
                 self.take_film();
             }
             Wake::Chosen(path) => self.open(&path),
+            Wake::ChosenSpeech(path) => self.open_speech(&path),
+            Wake::SoundFailed(error) => self.lose_sound(error),
+            Wake::ChosenRecording(path) => self.play_recording(&path),
+            Wake::Packet => self.presenter.redraw(),
             Wake::Accessibility(event) => {
                 if let Some(overlay) = &mut self.presenter.overlay {
                     overlay.accesskit(event.window_event);
@@ -163,7 +204,8 @@ impl ApplicationHandler<Wake> for App {
         if self.messages.expire() {
             self.presenter.redraw();
         }
-        let times = [self.session.next_reload(), self.presenter.frames.next(), self.messages.next()];
+        let frames = &self.presenter.frames;
+        let times = [self.session.next_reload(), frames.next(), frames.next_stir(), self.messages.next()];
         let next = times.into_iter().flatten().min();
         event_loop.set_control_flow(next.map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
     }
@@ -171,6 +213,8 @@ impl ApplicationHandler<Wake> for App {
     fn new_events(&mut self, _: &ActiveEventLoop, _: winit::event::StartCause) {
         if self.presenter.frames.is_due() {
             self.presenter.redraw();
+        } else if self.presenter.frames.is_stirring() {
+            self.stir();
         }
     }
 
@@ -182,6 +226,17 @@ impl ApplicationHandler<Wake> for App {
         let (size, proxy) = (self.opening.size, self.proxy.clone());
         if let Err(error) = self.presenter.open(event_loop, size, panel, &self.session, proxy) {
             self.fail(event_loop, error);
+        }
+        if self.presenter.has_given_up_see_through() {
+            let advice = "The system shows nothing through windows. A colour that streaming programs take \
+                          away does the same: --background '#00ff00'.";
+            self.messages.warn(About::Opening, "The background is not transparent.", advice);
+        }
+        self.set_on_top(self.opening.is_on_top);
+        let face = &mut self.session.face;
+        face.spare(self.presenter.is_software());
+        if !self.opening.says_life {
+            face.set_life(true);
         }
     }
 
@@ -209,6 +264,7 @@ impl ApplicationHandler<Wake> for App {
                     Err(error) => self.frame_failed(event_loop, &error),
                 }
             }
+            WindowEvent::Occluded(true) => self.presenter.frames.stir_at(None),
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(false) => self.presenter.redraw(),
             WindowEvent::ModifiersChanged(modifiers) => self.input.modifiers = modifiers,
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } if !is_panels => {
@@ -248,63 +304,8 @@ impl ApplicationHandler<Wake> for App {
     }
 }
 
-/// What the window does about frames that were not drawn although the device is there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Remedy {
-    /// Memory may have run out for a moment.
-    TryAgain,
-    /// The device may be broken without saying so.
-    OpenDevice,
-    /// Until something happens: trying for ever would keep a processor busy.
-    Wait,
-}
-
-impl Remedy {
-    /// What follows when so many frames failed in a row.
-    fn after(failed_frames: u32) -> Self {
-        match failed_frames {
-            0 | 1 => Self::TryAgain,
-            2 => Self::OpenDevice,
-            _ => Self::Wait,
-        }
-    }
-}
-
 impl App {
-    /// A frame was not drawn, and the device is not lost: memory may have run out for a moment. The window
-    /// stays open, tries once more soon, then on a device opened anew, and after that waits for something to
-    /// happen.
-    fn frame_failed(&mut self, event_loop: &ActiveEventLoop, error: &anyhow::Error) {
-        self.failed_frames += 1;
-        self.messages.error(About::Device, "A frame was not drawn.", error);
-        match Remedy::after(self.failed_frames) {
-            Remedy::TryAgain => self.presenter.frames.soon(),
-            Remedy::OpenDevice => match self.presenter.reopen(event_loop, &self.session) {
-                Ok(_) => {
-                    let advice = format!("{error:#}");
-                    self.messages.warn(
-                        About::Device,
-                        "The graphics device failed, and was opened again.",
-                        advice,
-                    );
-                }
-                Err(error) => self.fail(event_loop, error),
-            },
-            Remedy::Wait => {}
-        }
-    }
-
-    /// Opens another device and uploads the same face, after the device was lost.
-    fn reopen(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
-        let opened =
-            self.presenter.reopen(event_loop, &self.session).context("the graphics device was lost")?;
-        if opened {
-            self.messages.news(About::Device, "The graphics device was lost, and opened again.", "");
-        }
-        Ok(())
-    }
-
-    fn fail(&mut self, event_loop: &ActiveEventLoop, error: anyhow::Error) {
+    pub(super) fn fail(&mut self, event_loop: &ActiveEventLoop, error: anyhow::Error) {
         self.failure = Some(error);
         event_loop.exit();
     }
@@ -330,12 +331,6 @@ impl App {
         false
     }
 
-    /// Brings the motion to this moment, so that a press acts at the time of the press.
-    fn catch_up(&mut self) {
-        let face = &mut self.session.face;
-        face.advance(self.presenter.frames.catch_up(Instant::now(), face.recorded_secs().is_some()));
-    }
-
     /// Stores the settings that the next run starts with.
     fn remember(&mut self) {
         let Some(overlay) = &self.presenter.overlay else { return };
@@ -346,16 +341,5 @@ impl App {
         if let Err(error) = self.config.save() {
             self.messages.error(About::Settings, "Settings were not stored.", &error);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Remedy;
-
-    #[test]
-    fn failing_frames_are_tried_again_then_drawn_on_another_device_and_then_left() {
-        let remedies = [1, 2, 3, 4].map(Remedy::after);
-        assert_eq!(remedies, [Remedy::TryAgain, Remedy::OpenDevice, Remedy::Wait, Remedy::Wait]);
     }
 }

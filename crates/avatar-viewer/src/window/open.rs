@@ -2,17 +2,22 @@
 
 use super::App;
 use super::camera::HandCamera;
+use super::live::CALIBRATION_NOT_READ;
 use super::loading::{Loaded, Loading};
 use super::messages::About;
 use super::pointing::Pointing;
 use super::session::Session;
+use super::talking::Script;
 use crate::face_args::FaceChoice;
 use anyhow::Result;
 use std::path::Path;
 
 impl App {
-    /// Reads another avatar beside the running picture.
+    /// Reads another avatar beside the running picture, or something to speak.
     pub(super) fn open(&mut self, path: &Path) {
+        if Script::is_for(path) {
+            return self.open_speech(path);
+        }
         if !self.may_leave() {
             return;
         }
@@ -43,13 +48,20 @@ impl App {
 
     fn show(&mut self, loaded: Loaded) -> Result<()> {
         let start = FaceChoice::of_values(loaded.pack.controls().defaults());
-        let mut session = Session::new(loaded, start, self.proxy.clone())?;
+        let before = &self.session.face;
+        let (lively, lives) = (before.lively(), before.lives());
+        let mut session = Session::new(loaded, start, lively, self.proxy.clone())?;
+        session.face.set_life(lives);
         if let Some(stage) = &mut self.presenter.stage {
             stage.set_avatar(session.face.pack(), &session.textures, self.presenter.look)?;
         }
         // A film of the avatar before goes on.
         session.filming = self.session.filming.take();
         self.session = session;
+        self.presenter.stirring.forget();
+        self.hand_speech_over();
+        let known = self.live.set_pack(&self.session);
+        self.messages.report(About::Live, CALIBRATION_NOT_READ, known);
         let follows = self.presenter.pointing.follows;
         self.presenter.pointing =
             Pointing::new(self.session.face.performer.pack(), self.proxy.clone(), follows);

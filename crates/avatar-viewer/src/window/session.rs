@@ -1,5 +1,5 @@
 use super::books::{Book, Books};
-use super::face::{Face, Playback};
+use super::face::{Face, Lively, Playback};
 use super::filming::Filming;
 use super::loading::{Loaded, Loading};
 use super::messages::About;
@@ -34,10 +34,15 @@ pub(super) struct Session {
 }
 
 impl Session {
-    pub(super) fn new(loaded: Loaded, start: FaceChoice, window: EventLoopProxy<Wake>) -> Result<Self> {
+    pub(super) fn new(
+        loaded: Loaded,
+        start: FaceChoice,
+        lively: Lively,
+        window: EventLoopProxy<Wake>,
+    ) -> Result<Self> {
         let Loaded { files, pack, textures } = loaded;
         let books = Books::open(&files, &pack)?;
-        let face = Face::new(pack, start)?;
+        let face = Face::new(pack, start, lively)?;
         Ok(Self {
             // Files are watched until this is dropped.
             watching: watch(&files, books.store(), window),

@@ -1,3 +1,4 @@
+use super::stirring::Change;
 use crate::cli::Size;
 use crate::look_args::LookArgs;
 use avatar_pack::{FaceState, Pack};
@@ -44,19 +45,28 @@ pub(super) struct Kept {
     free: Option<[f32; 4]>,
     /// Whether it shows what the model, its looks and its hair are now.
     pub(super) is_fresh: bool,
+    /// Whether parts of it have been drawn later than the rest.
+    is_patched: bool,
 }
 
 impl Kept {
-    pub(super) fn shows(&self, shot: &Shot<'_>) -> bool {
+    /// Whether it shows the same from the same place, whatever the face does.
+    pub(super) fn shows_view(&self, shot: &Shot<'_>) -> bool {
         self.is_fresh
             && self.view == shot.view
             && self.background == shot.background
             && self.free == shot.free
-            && self.weights == shot.state.weights()
-            && self.bones == shot.state.bones()
     }
 
-    pub(super) fn note(&mut self, shot: &Shot<'_>) {
+    /// Whether nobody could tell its face from that of the shot, of which so much has changed.
+    pub(super) fn shows(&self, shot: &Shot<'_>, change: Change) -> bool {
+        let is_posed = || self.weights == shot.state.weights() && self.bones == shot.state.bones();
+        change == Change::Nothing || (is_posed() && (change != Change::Any || !self.is_patched))
+    }
+
+    /// The shot has been drawn: all of it, or a part over what was there.
+    pub(super) fn note(&mut self, shot: &Shot<'_>, is_part: bool) {
+        self.is_patched = is_part;
         self.bones.clear();
         self.bones.extend_from_slice(shot.state.bones());
         self.weights.clear();
@@ -76,9 +86,20 @@ pub(super) fn kept(device: &wgpu::Device, config: &wgpu::SurfaceConfiguration, s
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: config.format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
     let (view, background, free) = (shot.view, shot.background, shot.free);
-    Kept { texture, bones: Vec::new(), weights: Vec::new(), view, background, free, is_fresh: false }
+    Kept {
+        texture,
+        bones: Vec::new(),
+        weights: Vec::new(),
+        view,
+        background,
+        free,
+        is_fresh: false,
+        is_patched: false,
+    }
 }

@@ -13,8 +13,16 @@ pub(super) enum Wake {
     Changed(Watched),
     /// Something that another thread works at is ready to be taken.
     Ready,
+    /// A sender's packets have arrived.
+    Packet,
     /// The user has chosen a file to open.
     Chosen(PathBuf),
+    /// The user has chosen a file to speak by.
+    ChosenSpeech(PathBuf),
+    /// A device of sound has failed, and why.
+    SoundFailed(String),
+    /// The user has chosen a recording of a face to play.
+    ChosenRecording(PathBuf),
     /// The system has no dialog to choose one in.
     NoDialog,
     /// A screen reader asks for something, or acts for the user.

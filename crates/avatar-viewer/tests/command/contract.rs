@@ -9,8 +9,9 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Controls of the built-in face: those of nine joints and two shapes, 52 names of ARKit, 15 visemes.
-const CONTROLS: usize = 15 + 52 + 15;
+/// Controls of the built-in face: those of nine joints and two shapes, 52 names of ARKit, two of the tongue,
+/// 15 visemes.
+const CONTROLS: usize = 15 + 52 + 2 + 15;
 
 /// The `skin` matrix of a joint after these options, row by row.
 fn skin_matrix(options: &[&str], joint: &str) -> Vec<f64> {
@@ -260,9 +261,10 @@ fn help_explains_every_verb() {
     let starts =
         listed.lines().filter_map(|line| line.strip_prefix("  ")).filter(|line| !line.starts_with(' '));
     let verbs: Vec<_> = starts.map(|line| line.split_once(' ').expect("a sentence")).collect();
-    for known in
-        ["render", "record", "sheet", "bones", "deform", "strands", "convert", "trace", "info", "keys"]
-    {
+    for known in [
+        "render", "record", "sheet", "bones", "deform", "strands", "convert", "trace", "info", "keys",
+        "spaces", "speak", "live",
+    ] {
         assert!(verbs.iter().any(|(verb, _)| *verb == known), "{known} is not in: {listed}");
     }
     // `help` itself has no options.

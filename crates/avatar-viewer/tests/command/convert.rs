@@ -157,3 +157,22 @@ fn a_folder_of_frames_or_targets_may_hold_the_first_file() {
     let info = finish(viewer().arg("info").arg(at("frames/f0.obj")).arg("--with").arg(at("frames"))).ok();
     assert!(info.contains("up"), "{info}");
 }
+
+/// The built-in face with VRM's names for its targets: those that a face can show, and no others.
+#[test]
+fn morph_targets_are_those_that_are_asked_for() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("face.glb");
+    let run = finish(viewer().args(["convert", "--shapes", "vrm", "--out"]).arg(&out));
+    assert!(run.stderr.contains("the file does not have: neutral\n"), "{}", run.stderr);
+    let info = common::json(&finish(viewer().args(["info", "--json"]).arg(&out)).ok());
+    let text = info.to_string();
+    for name in ["aa", "blinkLeft", "lookUp", "surprised"] {
+        assert!(text.contains(&format!("\"{name}\"")), "{name}: {text}");
+    }
+    assert!(!text.contains("mouthFunnel") && !text.contains("viseme_aa"), "{text}");
+    finish(viewer().args(["convert", "--shapes", "arkti", "--out"]).arg(&out))
+        .fails(2, &["did you mean \"arkit\"?"]);
+    finish(viewer().args(["convert", "--shapes", "vrm", "--out"]).arg(folder.path().join("face.obj")))
+        .fails(2, &["expected --shapes with a .glb"]);
+}

@@ -355,8 +355,10 @@ fn materials_of_every_part_show() {
     let pack = built_in();
     let with = |materials: &str| {
         fs::write(pack.path().join("materials.toml"), materials).expect("written");
+        // A raised upper lip bares the upper teeth.
+        let lips = ["--set", "mouthUpperUpLeft=1", "--set", "mouthUpperUpRight=1"];
         let open = ["--size", "160x120", "--quality", "low", "--set", "jaw.open=20"];
-        picture(pack.path(), &open)
+        picture(pack.path(), &[&open[..], &lips].concat())
     };
     let defaults = with("");
     assert!(defaults == with("# nothing\n[skin]\n[eyeball.iris]\n"), "no value, no change");

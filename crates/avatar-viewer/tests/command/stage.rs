@@ -23,7 +23,7 @@ fn a_picture_made_with_the_library_is_that_of_the_viewer() {
         face.press(pose).expect("a pose");
         face.advance(f64::INFINITY).expect("time passes");
         avatar.set(&gpu.queue, face.bones(), face.weights()).expect("they fit");
-        let portrait_of = View { framing: Framing::Portrait, ..view.view() };
+        let portrait_of = View { framing: Framing::Portrait, hair_top: model.hair_top(), ..view.view() };
         let scene = portrait_of.scene(face.pack(), 160.0 / 120.0, BACKGROUND, Light::studio());
         if view == NamedView::Front {
             assert_eq!(scene, portrait(face.pack(), 160.0 / 120.0));

@@ -202,3 +202,35 @@ pub fn read_obj(path: &Path) -> (Vec<Vec<f64>>, Vec<Vec<f64>>, Vec<String>) {
     let faces = text.lines().filter(|line| line.starts_with("f ")).map(str::to_owned).collect();
     (vectors("v "), vectors("vn "), faces)
 }
+
+/// A WAV of 16 kHz: half a second of silence, an `a` of three formants (G. E. Peterson and H. L. Barney 1952)
+/// over a buzz of 120 Hz, and half a second of silence.
+pub fn vowel() -> tempfile::NamedTempFile {
+    let rate = 16_000.0_f64;
+    let mut samples = vec![0.0_f64; 24_000];
+    for number in (8_000..16_000).step_by(133) {
+        samples[number] = 1.0;
+    }
+    for (hertz, width) in [(730.0, 90.0), (1_090.0, 110.0), (2_440.0, 170.0)] {
+        // A resonator of D. H. Klatt (1980).
+        let c = -(-std::f64::consts::TAU * width / rate).exp();
+        let b =
+            2.0 * (-std::f64::consts::PI * width / rate).exp() * (std::f64::consts::TAU * hertz / rate).cos();
+        let mut past = [0.0; 2];
+        for sample in &mut samples {
+            let value = (1.0 - b - c) * *sample + b * past[0] + c * past[1];
+            past = [value, past[0]];
+            *sample = value;
+        }
+    }
+    let peak = samples.iter().fold(0.0, |most: f64, sample| most.max(sample.abs()));
+    let mut wav = [&b"RIFF"[..], &48_036_u32.to_le_bytes(), b"WAVEfmt ", &16_u32.to_le_bytes()].concat();
+    wav.extend([1_u16, 1].iter().flat_map(|half| half.to_le_bytes()));
+    wav.extend([16_000_u32, 32_000].iter().flat_map(|word| word.to_le_bytes()));
+    wav.extend([2_u16, 16].iter().flat_map(|half| half.to_le_bytes()));
+    wav.extend([&b"data"[..], &48_000_u32.to_le_bytes()].concat());
+    wav.extend(samples.iter().flat_map(|sample| ((sample / peak * 16_000.0) as i16).to_le_bytes()));
+    let file = tempfile::Builder::new().suffix(".wav").tempfile().expect("a file");
+    std::fs::write(file.path(), wav).expect("written");
+    file
+}

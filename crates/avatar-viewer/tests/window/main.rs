@@ -16,4 +16,6 @@ mod hair;
 mod motion;
 mod panel;
 mod files;
+mod speak;
+mod live;
 mod vrm;

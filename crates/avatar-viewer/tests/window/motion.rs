@@ -115,3 +115,51 @@ fn a_face_lives_until_it_is_told_to_be_still() {
     desk.key("Escape");
     desk.closes();
 }
+
+/// Nobody has to say that the face lives.
+#[test]
+fn a_face_lives_as_it_comes() {
+    if !can_run() {
+        return;
+    }
+    let settings = tempfile::tempdir().expect("a temporary folder");
+    let mut desk = Desk::as_it_comes(&["--size", "320x240", "--no-panel"], settings.path());
+    desk.changes_from(&RgbImage::new(320, 240), "the first picture");
+    let first = desk.picture();
+    desk.changes_from(&first, "it blinks, or looks elsewhere");
+    desk.key("Escape");
+    desk.closes();
+}
+
+#[test]
+#[ignore = "measures: processor time of a window that nobody touches"]
+fn idle_costs() {
+    assert!(can_run());
+    let settings = tempfile::tempdir().expect("a temporary folder");
+    let per_second = 100.0;
+    for hair in ["off", "bob"] {
+        for life in ["off", "calm", "lively"] {
+            let mut desk = Desk::with_panel(&["--hair", hair, "--life", life], settings.path());
+            desk.changes_from(&RgbImage::new(1280, 720), "the first picture");
+            std::thread::sleep(Duration::from_secs(4));
+            let (before, start) = (desk.ticks(), Instant::now());
+            let mut shown = 0;
+            let mut last = desk.picture();
+            while start.elapsed() < Duration::from_secs(30) {
+                std::thread::sleep(Duration::from_millis(30));
+                let now = desk.picture();
+                shown += usize::from(difference(&now, &last) != Some(0));
+                last = now;
+            }
+            let ticks = (desk.ticks() - before) as f64;
+            let secs = start.elapsed().as_secs_f64();
+            let core = 100.0 * ticks / per_second / secs;
+            println!(
+                "hair {hair}, life {life}: {core:.1} % of a core, {:.1} pictures a second",
+                shown as f64 / secs
+            );
+            desk.key("Escape");
+            desk.closes();
+        }
+    }
+}

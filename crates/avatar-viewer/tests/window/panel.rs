@@ -12,9 +12,9 @@ use tempfile::TempDir;
 
 const SIZE: [&str; 4] = ["--size", "640x480", "--quality", "plain"];
 /// Places in a window of that size.
-const FACE_TAB: (i32, i32) = (350, 21);
-pub(super) const POSES_TAB: (i32, i32) = (405, 21);
-const CLIPS_TAB: (i32, i32) = (446, 21);
+const FACE_TAB: (i32, i32) = (347, 21);
+pub(super) const POSES_TAB: (i32, i32) = (387, 21);
+const CLIPS_TAB: (i32, i32) = (427, 21);
 const TURN_SLIDER: (i32, i32) = (501, 107);
 const TURN_SLIDER_FARTHER: (i32, i32) = (550, 107);
 pub(super) const SAVE_THIS_FACE: (i32, i32) = (383, 51);

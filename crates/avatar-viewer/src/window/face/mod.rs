@@ -1,14 +1,15 @@
 mod file_motion;
+mod living;
 mod playing;
 
 use crate::face_args::FaceChoice;
 use crate::life_args::Living;
 use anyhow::Result;
-use avatar_life::{Life, Style};
 use avatar_pack::Pack;
 use avatar_stage::Performer;
 use file_motion::FileMotion;
 use glam::Vec3;
+pub(super) use living::Lively;
 pub(super) use playing::Playback;
 use playing::{RECORDED_PER_SEC, Recording};
 use pose_anim::{ClipSet, ControlTable, Pose, PoseSet};
@@ -27,13 +28,15 @@ pub(in crate::window) struct Face {
     /// Names and lengths in seconds of the file's clips.
     pub(in crate::window) file_clips: Vec<(String, f64)>,
     pub(in crate::window) recording: Option<Recording>,
-    /// Which life it lives.
-    seed: u64,
+    /// How it lives while it does.
+    lively: Lively,
+    /// Values of the controls as they are posed while the face of the command line is shown.
+    values: Vec<f32>,
 }
 
 impl Face {
     /// A face at rest that starts as the command line says.
-    pub(in crate::window) fn new(mut pack: Pack, mut start: FaceChoice) -> Result<Self> {
+    pub(in crate::window) fn new(mut pack: Pack, mut start: FaceChoice, lively: Lively) -> Result<Self> {
         pack.set_poses(PoseSet::default())?;
         pack.set_clips(ClipSet::default())?;
         let file_clips = pack.motion().map_or_else(Vec::new, |motion| {
@@ -46,7 +49,7 @@ impl Face {
         let life = start.take_life();
         let mut performer = Performer::new(pack);
         performer.jump_to(&start.start_values())?;
-        let seed = life.as_ref().map_or(0, Living::seed);
+        let lively = life.as_ref().map_or(lively, |life| lively.with(life));
         performer.set_life(life.map(Living::into_life))?;
         Ok(Self {
             performer,
@@ -56,7 +59,8 @@ impl Face {
             motion: None,
             file_clips,
             recording: None,
-            seed,
+            lively,
+            values: Vec::new(),
         })
     }
 
@@ -71,7 +75,7 @@ impl Face {
     /// Lets time pass. What is recorded is recorded at even times, however many frames are drawn.
     pub(in crate::window) fn advance(&mut self, secs: f64) {
         let mut left = secs;
-        while let Some(recording) = &self.recording {
+        while let Some(recording) = self.recording.as_ref().filter(|recording| !recording.is_fed) {
             let due = recording.samples.len() as f64 / RECORDED_PER_SEC - recording.secs;
             if due > left {
                 break;
@@ -87,22 +91,20 @@ impl Face {
 
     fn step(&mut self, secs: f64) {
         // Elapsed times are neither negative nor NaN, the only errors there are.
-        let _ = self.performer.advance(secs);
+        let _ = self.performer.pass(secs);
         self.advance_motion(secs);
         if let Some(recording) = &mut self.recording {
             recording.secs += secs;
         }
     }
 
-    /// Whether frames have to follow each other.
-    pub(in crate::window) fn moves(&self) -> bool {
-        self.acts() || self.performer.life().is_some()
-    }
-
-    /// Whether it does something that it was told.
+    /// Whether it does something that it was told, or something still swings after it: then frames follow
+    /// each other. What swings with a face that lives is drawn as that life is.
     pub(in crate::window) fn acts(&self) -> bool {
         let is_led = self.motion.as_ref().is_some_and(FileMotion::moves);
-        !self.performer.is_at_rest() || is_led || self.is_playing() || self.recording.is_some()
+        let plays = self.is_playing() || self.performer.is_speaking();
+        let swings = !self.lives() && self.performer.swings();
+        !self.performer.is_at_rest() || is_led || plays || swings || self.recording.is_some()
     }
 
     /// Brings bones and weights to the present values.
@@ -110,28 +112,13 @@ impl Face {
         if self.pose_motion()? {
             return Ok(());
         }
-        let life = self.start.as_ref().and_then(|_| self.life());
-        match &self.start {
-            Some(start) => {
-                self.performer.pose_with(|pack, _, state| start.apply_with(life.as_ref(), pack, state))
-            }
-            None => Ok(self.performer.pose_with(|pack, values, state| state.pose(pack, values))?),
-        }
-    }
-
-    /// The life that it lives, as the command line says it.
-    fn life(&self) -> Option<Living> {
-        self.performer.life().map(|life| Living::of(life.clone(), self.seed))
-    }
-
-    /// Begins to live calmly, or is still again.
-    pub(in crate::window) fn toggle_life(&mut self) {
-        let life = match self.performer.life() {
-            Some(_) => None,
-            None => Some(Life::new(self.controls(), Style::default(), self.seed)),
+        let Some(start) = &self.start else {
+            return Ok(self.performer.pose_with(|pack, values, state| state.pose(pack, values))?);
         };
-        // Only the life of another avatar would be an error.
-        let _ = self.performer.set_life(life);
+        self.values.clear();
+        self.values.extend_from_slice(start.values());
+        self.performer.over(start.values(), &mut self.values)?;
+        self.performer.pose_with(|pack, _, state| start.apply_values(&self.values, pack, state))
     }
 
     /// The shown face, as options of the command line would say it.
@@ -140,8 +127,9 @@ impl Face {
             (Some(motion), _) if motion.is_wanted() => {
                 FaceChoice::of_clip(self.pack(), &motion.name, motion.time_secs)
             }
-            (_, Some(start)) => start.clone().with_life(self.life()),
-            _ => FaceChoice::of_values(self.performer.values().to_vec()).with_life(self.life()),
+            (_, Some(start)) if self.is_still() => start.clone(),
+            (_, Some(start)) => start.clone().showing(|values, out| Ok(self.performer.over(values, out)?)),
+            _ => FaceChoice::of_values(self.performer.shown().to_vec()),
         }
     }
 
@@ -176,6 +164,12 @@ impl Face {
     /// Goes to the default face.
     pub(in crate::window) fn defaults(&mut self) {
         self.press(&Pose::from_values("defaults", &self.controls().defaults()));
+    }
+
+    /// Has these values at once: somebody else's face.
+    pub(in crate::window) fn follow(&mut self, values: &[f32]) -> Result<()> {
+        self.forget_wishes();
+        Ok(self.performer.follow(values)?)
     }
 
     /// Takes one control to a value, as fast as a hand moves a slider.

@@ -1,11 +1,10 @@
 //! Clips that play, and faces that are recorded.
 
 use super::Face;
+use crate::clips;
 use anyhow::Result;
 use pose_anim::{Clip, Pose, Track, Wrap};
 
-/// A recording is reduced to keys that stray by at most this share of a control's range.
-const RECORDED_TOLERANCE: f64 = 0.005;
 /// A recording takes the face's values this often.
 pub(in crate::window) const RECORDED_PER_SEC: f64 = 60.0;
 /// Longer recordings end by themselves.
@@ -16,6 +15,8 @@ pub(in crate::window) struct Recording {
     pub(in crate::window) secs: f64,
     /// Values of all controls, one row per sample.
     pub(in crate::window) samples: Vec<Vec<f32>>,
+    /// Whether somebody else adds the rows.
+    pub(in crate::window) is_fed: bool,
 }
 
 /// Seconds in which a face follows the playhead that is dragged.
@@ -123,8 +124,29 @@ impl Face {
                 motion.name
             );
         }
-        self.recording = Some(Recording { secs: 0.0, samples: vec![self.performer.values().to_vec()] });
+        self.recording =
+            Some(Recording { secs: 0.0, samples: vec![self.performer.values().to_vec()], is_fed: false });
         Ok(())
+    }
+
+    /// The rows of the recording are fed from now on. Returns how long it runs, in seconds.
+    pub(in crate::window) fn begin_to_feed(&mut self) -> Option<f64> {
+        let recording = self.recording.as_mut()?;
+        recording.is_fed = true;
+        Some(recording.secs)
+    }
+
+    /// When the next row is due that is to be fed, in seconds from the beginning of the recording.
+    pub(in crate::window) fn next_row_secs(&self) -> Option<f64> {
+        let recording = self.recording.as_ref().filter(|recording| recording.is_fed)?;
+        Some(recording.samples.len() as f64 / RECORDED_PER_SEC)
+    }
+
+    /// Adds a row to a recording.
+    pub(in crate::window) fn feed(&mut self, values: &[f32]) {
+        if let Some(recording) = &mut self.recording {
+            recording.samples.push(values.to_vec());
+        }
     }
 
     /// Whether a recording has become too long.
@@ -147,20 +169,6 @@ impl Face {
         if tracks.is_empty() {
             anyhow::bail!("expected a face that moves while it is recorded, found one at rest");
         }
-        let range = |control: usize| f64::from(controls[control].max - controls[control].min);
-        let (mut clip, _) =
-            Clip::new(name, tracks)?.reduced(|control| range(control) * RECORDED_TOLERANCE)?;
-        // A file takes no key beyond its control's range, not even by rounding.
-        for (index, control) in controls.iter().enumerate() {
-            let Some(track) = clip.track_mut(index) else { continue };
-            let (min, max) = (f64::from(control.min), f64::from(control.max));
-            for index in 0..track.keys().len() {
-                let key = track.keys()[index];
-                if key.value.clamp(min, max) != key.value {
-                    track.move_key(index, key.time_secs, key.value.clamp(min, max))?;
-                }
-            }
-        }
-        Ok(Some(clip))
+        Ok(Some(clips::reduced(&Clip::new(name, tracks)?, self.controls())?))
     }
 }

@@ -4,58 +4,91 @@ use super::Stage;
 use super::motion::{Motion, Wanted};
 use crate::window::overlay::{Overlay, Painted};
 use crate::window::shot::{Shot, kept};
+use crate::window::stirring::Change;
 use anyhow::{Context, Result, bail};
-use avatar_render::{HairDetail, Scene};
+use avatar_render::{HairDetail, Scene, SeeThrough};
 use avatar_stage::Pace;
 use std::time::Instant;
 use wgpu::CurrentSurfaceTexture as Acquired;
 
+/// What a frame has drawn of the face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(in crate::window) struct Drawn {
+    /// There was a surface to show it on.
+    pub(in crate::window) is_shown: bool,
+    pub(in crate::window) all: bool,
+    pub(in crate::window) part: bool,
+    /// A draft gave way to the whole picture.
+    pub(in crate::window) whole_again: bool,
+}
+
 impl Stage {
     /// Draws one frame, the panel over the picture; `moves` says whether another one follows at once. A
-    /// surface that is not ready loses this frame, not the window. Returns whether a draft gave way to the
-    /// whole picture.
+    /// surface that is not ready loses this frame, not the window.
     pub(in crate::window) fn draw(
         &mut self,
         shot: &Shot<'_>,
         panel: Option<(&mut Overlay, &Painted)>,
         moves: bool,
-    ) -> Result<bool> {
+        change: Change,
+    ) -> Result<Drawn> {
         let began = match &mut self.motion {
             Some(motion) => motion.begin(&self.gpu.device),
             None => Instant::now(),
         };
         if self.targets.is_none() {
-            return Ok(false);
+            return Ok(Drawn::default());
         }
-        let Some(frame) = self.acquire()? else { return Ok(false) };
+        let Some(frame) = self.acquire()? else { return Ok(Drawn::default()) };
+        let shown = self.see_through.as_ref().map_or(&frame.texture, SeeThrough::texture).clone();
         let label = Some("frame");
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
         let keeps = self.can_keep && (panel.is_some() || self.motion.is_some());
         if keeps && self.kept.is_none() {
             self.kept = Some(kept(&self.gpu.device, &self.config, shot));
         }
-        let is_same = keeps && self.kept.as_ref().is_some_and(|kept| kept.shows(shot));
-        let was_draft = self.shows_draft();
+        let (is_same, may_patch) = match self.kept.as_ref().filter(|kept| keeps && kept.shows_view(shot)) {
+            Some(kept) => (kept.shows(shot, change), self.motion.as_ref().is_some_and(Motion::is_whole)),
+            None => (false, false),
+        };
+        let (was_draft, is_first) = (self.shows_draft(), !self.has_drawn);
         let wanted = match &mut self.motion {
+            Some(motion)
+                if may_patch
+                    && !is_same
+                    && let Change::Within(rect) = change =>
+            {
+                motion.patch(rect)
+            }
             Some(motion) => motion.next(is_same, moves, began),
             None if is_same => Wanted::Same,
             None => Wanted::Level(0),
         };
         if wanted != Wanted::Same {
-            self.draw_face(&mut encoder, &frame.texture, shot, wanted, began)?;
+            self.draw_face(&mut encoder, &shown, shot, wanted, began)?;
         }
         if let Some(kept) = self.kept.as_mut().filter(|_| keeps) {
-            kept.note(shot);
+            match wanted {
+                Wanted::Level(_) => kept.note(shot, false),
+                Wanted::Part(_) => kept.note(shot, true),
+                Wanted::Same | Wanted::WarmUp => {}
+            }
             match &self.motion {
                 Some(motion) if motion.is_draft() => {
-                    let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+                    let view = shown.create_view(&wgpu::TextureViewDescriptor::default());
                     motion.drafts.show(&self.gpu.device, &mut encoder, &view);
                 }
                 _ => {
-                    let (from, to) = (kept.texture.as_image_copy(), frame.texture.as_image_copy());
+                    let (from, to) = (kept.texture.as_image_copy(), shown.as_image_copy());
                     encoder.copy_texture_to_texture(from, to, kept.texture.size());
                 }
             }
+        }
+        if let Some(see_through) = &self.see_through {
+            let format = Some(self.panel_format);
+            let view =
+                frame.texture.create_view(&wgpu::TextureViewDescriptor { format, ..Default::default() });
+            see_through.show(&mut encoder, &view);
         }
         if let Some((overlay, painted)) = panel {
             overlay.draw(&self.gpu, &mut encoder, &frame.texture, self.panel_format, painted);
@@ -63,8 +96,17 @@ impl Stage {
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
+        if is_first && self.motion.is_none() {
+            // Nobody waits for wrinkles yet. Where there are drafts, these are rehearsed.
+            self.renderer.prepare(&self.model);
+        }
         match self.gpu.errors.take() {
-            None => Ok(was_draft && !self.shows_draft()),
+            None => Ok(Drawn {
+                is_shown: true,
+                all: matches!(wanted, Wanted::Level(_)),
+                part: matches!(wanted, Wanted::Part(_)),
+                whole_again: was_draft && !self.shows_draft(),
+            }),
             Some(error) => {
                 // What the kept picture shows now is not known, nor whether the face was deformed.
                 self.forget_kept();
@@ -100,11 +142,15 @@ impl Stage {
         let (level, is_shown) = match (wanted, &self.motion) {
             (Wanted::Level(level), _) => (level, true),
             (Wanted::WarmUp, Some(motion)) => (motion.draft(), false),
+            (Wanted::Part(_), _) => (0, true),
             _ => return Ok(()),
         };
         let (width, height) = (self.config.width, self.config.height);
         self.avatar.set(&self.gpu.queue, shot.state.bones(), shot.state.weights())?;
         let scene = shot.scene(width, height, &self.look);
+        if let Wanted::Part(rect) = wanted {
+            return self.draw_patch(encoder, &scene, rect);
+        }
         let counts = match Pace::step(level) {
             None => self.draw_whole(encoder, surface, &scene)?,
             Some(step) => {
@@ -113,8 +159,13 @@ impl Stage {
                 let detail = self.look.hair_detail(&self.gpu.info);
                 self.avatar.set_hair_detail(HairDetail { draft: Some(step.strands), ..detail });
                 let avatars = [(&self.model, &self.avatar)];
-                let timer = self.timer.as_ref().filter(|_| is_shown);
-                motion.drafts.draw(gpu, encoder, step, (width, height), &scene, &avatars, timer)?
+                let (size, timer) = ((width, height), self.timer.as_ref());
+                if is_shown {
+                    motion.drafts.draw(gpu, encoder, step, size, &scene, &avatars, timer)?
+                } else {
+                    motion.drafts.rehearse(gpu, encoder, step, size, &scene, &avatars)?;
+                    false
+                }
             }
         };
         self.is_measured |= is_shown && self.timer.is_some();
@@ -127,7 +178,7 @@ impl Stage {
     }
 
     /// Records the whole picture: on the one that is kept, or else on the surface. Returns whether it is not
-    /// the first.
+    /// the first, nor the first with wrinkles.
     fn draw_whole(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -140,8 +191,9 @@ impl Stage {
         let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let avatars = [(&self.model, &self.avatar)];
         let timer = self.timer.as_ref();
+        let is_ready = self.renderer.is_ready(&avatars);
         self.renderer.draw_timed(encoder, &target, targets, &self.gpu.queue, scene, &avatars, timer)?;
-        Ok(std::mem::replace(&mut self.has_drawn, true))
+        Ok(std::mem::replace(&mut self.has_drawn, true) && is_ready)
     }
 
     /// The picture of the surface to draw on, unless it is not ready.

@@ -1,5 +1,6 @@
-mod drawing;
 mod motion;
+mod patch;
+mod drawing;
 
 use super::shot::{Kept, Shot};
 use crate::adapter;
@@ -8,14 +9,16 @@ use anyhow::{Context, Result, bail};
 use avatar_groom::Hair;
 use avatar_pack::{FaceState, Pack, Textures};
 use avatar_render::headless::{Canvas, Gpu, GpuOptions, open_blocking, open_for_surface_blocking};
-use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, Targets};
+use avatar_render::{AvatarModel, AvatarState, PassTimer, Renderer, RendererConfig, SeeThrough, Targets};
 use avatar_stage::{Drafts, Framing, SAMPLES, View, set_colors, upload_with_hair};
 use image::RgbaImage;
 use motion::Motion;
+use patch::Patch;
 use std::sync::Arc;
 use std::time::Instant;
 use winit::dpi::PhysicalSize;
 use winit::event_loop::OwnedDisplayHandle;
+use winit::raw_window_handle::{HasWindowHandle, RawWindowHandle};
 use winit::window::Window;
 
 /// The window's surface and everything that draws on it.
@@ -42,6 +45,10 @@ pub(super) struct Stage {
     /// is not drawn again.
     kept: Option<Kept>,
     can_keep: bool,
+    /// Where one sees through the window: pictures go this way to the surface.
+    see_through: Option<SeeThrough>,
+    /// Room for a part of the picture.
+    patch: Option<Patch>,
     /// Drafts while something moves, on adapters that draw in software. `None` on others: they draw nothing
     /// but whole pictures.
     motion: Option<Motion>,
@@ -60,16 +67,31 @@ struct Miniatures {
     state: FaceState,
 }
 
+/// How a surface tells its compositor what is seen through, the best first.
+const SEE_THROUGH_MODES: [wgpu::CompositeAlphaMode; 2] =
+    [wgpu::CompositeAlphaMode::PreMultiplied, wgpu::CompositeAlphaMode::PostMultiplied];
+
+/// Whether a window that could be seen through would show nothing at all: Mesa's software drivers, at least
+/// up to version 22, send X servers pictures of 24 bits for windows of 32, and these are refused.
+fn stays_black(window: &Window, adapter: &wgpu::AdapterInfo) -> bool {
+    let handle = window.window_handle().map(|handle| handle.as_raw());
+    let is_x11 = matches!(handle, Ok(RawWindowHandle::Xlib(_) | RawWindowHandle::Xcb(_)));
+    is_x11 && adapter.device_type == wgpu::DeviceType::Cpu
+}
+
 /// Side of a pose's small picture in pixels.
 const MINIATURE: u32 = 112;
 
 impl Stage {
+    /// Opens a device and a surface, and uploads the avatar. `wants_see_through`: what is behind the window
+    /// is to be seen where the face is not; [`Self::is_see_through`] says whether the system can.
     pub(super) fn open(
         window: Arc<Window>,
         display: OwnedDisplayHandle,
         pack: &Pack,
         textures: &Textures,
         look: LookArgs,
+        wants_see_through: bool,
     ) -> Result<Self> {
         let instance =
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(Box::new(display)));
@@ -112,6 +134,14 @@ impl Stage {
         }
 
         let device = &gpu.device;
+        let alphas = surface.get_capabilities(&gpu.adapter).alpha_modes;
+        let may = wants_see_through && !stays_black(&window, &gpu.info);
+        let alpha = SEE_THROUGH_MODES.into_iter().find(|mode| may && alphas.contains(mode));
+        let see_through = alpha.map(|alpha| {
+            config.alpha_mode = alpha;
+            let is_weighted = alpha == wgpu::CompositeAlphaMode::PreMultiplied;
+            SeeThrough::new(device, config.format, (config.width, config.height), panel_format, is_weighted)
+        });
         let shading = look.shading(&gpu.info);
         let renderer_config = RendererConfig { color_format: config.format, samples: SAMPLES, shading };
         let renderer = Renderer::new(device, &gpu.queue, renderer_config)?;
@@ -140,6 +170,8 @@ impl Stage {
             miniatures: None,
             kept: None,
             can_keep,
+            see_through,
+            patch: None,
             motion,
             hair_moved: false,
             has_drawn: false,
@@ -172,6 +204,9 @@ impl Stage {
         (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
         self.surface.configure(&self.gpu.device, &self.config);
         let (width, height) = (self.config.width, self.config.height);
+        if let Some(see_through) = &mut self.see_through {
+            see_through.resize(&self.gpu.device, (width, height));
+        }
         self.targets = Some(Targets::new(&self.gpu.device, &self.renderer, width, height)?);
         Ok(())
     }
@@ -195,6 +230,16 @@ impl Stage {
         self.miniatures = None;
         self.forget_kept();
         Ok(())
+    }
+
+    /// Whether what is behind the window is seen where the face is not.
+    pub(super) fn is_see_through(&self) -> bool {
+        self.see_through.is_some()
+    }
+
+    /// Whether pictures are drawn in software.
+    pub(super) fn is_software(&self) -> bool {
+        self.gpu.info.device_type == wgpu::DeviceType::Cpu
     }
 
     /// Name of the adapter, triangles and strands.
@@ -276,6 +321,7 @@ impl Stage {
         };
         let Miniatures { canvas, avatar, state } = self.miniatures.insert(miniatures);
         state.pose(pack, values)?;
+        state.settle(pack)?;
         avatar.set(&self.gpu.queue, state.bones(), state.weights())?;
         let view = View { distance: 0.92, framing: Framing::Head, ..View::FRONT };
         let scene = view.scene(pack, 1.0, background, self.look.light());
@@ -305,6 +351,11 @@ impl Stage {
         self.miniatures = None;
         self.forget_kept();
         Ok(())
+    }
+
+    /// How high the hair reaches at bind pose.
+    pub(super) fn hair_top(&self) -> Option<f32> {
+        self.model.hair_top()
     }
 
     /// Lets as much time pass for the hair; seconds that are no number leave it still. At rest it need not

@@ -31,6 +31,8 @@ pub(super) enum Wanted {
     Same,
     /// The picture of a level ([`Pace`]); 0 is the whole one.
     Level(usize),
+    /// The whole picture is shown, and drawn anew in this rectangle: left, top, width and height in pixels.
+    Part([u32; 4]),
     /// A draft that is not shown.
     WarmUp,
 }
@@ -72,9 +74,21 @@ impl<D> Motion<D> {
         is_due.then(|| self.changed + RESTS).filter(|due| *due > self.began)
     }
 
+    /// What the next frame draws, where the whole picture is shown and nothing has changed but in a
+    /// rectangle.
+    pub(super) fn patch(&mut self, rect: [u32; 4]) -> Wanted {
+        self.changed = self.began;
+        Wanted::Part(rect)
+    }
+
     /// The level of the next draft.
     pub(super) fn draft(&self) -> usize {
         self.pace.level().max(1)
+    }
+
+    /// Whether the whole picture is shown.
+    pub(super) fn is_whole(&self) -> bool {
+        self.shown == Some(0)
     }
 
     /// Whether what is shown is less than the whole picture.
@@ -136,7 +150,7 @@ mod tests {
         match wanted {
             Wanted::Level(level) => motion.shows(level, at, false),
             Wanted::WarmUp => motion.warmed_up(),
-            Wanted::Same => {}
+            Wanted::Same | Wanted::Part(_) => {}
         }
         wanted
     }

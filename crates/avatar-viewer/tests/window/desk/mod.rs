@@ -68,13 +68,18 @@ pub(crate) fn ends_without_a_window(command: &mut Command) -> Run {
 }
 
 impl Desk {
-    /// Opens a window that shows nothing but the face.
+    /// Opens a window that shows nothing but the face, which is still unless it is told to live.
     pub(crate) fn open(arguments: &[&str]) -> Self {
-        Self::start(viewer().args(arguments).arg("--no-panel"))
+        Self::start(viewer().args(still_unless(arguments)).arg("--no-panel"))
     }
 
     /// Opens a window with its panel, of a user who keeps settings in this folder.
     pub(crate) fn with_panel(arguments: &[&str], settings: &Path) -> Self {
+        Self::start(viewer().args(still_unless(arguments)).env("XDG_CONFIG_HOME", settings))
+    }
+
+    /// Opens a window as somebody does who says nothing of how the face lives.
+    pub(crate) fn as_it_comes(arguments: &[&str], settings: &Path) -> Self {
         Self::start(viewer().args(arguments).env("XDG_CONFIG_HOME", settings))
     }
 
@@ -248,6 +253,12 @@ impl Desk {
     }
 }
 
+/// The same arguments, of a face that is still if they do not say how it lives.
+fn still_unless<'a>(arguments: &[&'a str]) -> Vec<&'a str> {
+    let still: &[&str] = if arguments.contains(&"--life") { &[] } else { &["--life", "off"] };
+    [arguments, still].concat()
+}
+
 /// The largest difference of a channel; `None` for pictures of different sizes.
 pub(crate) fn difference(a: &RgbImage, b: &RgbImage) -> Option<u8> {
     let same_size = a.dimensions() == b.dimensions();
@@ -291,11 +302,15 @@ pub(crate) fn save_as_editors_do(pack: &Path, file: &str, text: &[u8]) {
     std::fs::rename(new, pack.join(file)).expect("renamed");
 }
 
-/// The errors on standard error, once there are `count` and no more come.
+/// The errors on standard error, once there are `count` and no more come. One that is told again counts once:
+/// a system may say twice that a file has changed.
 #[track_caller]
 pub(crate) fn errors(desk: &Desk, count: usize) -> Vec<String> {
     let read = || -> Vec<String> {
-        desk.told().lines().filter(|line| line.starts_with("error:")).map(str::to_owned).collect()
+        let told = desk.told();
+        let mut errors: Vec<_> = told.lines().filter(|line| line.starts_with("error:")).collect();
+        errors.dedup();
+        errors.into_iter().map(str::to_owned).collect()
     };
     let start = Instant::now();
     while read().len() < count && start.elapsed() < PATIENCE {
