@@ -68,6 +68,14 @@ pub(crate) fn act(pack: &Pack, textures: &Textures) {
                 panic!("a checked part cannot be deformed: {error}");
             }
         }
+        for secs in [0.0, 0.02, 0.9] {
+            if let Err(error) = state.swing(pack, secs) {
+                panic!("a pack's own springs are refused: {error}");
+            }
+        }
+        if let Err(error) = state.settle(pack) {
+            panic!("a pack's own springs are refused: {error}");
+        }
     }
     if let Some(motion) = pack.motion() {
         for clip in motion.clips().iter().take(CLIPS) {

@@ -11,23 +11,31 @@
 #![forbid(unsafe_code)]
 
 mod exercise;
+mod hearing;
+mod faces;
+mod live;
 mod mutate;
 mod packed;
 mod scenes;
+mod sound;
 mod speech;
 mod texts;
 
+pub use faces::faces;
+pub use hearing::hearing;
+pub use live::live;
 pub use mutate::mutate_json;
 pub use packed::{SEPARATOR, glb_of};
 pub use scenes::{bvh, collada, fbx, glb, gltf, md5, obj, target, vrm};
+pub use sound::sound;
 pub use speech::speech;
-pub use texts::{clips, controls, hair, identity, materials, pack, picture, poses, rig, shapes};
+pub use texts::{clips, controls, hair, identity, materials, pack, picture, poses, rig, shapes, springs};
 
 /// What a target does with an input.
 pub type Run = fn(&[u8]);
 
 /// All targets by their names, which are also those of their folders in `corpus` and `regressions`.
-pub const TARGETS: [(&str, Run); 20] = [
+pub const TARGETS: [(&str, Run); 25] = [
     ("gltf", gltf),
     ("glb", glb),
     ("vrm", vrm),
@@ -45,7 +53,12 @@ pub const TARGETS: [(&str, Run); 20] = [
     ("hair", hair),
     ("shapes", shapes),
     ("identity", identity),
+    ("springs", springs),
     ("pack", pack),
     ("picture", picture),
     ("speech", speech),
+    ("faces", faces),
+    ("sound", sound),
+    ("hearing", hearing),
+    ("live", live),
 ];

@@ -4,7 +4,7 @@ use crate::exercise::{act, within_memory};
 use crate::packed::{files, text_and_bytes};
 use avatar_groom::Hair;
 use avatar_look::Materials;
-use avatar_pack::{Identity, MemorySource, Pack, Textures, raw_files};
+use avatar_pack::{Identity, MemorySource, Pack, Springs, Textures, raw_files};
 use pose_anim::{ClipSet, ControlTable, PoseSet, Recording};
 use pose_book::{ClipBook, PoseBook};
 use rig_core::{RawRig, Rig};
@@ -229,6 +229,21 @@ pub fn identity(data: &[u8]) {
                     Err(error) => drop(error.to_string()),
                 }
             }
+        }
+        Err(error) => drop(error.to_string()),
+    }
+}
+
+/// `springs.toml`, for the golden pack, whose joints swing then. It is written back and read again.
+pub fn springs(data: &[u8]) {
+    let mut source = golden();
+    source.files.insert("springs.toml".to_owned(), data.to_vec());
+    match within_memory(data.len(), "the reader", || Pack::load(&source)) {
+        Ok(pack) => {
+            let written = pack.springs().to_toml(pack.rig().names());
+            let again = Springs::from_toml(&written, pack.rig());
+            assert_eq!(again.as_ref(), Ok(pack.springs()), "written as {written}");
+            act(&pack, &Textures::default());
         }
         Err(error) => drop(error.to_string()),
     }
