@@ -6,7 +6,6 @@ use crate::deform::posed::GpuDeformedVertex;
 use crate::hair::detail::GpuHairView;
 use crate::hair::swing::{GpuMote, GpuSwing};
 use crate::hair::uniforms::{GpuHair, GpuHairPose, GpuHairRegion};
-use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
 use crate::model::effects::Effects;
 use crate::model::geometry::{GpuPart, GpuVertex, GpuVertexBones};
@@ -45,11 +44,10 @@ fn layouts() -> Vec<Layout> {
             "Part",
             GpuPart,
             vertex_count,
-            first_weight,
-            shape_count,
+            first_word,
+            word_count,
             rigid_bone,
             has_vertex_bones,
-            has_wrinkles,
             wrinkles
         ),
         layout!("Vertex", GpuVertex, position, u, normal, v),
@@ -66,14 +64,13 @@ fn layouts() -> Vec<Layout> {
                 ("normal_z", normal + 8),
             ],
         },
-        layout!("ActiveShape", GpuActiveShape, index, weight),
         layout!(
             "CrowdChunk",
             GpuCrowdChunk,
             first_avatar,
             vertex_count,
             bone_count,
-            shape_stride,
+            weight_stride,
             rigid_bone
         ),
         layout!("DeformedVertex", GpuDeformedVertex, position, is_mirrored, normal, wrinkled),
@@ -265,13 +262,13 @@ fn every_struct_in_a_buffer_lies_in_rust_as_in_wgsl() {
 fn arrays_step_from_element_to_element_as_in_rust() {
     let sizes = [
         ("posed_from_bind", size_of::<GpuBone>()),
-        ("active_shapes", size_of::<GpuActiveShape>()),
+        ("avatar_weights", size_of::<u32>()),
         ("crowd_bones", size_of::<GpuBone>()),
         ("drawn", size_of::<u32>()),
         ("moved", size_of::<u32>()),
         ("vertices", size_of::<GpuVertex>()),
         ("vertex_bones", size_of::<GpuVertexBones>()),
-        ("shape_blocks", size_of::<u32>()),
+        ("block_shapes", size_of::<u32>()),
         ("shape_offsets", size_of::<GpuShapeOffset>()),
         ("deformed", size_of::<GpuDeformedVertex>()),
         ("corners", size_of::<u32>()),

@@ -16,7 +16,7 @@ pub(crate) struct GpuCrowdChunk {
     pub(crate) first_avatar: u32,
     pub(crate) vertex_count: u32,
     pub(crate) bone_count: u32,
-    pub(crate) shape_stride: u32,
+    pub(crate) weight_stride: u32,
     pub(crate) rigid_bone: u32,
 }
 
@@ -35,7 +35,7 @@ pub(crate) enum Chosen {
 #[derive(Debug)]
 pub(crate) struct CrowdBuffers {
     pub(crate) bones: wgpu::Buffer,
-    pub(crate) shapes: wgpu::Buffer,
+    pub(crate) weights: wgpu::Buffer,
     pub(crate) drawn: wgpu::Buffer,
     pub(crate) blended: wgpu::Buffer,
     pub(crate) casting: wgpu::Buffer,

@@ -3,13 +3,11 @@
 
 use crate::deform::crowd_chunk::{Chunk, CrowdBuffers, GpuCrowdChunk, bytes_of};
 use crate::deform::crowd_error::CrowdError;
-use crate::deform::pose::{
-    StateError, are_active, are_set, avatar_layout, bounds, is_somewhere, widened, wrinkles_of,
-};
+use crate::deform::pose::{StateError, are_set, avatar_layout, bounds, is_somewhere, widened, wrinkles_of};
 use crate::gpu::buffers::written_buffer;
-use crate::model::active_shapes::GpuActiveShape;
 use crate::model::bone::GpuBone;
 use crate::model::part::ModelPart;
+use crate::model::weights;
 use avatar_look::Wrinkle;
 use avatar_mesh::{Bounds, mirrors, turns_evenly};
 use glam::{Affine3A, Vec3};
@@ -49,8 +47,8 @@ pub(crate) struct CrowdPose {
     bone_count: usize,
     shape_count: usize,
     bones: Vec<GpuBone>,
-    /// [`GpuActiveShape::head_of`] and room for all shapes and wrinkles, of each avatar.
-    shapes: Vec<GpuActiveShape>,
+    /// As [`weights::write`] writes them, of each avatar.
+    weights: Vec<u32>,
     wrinkles: Arc<[Wrinkle]>,
     places: Vec<Place>,
     /// Avatars whose bones and shapes the GPU does not know yet.
@@ -89,9 +87,9 @@ impl CrowdPose {
         let limits = device.limits();
         let binding = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let bone_bytes = (bone_count * size_of::<GpuBone>()).max(1);
-        let shape_stride = GpuActiveShape::room(shape_count);
+        let weight_stride = weights::room(shape_count);
         let most = |bytes: usize| (binding / bytes as u64) as usize;
-        let limit = most(bone_bytes).min(most(shape_stride * size_of::<GpuActiveShape>()));
+        let limit = most(bone_bytes).min(most(weight_stride * size_of::<u32>()));
         if count > limit {
             return Err(CrowdError::TooMany { found: count, limit });
         }
@@ -101,7 +99,7 @@ impl CrowdPose {
             |label, each: usize| written_buffer(device, label, (count.max(1) * each.max(1)) as u64, usage);
         let buffers = CrowdBuffers {
             bones: room("crowd: bones", bone_bytes.max(size_of::<GpuBone>())),
-            shapes: room("crowd: active shapes", shape_stride * size_of::<GpuActiveShape>()),
+            weights: room("crowd: weights", weight_stride * size_of::<u32>()),
             drawn: room("crowd: drawn", size_of::<u32>()),
             blended: room("crowd: blended", size_of::<u32>()),
             casting: room("crowd: casting shadows", size_of::<u32>()),
@@ -112,7 +110,7 @@ impl CrowdPose {
             layout: &avatar_layout(device),
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: buffers.bones.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: buffers.shapes.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: buffers.weights.as_entire_binding() },
             ],
         });
         let largest = parts.iter().map(bytes_of).max().unwrap_or(1).max(1);
@@ -123,7 +121,7 @@ impl CrowdPose {
             first_avatar: 0,
             vertex_count: 0,
             bone_count: bone_count as u32,
-            shape_stride: shape_stride as u32,
+            weight_stride: weight_stride as u32,
             rigid_bone: 0,
         };
         let chunk =
@@ -138,7 +136,7 @@ impl CrowdPose {
             bone_count,
             shape_count,
             bones,
-            shapes: vec![GpuActiveShape::head(0); shape_stride * count],
+            weights: vec![0; weight_stride * count],
             wrinkles: wrinkles_of(parts),
             places: vec![place; count],
             unwritten: 0..count,
@@ -183,9 +181,9 @@ impl CrowdPose {
             return Err(StateError::WeightCount { expected: shape_count, found: weights.len() }.into());
         }
         let own_bones = &mut self.bones[avatar * bone_count..][..bone_count];
-        let own_shapes = &mut self.shapes[avatar * GpuActiveShape::room(shape_count)..]
-            [..GpuActiveShape::room(shape_count)];
-        if are_set(own_bones, bones) && are_active(own_shapes, weights) {
+        let weight_stride = weights::room(shape_count);
+        let own_weights = &mut self.weights[avatar * weight_stride..][..weight_stride];
+        if are_set(own_bones, bones) && weights::are_written(own_weights, weights) {
             return Ok(());
         }
         let is_uneven = bones.iter().any(|bone| !turns_evenly(bone));
@@ -193,11 +191,11 @@ impl CrowdPose {
             return Err(CrowdError::Mirrored { bone });
         }
         own_bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
-        let active = GpuActiveShape::list(own_shapes, weights, &self.wrinkles);
+        weights::write(own_weights, weights, &self.wrinkles);
         let is_usual = weights.iter().all(|weight| (0.0..=1.0).contains(weight));
         place.bounds = match is_usual {
             true => around(&self.boxes, self.excess, own_bones),
-            false => bounds(parts, own_bones, &own_shapes[..=active]),
+            false => bounds(parts, own_bones, own_weights),
         };
         self.uneven = self.uneven - usize::from(place.is_uneven) + usize::from(is_uneven);
         (place.is_uneven, place.has_moved) = (is_uneven, true);
@@ -263,8 +261,8 @@ impl CrowdPose {
                 let Some(bounds) = place.bounds.filter(|_| !place.is_hidden) else { continue };
                 let is_in_view = is_in_view(bounds);
                 if is_in_view {
-                    let head = self.shapes.get(avatar * GpuActiveShape::room(self.shape_count));
-                    chunk.is_wrinkled |= head.is_some_and(GpuActiveShape::is_wrinkled);
+                    let own = self.weights.get(avatar * weights::room(self.shape_count)..);
+                    chunk.is_wrinkled |= own.is_some_and(weights::are_wrinkling);
                     self.distances.push((bounds.center().distance_squared(eye), avatar as u32));
                 }
                 if is_in_view || casts(bounds) {
@@ -287,7 +285,7 @@ impl CrowdPose {
         }
         let unwritten = std::mem::take(&mut self.unwritten);
         write(queue, &self.buffers.bones, &self.bones, &unwritten, self.bone_count);
-        write(queue, &self.buffers.shapes, &self.shapes, &unwritten, GpuActiveShape::room(self.shape_count));
+        write(queue, &self.buffers.weights, &self.weights, &unwritten, weights::room(self.shape_count));
         let all = 0..self.places.len();
         write(queue, &self.buffers.drawn, &self.drawn, &all, 1);
         write(queue, &self.buffers.blended, &self.blended, &all, 1);

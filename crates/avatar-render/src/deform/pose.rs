@@ -3,11 +3,11 @@
 use crate::deform::posed::{PosedPart, Turn, deformed_layout};
 use crate::gpu::bindings::storage_entry;
 use crate::gpu::buffers::written_buffer;
-use crate::gpu::program::Module;
-use crate::model::active_shapes::GpuActiveShape;
+use crate::gpu::program::{Constant, Module, Value};
 use crate::model::bone::GpuBone;
 use crate::model::geometry::Geometry;
 use crate::model::part::ModelPart;
+use crate::model::weights::{self, WORD_ROOM, WRINKLE_ROOM};
 use avatar_look::Wrinkle;
 use avatar_mesh::Bounds;
 use bytemuck::Zeroable;
@@ -17,7 +17,11 @@ use std::sync::{Arc, OnceLock};
 use wgpu::util::DeviceExt;
 
 /// WGSL of a pose.
-pub(crate) const AVATAR: Module = Module::of(include_str!("shaders/avatar.wgsl"));
+pub(crate) const AVATAR: Module = Module { text: include_str!("shaders/avatar.wgsl"), constants };
+
+fn constants() -> Vec<Constant> {
+    vec![("WRINKLE_ROOM", Value::Count(WRINKLE_ROOM as u32)), ("WORD_ROOM", Value::Count(WORD_ROOM as u32))]
+}
 
 /// Why a state could not be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -45,14 +49,13 @@ pub enum StateError {
 #[derive(Debug)]
 pub(crate) struct Pose {
     bones: Vec<GpuBone>,
-    /// Those whose weight is not 0, by rising index, behind [`GpuActiveShape::head_of`]; then places of
-    /// wrinkles.
-    active_shapes: Vec<GpuActiveShape>,
+    /// As [`weights::write`] writes them.
+    weights: Vec<u32>,
     shape_count: usize,
     wrinkles: Arc<[Wrinkle]>,
     /// Also a vertex buffer of eyeballs, whose shader turns the view back to bind pose.
     pub(crate) bone_buffer: wgpu::Buffer,
-    shape_buffer: wgpu::Buffer,
+    weight_buffer: wgpu::Buffer,
     pub(crate) bind_group: wgpu::BindGroup,
     /// What the deform pass makes of each part of the model.
     pub(crate) parts: Vec<PosedPart>,
@@ -93,16 +96,16 @@ impl Pose {
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
         });
         let output_layout = deformed_layout(device);
-        // Zeros: no active shapes.
-        let bytes = (GpuActiveShape::room(shape_count) * size_of::<GpuActiveShape>()) as u64;
-        let shape_buffer =
-            written_buffer(device, "avatar: active shapes", bytes, wgpu::BufferUsages::STORAGE);
+        // Zeros: all shapes at rest.
+        let weights = vec![0; weights::room(shape_count)];
+        let bytes = size_of_val(weights.as_slice()) as u64;
+        let weight_buffer = written_buffer(device, "avatar: weights", bytes, wgpu::BufferUsages::STORAGE);
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("avatar"),
             layout: &avatar_layout(device),
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: bone_buffer.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: shape_buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: weight_buffer.as_entire_binding() },
             ],
         });
         Self {
@@ -111,11 +114,11 @@ impl Pose {
             has_moved: AtomicBool::new(true),
             bounds: OnceLock::new(),
             bones,
-            active_shapes: active_shapes(shape_count),
+            weights,
             shape_count,
             wrinkles: wrinkles_of(parts),
             bone_buffer,
-            shape_buffer,
+            weight_buffer,
             bind_group,
             parts: parts.iter().map(|part| PosedPart::new(device, &output_layout, part)).collect(),
         }
@@ -138,7 +141,7 @@ impl Pose {
         if weights.len() != self.shape_count {
             return Err(StateError::WeightCount { expected: self.shape_count, found: weights.len() });
         }
-        if are_set(&self.bones, bones) && are_active(&self.active_shapes, weights) {
+        if are_set(&self.bones, bones) && weights::are_written(&self.weights, weights) {
             return Ok(false);
         }
         self.has_moved = AtomicBool::new(true);
@@ -146,11 +149,11 @@ impl Pose {
         self.bones.iter_mut().zip(bones).for_each(|(gpu, bone)| *gpu = GpuBone::new(bone));
         self.turns.iter_mut().zip(bones).for_each(|(turn, bone)| *turn = Turn::of(bone));
         self.parts.iter_mut().for_each(|part| part.set_turns(&self.device, &self.turns));
-        set_active(&mut self.active_shapes, weights, &self.wrinkles);
+        weights::write(&mut self.weights, weights, &self.wrinkles);
         if !self.bones.is_empty() {
             queue.write_buffer(&self.bone_buffer, 0, bytemuck::cast_slice(&self.bones));
         }
-        queue.write_buffer(&self.shape_buffer, 0, bytemuck::cast_slice(&self.active_shapes));
+        queue.write_buffer(&self.weight_buffer, 0, bytemuck::cast_slice(&self.weights));
         Ok(true)
     }
 
@@ -158,7 +161,7 @@ impl Pose {
     /// take the shadows of other avatars away. Rounding in f32 is not added: shadow maps leave more room
     /// around avatars.
     pub(crate) fn bounds(&self, parts: &[ModelPart]) -> Option<Bounds> {
-        *self.bounds.get_or_init(|| bounds(parts, &self.bones, &self.active_shapes))
+        *self.bounds.get_or_init(|| bounds(parts, &self.bones, &self.weights))
     }
 
     /// Lets the next pass deform the vertices, whether they have moved or not.
@@ -174,7 +177,7 @@ impl Pose {
 
     /// Whether shapes wrinkle the skin somewhere.
     pub(crate) fn is_wrinkled(&self) -> bool {
-        self.active_shapes.first().is_some_and(GpuActiveShape::is_wrinkled)
+        weights::are_wrinkling(&self.weights)
     }
 
     /// Where the middle of a part is now, roughly.
@@ -185,28 +188,10 @@ impl Pose {
     }
 }
 
-/// Room for the active shapes of an avatar, all at rest.
-fn active_shapes(shape_count: usize) -> Vec<GpuActiveShape> {
-    let mut active = Vec::with_capacity(GpuActiveShape::room(shape_count));
-    active.push(GpuActiveShape::head(0));
-    active
-}
-
 /// The wrinkles of a model.
 pub(crate) fn wrinkles_of(parts: &[ModelPart]) -> Arc<[Wrinkle]> {
     let first = parts.iter().find(|part| !part.wrinkles.is_empty());
     first.map_or_else(Default::default, |part| part.wrinkles.clone())
-}
-
-/// Lists the shapes whose weight is not 0 behind their number, and places of wrinkles behind them.
-fn set_active(active: &mut Vec<GpuActiveShape>, weights: &[f32], wrinkles: &[Wrinkle]) {
-    active.truncate(1);
-    let shapes = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
-    active.extend(shapes.map(|(k, &weight)| GpuActiveShape { index: k as u32, weight }));
-    let shapes = active.len().saturating_sub(1);
-    active.extend(GpuActiveShape::wrinkled(wrinkles, weights));
-    let places = active.len().saturating_sub(1 + shapes);
-    active.iter_mut().take(1).for_each(|head| *head = GpuActiveShape::head_of(shapes, places));
 }
 
 /// Whether these bones are written already, bit for bit.
@@ -215,26 +200,10 @@ pub(crate) fn are_set(written: &[GpuBone], bones: &[Affine3A]) -> bool {
     written.iter().zip(bones).all(is_set)
 }
 
-/// Whether these weights are listed already, bit for bit. `active` begins with the number of those that
-/// follow; what stands behind them does not count.
-pub(crate) fn are_active(active: &[GpuActiveShape], weights: &[f32]) -> bool {
-    let Some((head, shapes)) = active.split_first() else { return false };
-    let listed = shapes.iter().take(head.index as usize).map(|shape| (shape.index, shape.weight.to_bits()));
-    let wanted = (0u32..).zip(weights).filter(|(_, weight)| **weight != 0.0);
-    listed.eq(wanted.map(|(shape, weight)| (shape, weight.to_bits())))
-}
-
-/// A box around all parts with these bones and active shapes; see [`Pose::bounds`].
-pub(crate) fn bounds(parts: &[ModelPart], bones: &[GpuBone], active: &[GpuActiveShape]) -> Option<Bounds> {
-    let count = active.first().map_or(0, |head| head.index as usize);
-    let active = active.get(1..1 + count).unwrap_or_default();
-    // Ascending by index.
-    let weight = |shape: usize| {
-        let found = active.binary_search_by_key(&shape, |active| active.index as usize);
-        found.map_or(0.0, |at| active[at].weight)
-    };
+/// A box around all parts with these bones and written weights; see [`Pose::bounds`].
+pub(crate) fn bounds(parts: &[ModelPart], bones: &[GpuBone], written: &[u32]) -> Option<Bounds> {
     let around = |ModelPart { geometry, .. }: &ModelPart| {
-        let range = |shape: usize| [weight(geometry.first_weight + shape); 2];
+        let range = |shape: usize| [weights::weight(written, geometry.first_weight + shape); 2];
         let cells = geometry.bounds.bones().iter();
         let moved = cells.filter_map(|cell| Some(bones.get(cell.bone())?.moved(cell.shaped(range))));
         let union = moved.filter(is_somewhere).reduce(Bounds::union)?;

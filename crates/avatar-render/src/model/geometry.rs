@@ -1,13 +1,13 @@
 //! The geometry of one part on the GPU, shared by all avatars of a model.
 
 use crate::gpu::bindings::{storage_entry, uniform_entry};
-use crate::model::active_shapes::GpuActiveShape;
 use crate::model::curvature::curvatures;
 use crate::model::desc::{PartBones, PartDesc};
 use crate::model::error::{PartProblem, fits};
 use crate::model::extras::extras;
 use crate::model::places::Places;
 use crate::model::shape_blocks::{SHAPE_BLOCK, ShapeBlocks};
+use crate::model::weights;
 use avatar_look::Wrinkle;
 use avatar_mesh::{Bounds, DeformBounds, Mesh, Offsets, Skinning, Winding};
 use bytemuck::{Pod, Zeroable};
@@ -20,12 +20,11 @@ use wgpu::util::DeviceExt;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct GpuPart {
     pub(crate) vertex_count: u32,
-    pub(crate) first_weight: u32,
-    pub(crate) shape_count: u32,
+    pub(crate) first_word: u32,
+    pub(crate) word_count: u32,
     pub(crate) rigid_bone: u32,
     pub(crate) has_vertex_bones: u32,
-    pub(crate) has_wrinkles: u32,
-    pub(crate) pad: [u32; 2],
+    pub(crate) pad: [u32; 3],
     /// Middle, and 1 / reach.
     pub(crate) wrinkles: [[f32; 4]; Wrinkle::MOST],
 }
@@ -117,29 +116,30 @@ impl Geometry {
         let mesh = welded.as_ref().unwrap_or(mesh);
         if !mesh.shapes.is_empty() {
             let weights = first_weight.saturating_add(mesh.shapes.len());
-            // One stands before them, and places of wrinkles behind.
-            let others = (1 + Wrinkle::MOST) * size_of::<GpuActiveShape>();
-            let room = binding(&limits).saturating_sub(others as u64);
-            fits("weights", weights, size_of::<GpuActiveShape>(), room)?;
+            fits(
+                "weights (with a bit for each)",
+                weights::room(weights),
+                size_of::<u32>(),
+                binding(&limits),
+            )?;
         }
-        let shapes = ShapeBlocks::new(mesh, binding(&limits))?;
+        let wrinkles = desc.textures.wrinkles.map_or(&[][..], |wrinkles| wrinkles.places);
+        let shapes = ShapeBlocks::new(mesh, first_weight, wrinkles, binding(&limits))?;
         let skinning = mesh.skinning.as_ref().filter(|_| bones == PartBones::PerVertex);
         let rigid_bone = match bones {
             PartBones::Rigid(bone) => bone,
             PartBones::PerVertex => 0,
         };
-        let wrinkles = desc.textures.wrinkles;
         let bounds = mesh.bounds();
         let depth = bounds.map_or(0.0, |bounds| bounds.size().z);
         let head = GpuPart {
             vertex_count: mesh.positions.len() as u32,
-            first_weight: first_weight as u32,
-            shape_count: shapes.shape_count,
+            first_word: shapes.first_word,
+            word_count: shapes.word_count,
             rigid_bone: rigid_bone as u32,
             has_vertex_bones: skinning.is_some().into(),
-            has_wrinkles: wrinkles.is_some().into(),
-            pad: [0; 2],
-            wrinkles: places_of(wrinkles.map_or(&[][..], |wrinkles| wrinkles.places)),
+            pad: [0; 3],
+            wrinkles: places_of(wrinkles),
         };
         let part = buffer(device, &[head], label, "part", wgpu::BufferUsages::UNIFORM);
         let vertices = storage_and_vertices(device, &vertices(mesh), label, "vertices");
@@ -147,7 +147,7 @@ impl Geometry {
         let has_further_bones = skinning.is_some_and(|skinning| !skinning.more_bones.is_empty());
         let vertex_bones = skinning.map_or_else(Vec::new, vertex_bones);
         let vertex_bones = storage(device, &vertex_bones, label, "vertex bones");
-        let shape_blocks = storage(device, &shapes.table, label, "shape blocks");
+        let block_shapes = storage(device, &shapes.table, label, "shapes of blocks");
         let shape_offsets = storage(device, &shapes.offsets, label, "shape offsets");
         let center_bone = match skinning.and_then(|skinning| skinning.bones.first()) {
             Some(bones) => bones[0].into(),
@@ -172,7 +172,7 @@ impl Geometry {
                     wgpu::BindGroupEntry { binding: 0, resource: part.as_entire_binding() },
                     wgpu::BindGroupEntry { binding: 1, resource: vertices.as_entire_binding() },
                     wgpu::BindGroupEntry { binding: 2, resource: vertex_bones.as_entire_binding() },
-                    wgpu::BindGroupEntry { binding: 3, resource: shape_blocks.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 3, resource: block_shapes.as_entire_binding() },
                     wgpu::BindGroupEntry { binding: 4, resource: shape_offsets.as_entire_binding() },
                 ],
             }),

@@ -1,6 +1,5 @@
 //! What all avatars of a model share, for each part: geometry, blend shapes, textures, materials.
 
-pub(crate) mod active_shapes;
 pub(crate) mod bone;
 pub(crate) mod curvature;
 pub(crate) mod desc;
@@ -14,3 +13,4 @@ pub(crate) mod material;
 pub(crate) mod part;
 pub(crate) mod places;
 pub(crate) mod shape_blocks;
+pub(crate) mod weights;

@@ -13,50 +13,45 @@ struct Deformed {
     is_mirrored: bool,
 }
 
+// Where the table of a part tells what moves a block.
+fn row_of(block: u32) -> u32 {
+    return block * (1u + 2u * part.word_count);
+}
+
+// Both loops go from bit to bit that is set: what software adapters skip by a condition only, they compute and
+// throw away.
+
 // How strongly the skin is wrinkled at a place at bind pose, 0 to 1. The twin on the CPU is
 // avatar_look::Wrinkle.
-fn wrinkled(position: vec3f) -> f32 {
-    let first = first_shape + 1u + active_shapes[first_shape].index;
-    let count = select(0u, u32(active_shapes[first_shape].weight), part.has_wrinkles != 0u);
+fn wrinkled(block: u32, position: vec3f) -> f32 {
+    var left = block_shapes[row_of(block)] & avatar_weights[first_weight];
     var sum = 0.0;
-    for (var i = 0u; i < count; i++) {
-        let active_place = active_shapes[first + i];
-        let place = part.wrinkles[active_place.index];
+    while left != 0u {
+        let bit = firstTrailingBit(left);
+        left &= left - 1u;
+        let place = part.wrinkles[bit];
         let near = saturate(1.5 * (1.0 - distance(position, place.xyz) * place.w));
-        sum += active_place.weight * near * near * (3.0 - 2.0 * near);
+        sum += bitcast<f32>(avatar_weights[first_weight + 1u + bit]) * near * near * (3.0 - 2.0 * near);
     }
     return min(sum, 1.0);
 }
 
 fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     var blended = bind;
-    let block_count = (part.vertex_count + SHAPE_BLOCK - 1u) / SHAPE_BLOCK;
-    let active_count = active_shapes[first_shape].index;
-    let end = part.first_weight + part.shape_count;
-    var next = 1u;
-    loop {
-        // The next active shape that moves the block. A loop of its own: what software adapters skip by a
-        // condition only, they compute and throw away.
-        var stored = RESTING_BLOCK;
-        var weight = 0.0;
-        while stored == RESTING_BLOCK && next <= active_count {
-            let shape = active_shapes[first_shape + next];
-            next++;
-            // Indices rise: all further shapes belong to other parts.
-            if shape.index >= end {
-                break;
-            }
-            if shape.index >= part.first_weight {
-                stored = shape_blocks[(shape.index - part.first_weight) * block_count + block];
-                weight = shape.weight;
-            }
+    for (var word = 0u; word < part.word_count; word++) {
+        let row = row_of(block) + 1u + 2u * word;
+        let weights = first_weight + WRINKLE_ROOM + WORD_ROOM * (part.first_word + word);
+        let moving = block_shapes[row];
+        var left = moving & avatar_weights[weights];
+        while left != 0u {
+            let bit = firstTrailingBit(left);
+            left &= left - 1u;
+            let stored = block_shapes[row + 1u] + countOneBits(moving & ((1u << bit) - 1u));
+            let weight = bitcast<f32>(avatar_weights[weights + 1u + bit]);
+            let offset = shape_offsets[stored * SHAPE_BLOCK + within];
+            blended.position_world += weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
+            blended.normal_world += weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
         }
-        if stored == RESTING_BLOCK {
-            break;
-        }
-        let offset = shape_offsets[stored * SHAPE_BLOCK + within];
-        blended.position_world += weight * vec3f(offset.position_x, offset.position_y, offset.position_z);
-        blended.normal_world += weight * vec3f(offset.normal_x, offset.normal_y, offset.normal_z);
     }
     if length(blended.normal_world) < MIN_NORMAL_LENGTH {
         blended.normal_world = bind.normal_world;
@@ -120,7 +115,7 @@ fn is_mirroring(posed: Bone) -> bool {
     return dot(posed[0].xyz / largest, cross(posed[1].xyz / largest, posed[2].xyz / largest)) < 0.0;
 }
 
-// `block` must be the same in all of a workgroup, so that the loop over shapes branches uniformly.
+// `block` must be the same in all of a workgroup, so that the loops over shapes branch uniformly.
 fn deform_vertex(block: u32, within: u32) -> Deformed {
     let vertex = block * SHAPE_BLOCK + within;
     let bind = Deformed(vertices[vertex].position, vertices[vertex].normal, false);

@@ -13,10 +13,10 @@ fn deform_crowd_main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocat
     }
     let avatar = moved[chunk.first_avatar + group.y];
     first_bone = avatar * chunk.bone_count;
-    first_shape = avatar * chunk.shape_stride;
+    first_weight = avatar * chunk.weight_stride;
     let posed = deform_vertex(group.x, within);
     let place = (avatar - chunk.first_avatar) * part.vertex_count + vertex;
     deformed[place].position = posed.position_world;
     deformed[place].normal = posed.normal_world;
-    deformed[place].wrinkled = wrinkled(vertices[vertex].position);
+    deformed[place].wrinkled = wrinkled(group.x, vertices[vertex].position);
 }

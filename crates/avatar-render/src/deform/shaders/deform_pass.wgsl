@@ -13,7 +13,7 @@ fn deform_main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_in
     let posed = deform_vertex(group.x, within);
     deformed[vertex].position = posed.position_world;
     deformed[vertex].normal = posed.normal_world;
-    deformed[vertex].wrinkled = wrinkled(vertices[vertex].position);
+    deformed[vertex].wrinkled = wrinkled(group.x, vertices[vertex].position);
     if UNEVEN {
         deformed[vertex].is_mirrored = u32(posed.is_mirrored);
     }

@@ -2,14 +2,12 @@
 
 struct Part {
     vertex_count: u32,
-    // The number of the weight that the first shape follows.
-    first_weight: u32,
-    // Rows of the table; later shapes move nothing of this part.
-    shape_count: u32,
+    // Words of 32 weights that the part's shapes follow: the first one, and how many.
+    first_word: u32,
+    word_count: u32,
     // The bone of a part that is rigid; not read where vertices have bones of their own.
     rigid_bone: u32,
     has_vertex_bones: u32,
-    has_wrinkles: u32,
     // Of each place of wrinkles the middle at bind pose, and 1 / its reach.
     wrinkles: array<vec4f, MOST_WRINKLES>,
 }
@@ -40,8 +38,8 @@ struct ShapeOffset {
 @group(2) @binding(1) var<storage, read> vertices: array<Vertex>;
 // BONE_SETS of them for each vertex, one after the other.
 @group(2) @binding(2) var<storage, read> vertex_bones: array<VertexBones>;
-// A table with a row for each shape, so that shapes at rest are never read. A row has one entry per block of
-// SHAPE_BLOCK vertices: the number of a block in `shape_offsets`, or RESTING_BLOCK if the shape moves nothing
-// there.
-@group(2) @binding(3) var<storage, read> shape_blocks: array<u32>;
+// A row for each block of SHAPE_BLOCK vertices: a bit for each place of wrinkles that reaches it; then of each
+// word a bit for each shape that moves something there, and where the first of them stands in `shape_offsets`,
+// which has blocks of offsets for those alone. So shapes at rest are never read.
+@group(2) @binding(3) var<storage, read> block_shapes: array<u32>;
 @group(2) @binding(4) var<storage, read> shape_offsets: array<ShapeOffset>;
