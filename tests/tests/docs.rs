@@ -141,50 +141,56 @@ fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
     text.split(&fence).skip(1).filter_map(|rest| rest.split("```").next()).collect()
 }
 
-/// The program of each README becomes a project of its own outside of the workspace, with only the lines that
-/// stand there, and runs.
+/// The program of each README becomes a project outside of this workspace, with only the lines that stand
+/// there, and runs. They are built together: by itself each would have other features of its dependencies, and
+/// most of them to build anew; that each crate enables what it needs is seen where each is compiled by itself
+/// (scripts/test).
 #[test]
-fn the_readmes_programs_run_in_projects_of_their_own() {
+fn the_readmes_programs_run_in_projects_outside() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scratch = folder.path();
     #[cfg(unix)]
-    std::os::unix::fs::symlink(root(), scratch.join("mimik")).expect("the repository beside the project");
+    std::os::unix::fs::symlink(root(), scratch.join("mimik")).expect("the repository beside the projects");
     let mut readmes = vec![("mimik".to_owned(), "README.md".to_owned())];
     for krate in crates().into_iter().filter(|krate| is_library(krate)) {
         let readme = format!("crates/{krate}/README.md");
         readmes.push((krate, readme));
     }
     assert!(readmes.len() > 12, "the crates were not found: {readmes:?}");
-    let mut projects = Vec::new();
-    for (name, readme) in readmes {
-        let text = read(&readme);
+    let manifest = "[workspace]\nresolver = \"3\"\nmembers = [\"use-*\"]\nexclude = [\"mimik\"]\n";
+    fs::write(scratch.join("Cargo.toml"), manifest).expect("a manifest");
+    // The same versions as here, so that nothing has to be fetched or built twice.
+    fs::copy(root().join("Cargo.lock"), scratch.join("Cargo.lock")).expect("a lock file");
+    for (name, readme) in &readmes {
+        let text = read(readme);
         let (toml, rust) = (blocks(&text, "toml"), blocks(&text, "rust"));
         assert_eq!((toml.len(), rust.len()), (1, 1), "{readme}: expected one manifest and one program");
         let project = scratch.join(format!("use-{name}"));
         fs::create_dir_all(project.join("src")).expect("a folder");
-        let package =
-            format!("[package]\nname = \"use-{name}\"\nedition = \"2024\"\n\n{}\n[workspace]\n", toml[0]);
+        let package = format!("[package]\nname = \"use-{name}\"\nedition = \"2024\"\n\n{}\n", toml[0]);
         fs::write(project.join("Cargo.toml"), package).expect("a manifest");
         fs::write(project.join("src/main.rs"), rust[0]).expect("a program");
-        // The same versions as here, so that nothing has to be fetched or built twice.
-        fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock")).expect("a lock file");
-        projects.push((readme, project));
     }
 
-    for (readme, project) in &projects {
-        let mut cargo = Command::new(env!("CARGO"));
-        cargo.args(["run", "--quiet", "--offline"]).current_dir(project);
-        // The workspace's own profile and folder, so that dependencies are not built a second time.
-        cargo.env("CARGO_TARGET_DIR", target_folder());
-        for (setting, own) in
-            [("CARGO_PROFILE_DEV_OPT_LEVEL", "1"), ("CARGO_PROFILE_DEV_DEBUG", "line-tables-only")]
-        {
-            // Whoever runs the tests may have settled it for all builds.
-            if std::env::var_os(setting).is_none() {
-                cargo.env(setting, own);
-            }
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--quiet", "--offline", "--workspace"]).current_dir(scratch);
+    // The workspace's own profile and folder, so that dependencies are not built a second time.
+    cargo.env("CARGO_TARGET_DIR", target_folder());
+    for (setting, own) in
+        [("CARGO_PROFILE_DEV_OPT_LEVEL", "1"), ("CARGO_PROFILE_DEV_DEBUG", "line-tables-only")]
+    {
+        // Whoever runs the tests may have settled it for all builds.
+        if std::env::var_os(setting).is_none() {
+            cargo.env(setting, own);
         }
-        let output = cargo.output().expect("cargo starts");
+    }
+    let output = cargo.output().expect("cargo starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+
+    for (name, readme) in &readmes {
+        let program = target_folder().join("debug").join(format!("use-{name}{}", std::env::consts::EXE_SUFFIX));
+        let mut program = Command::new(program);
+        let output = program.current_dir(scratch.join(format!("use-{name}"))).output().expect("it starts");
         let stderr = String::from_utf8_lossy(&output.stderr);
         let no_adapter = stderr.contains("expected a GPU adapter");
         let required = std::env::var_os("MIMIK_REQUIRE_GPU").is_some_and(|value| value == "1");
