@@ -142,9 +142,9 @@ fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
 }
 
 /// The program of each README becomes a project outside of this workspace, with only the lines that stand
-/// there, and runs. They are built together: by itself each would have other features of its dependencies, and
-/// most of them to build anew; that each crate enables what it needs is seen where each is compiled by itself
-/// (scripts/test).
+/// there, and runs. They are built together: by itself each would have other features of its dependencies,
+/// and most of them to build anew; that each crate enables what it needs is seen where each is compiled by
+/// itself (scripts/test).
 #[test]
 fn the_readmes_programs_run_in_projects_outside() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -188,7 +188,8 @@ fn the_readmes_programs_run_in_projects_outside() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 
     for (name, readme) in &readmes {
-        let program = target_folder().join("debug").join(format!("use-{name}{}", std::env::consts::EXE_SUFFIX));
+        let program =
+            target_folder().join("debug").join(format!("use-{name}{}", std::env::consts::EXE_SUFFIX));
         let mut program = Command::new(program);
         let output = program.current_dir(scratch.join(format!("use-{name}"))).output().expect("it starts");
         let stderr = String::from_utf8_lossy(&output.stderr);

@@ -302,8 +302,8 @@ mod tests {
             let mut pace = Pace::default();
             run(&mut pace, costs, 150, noise(seed, 0.12));
             let levels = run(&mut pace, costs, 300, noise(!seed, 0.12));
-            // Seldom a finer one is tried: each time after twice as much patience, so four times at most in so
-            // many frames, there and back.
+            // Seldom a finer one is tried: each time after twice as much patience, so four times at most in
+            // so many frames, there and back.
             prop_assert!(changes(&levels) <= 8, "{costs:?}: {levels:?}");
             // Where any level is fast enough with room to spare, most frames are.
             if costs[LEVELS - 1] < 0.9 * WANTED {

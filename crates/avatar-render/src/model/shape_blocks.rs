@@ -34,8 +34,8 @@ pub(crate) struct ShapeBlocks {
     /// Words of weights that the shapes follow: the first one, and how many.
     pub(crate) first_word: u32,
     pub(crate) word_count: u32,
-    /// A row for each block of vertices: a bit for each place of wrinkles that reaches it; then of each word a
-    /// bit for each shape that moves something there, and which block of `offsets` is the first of theirs.
+    /// A row for each block of vertices: a bit for each place of wrinkles that reaches it; then of each word
+    /// a bit for each shape that moves something there, and which block of `offsets` is the first of theirs.
     pub(crate) table: Vec<u32>,
     /// Blocks of offsets; those of the last block of vertices are filled up with zeros.
     pub(crate) offsets: Vec<GpuShapeOffset>,

@@ -18,8 +18,8 @@ fn row_of(block: u32) -> u32 {
     return block * (1u + 2u * part.word_count);
 }
 
-// Both loops go from bit to bit that is set: what software adapters skip by a condition only, they compute and
-// throw away.
+// Both loops go from bit to bit that is set: what software adapters skip by a condition only, they compute
+// and throw away.
 
 // How strongly the skin is wrinkled at a place at bind pose, 0 to 1. The twin on the CPU is
 // avatar_look::Wrinkle.

@@ -38,8 +38,8 @@ struct ShapeOffset {
 @group(2) @binding(1) var<storage, read> vertices: array<Vertex>;
 // BONE_SETS of them for each vertex, one after the other.
 @group(2) @binding(2) var<storage, read> vertex_bones: array<VertexBones>;
-// A row for each block of SHAPE_BLOCK vertices: a bit for each place of wrinkles that reaches it; then of each
-// word a bit for each shape that moves something there, and where the first of them stands in `shape_offsets`,
-// which has blocks of offsets for those alone. So shapes at rest are never read.
+// A row for each block of SHAPE_BLOCK vertices: a bit for each place of wrinkles that reaches it; then of
+// each word a bit for each shape that moves something there, and where the first of them stands in
+// `shape_offsets`, which has blocks of offsets for those alone. So shapes at rest are never read.
 @group(2) @binding(3) var<storage, read> block_shapes: array<u32>;
 @group(2) @binding(4) var<storage, read> shape_offsets: array<ShapeOffset>;

@@ -177,19 +177,24 @@ impl Desk {
         RgbImage::from_raw(width.into(), height.into(), rgb.collect()).expect("four bytes a pixel")
     }
 
-    /// What the window shows once it shows the same for a while.
+    /// What the window shows once it shows the same for a while and does nothing: a draft stands still, too,
+    /// while the whole picture is drawn.
     #[track_caller]
     pub(crate) fn settled(&self) -> RgbImage {
         let start = Instant::now();
         let mut before = self.picture();
-        let mut since = Instant::now();
+        let (mut since, mut ticks) = (Instant::now(), self.ticks());
         loop {
             std::thread::sleep(Duration::from_millis(60));
             let now = self.picture();
             if difference(&now, &before) != Some(0) {
-                (before, since) = (now, Instant::now());
+                (before, since, ticks) = (now, Instant::now(), self.ticks());
             } else if since.elapsed() > RESTS {
-                return now;
+                // There are a hundred in a second.
+                if self.ticks() - ticks <= (10.0 * RESTS.as_secs_f64()) as u64 {
+                    return now;
+                }
+                (since, ticks) = (Instant::now(), self.ticks());
             }
             assert!(start.elapsed() < PATIENCE, "the window never rests: {}", self.told());
         }
