@@ -63,7 +63,7 @@ pub(super) fn open(pack: &TempDir, settings: &TempDir) -> Desk {
     let desk = Desk::with_panel(&with(pack, &[]), settings.path());
     // Nothing is under the pointer.
     desk.point(5, 5);
-    desk.settled();
+    desk.idles();
     desk
 }
 

@@ -177,26 +177,37 @@ impl Desk {
         RgbImage::from_raw(width.into(), height.into(), rgb.collect()).expect("four bytes a pixel")
     }
 
-    /// What the window shows once it shows the same for a while and does nothing: a draft stands still, too,
-    /// while the whole picture is drawn.
+    /// What the window shows once it shows the same for a while.
     #[track_caller]
     pub(crate) fn settled(&self) -> RgbImage {
         let start = Instant::now();
         let mut before = self.picture();
-        let (mut since, mut ticks) = (Instant::now(), self.ticks());
+        let mut since = Instant::now();
         loop {
             std::thread::sleep(Duration::from_millis(60));
             let now = self.picture();
             if difference(&now, &before) != Some(0) {
-                (before, since, ticks) = (now, Instant::now(), self.ticks());
+                (before, since) = (now, Instant::now());
             } else if since.elapsed() > RESTS {
-                // There are a hundred in a second.
-                if self.ticks() - ticks <= (10.0 * RESTS.as_secs_f64()) as u64 {
-                    return now;
-                }
-                (since, ticks) = (Instant::now(), self.ticks());
+                return now;
             }
             assert!(start.elapsed() < PATIENCE, "the window never rests: {}", self.told());
+        }
+    }
+
+    /// Waits until the window does nothing for a while: the first draft stands still, too, while programs for
+    /// the whole picture are compiled.
+    #[track_caller]
+    pub(crate) fn idles(&self) {
+        let start = Instant::now();
+        loop {
+            let ticks = self.ticks();
+            std::thread::sleep(RESTS);
+            // There are a hundred in a second.
+            if self.ticks() - ticks <= (10.0 * RESTS.as_secs_f64()) as u64 {
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "the window never idles: {}", self.told());
         }
     }
 
