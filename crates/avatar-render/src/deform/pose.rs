@@ -7,7 +7,7 @@ use crate::gpu::program::{Constant, Module, Value};
 use crate::model::bone::GpuBone;
 use crate::model::geometry::Geometry;
 use crate::model::part::ModelPart;
-use crate::model::weights::{self, WORD_ROOM, WRINKLE_ROOM};
+use crate::model::weights::{self, HEAD_ROOM, WORD_ROOM};
 use avatar_look::Wrinkle;
 use avatar_mesh::Bounds;
 use bytemuck::Zeroable;
@@ -20,7 +20,7 @@ use wgpu::util::DeviceExt;
 pub(crate) const AVATAR: Module = Module { text: include_str!("shaders/avatar.wgsl"), constants };
 
 fn constants() -> Vec<Constant> {
-    vec![("WRINKLE_ROOM", Value::Count(WRINKLE_ROOM as u32)), ("WORD_ROOM", Value::Count(WORD_ROOM as u32))]
+    vec![("HEAD_ROOM", Value::Count(HEAD_ROOM as u32)), ("WORD_ROOM", Value::Count(WORD_ROOM as u32))]
 }
 
 /// Why a state could not be set.

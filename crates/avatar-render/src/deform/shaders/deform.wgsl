@@ -24,23 +24,25 @@ fn row_of(block: u32) -> u32 {
 // How strongly the skin is wrinkled at a place at bind pose, 0 to 1. The twin on the CPU is
 // avatar_look::Wrinkle.
 fn wrinkled(block: u32, position: vec3f) -> f32 {
-    var left = block_shapes[row_of(block)] & avatar_weights[first_weight];
     var sum = 0.0;
+    var left = avatar_weights[first_weight + 1u];
     while left != 0u {
         let bit = firstTrailingBit(left);
-        left &= left - 1u;
+        // The first one is computed wherever it is; of the others those that reach the block.
+        left &= (left - 1u) & block_shapes[row_of(block)];
         let place = part.wrinkles[bit];
         let near = saturate(1.5 * (1.0 - distance(position, place.xyz) * place.w));
-        sum += bitcast<f32>(avatar_weights[first_weight + 1u + bit]) * near * near * (3.0 - 2.0 * near);
+        sum += bitcast<f32>(avatar_weights[first_weight + 2u + bit]) * near * near * (3.0 - 2.0 * near);
     }
     return min(sum, 1.0);
 }
 
 fn blended_from_bind(block: u32, within: u32, bind: Deformed) -> Deformed {
     var blended = bind;
-    for (var word = 0u; word < part.word_count; word++) {
-        let row = row_of(block) + 1u + 2u * word;
-        let weights = first_weight + WRINKLE_ROOM + WORD_ROOM * (part.first_word + word);
+    let end = min(part.first_word + part.word_count, avatar_weights[first_weight]);
+    for (var word = part.first_word; word < end; word++) {
+        let row = row_of(block) + 1u + 2u * (word - part.first_word);
+        let weights = first_weight + HEAD_ROOM + WORD_ROOM * word;
         let moving = block_shapes[row];
         var left = moving & avatar_weights[weights];
         while left != 0u {
