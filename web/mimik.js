@@ -456,7 +456,15 @@ export class Mimik extends EventTarget {
       device.free();
       return;
     }
-    this.#face.show(device);
+    this.#face.begin(device);
+    // The device takes what is uploaded while hair is planted.
+    await new Promise((resolve) => {
+      const { port1, port2 } = new MessageChannel();
+      port1.onmessage = resolve;
+      port2.postMessage(0);
+    });
+    if (!this.#face) return;
+    this.#face.plant();
     this.#open = true;
     this.#inFlight = 0;
     this.#ask();

@@ -76,9 +76,23 @@ impl Show {
     ///
     /// # Errors
     /// A face that the device cannot hold.
-    pub fn on(mut screen: Screen, stage: &Stage) -> Result<Self, WebError> {
+    pub fn on(screen: Screen, stage: &Stage) -> Result<Self, WebError> {
+        let mut show = Self::without_hair(screen, stage)?;
+        show.relook(stage)?;
+        Ok(show)
+    }
+
+    /// As [`on`](Self::on), but hair is planted by [`relook`](Self::relook): the device can take what is
+    /// uploaded meanwhile, once whoever calls has waited for something.
+    ///
+    /// # Errors
+    /// As [`on`](Self::on).
+    pub fn without_hair(mut screen: Screen, stage: &Stage) -> Result<Self, WebError> {
         screen.set_shading(stage.look.shading(&screen.gpu().info))?;
-        Self::new(screen.gpu().clone(), Some(screen), stage)
+        let show = Self::new(screen.gpu().clone(), Some(screen), stage, None)?;
+        // What is written to a queue goes along with what is submitted.
+        show.gpu.queue.submit([]);
+        Ok(show)
     }
 
     /// Uploads the face to a device, for pictures alone.
@@ -86,11 +100,10 @@ impl Show {
     /// # Errors
     /// A face that the device cannot hold.
     pub fn without_screen(gpu: Gpu, stage: &Stage) -> Result<Self, WebError> {
-        Self::new(gpu, None, stage)
+        Self::new(gpu, None, stage, stage.look.hair(stage.pack().hair()))
     }
 
-    fn new(gpu: Gpu, screen: Option<Screen>, stage: &Stage) -> Result<Self, WebError> {
-        let hair = stage.look.hair(stage.pack().hair());
+    fn new(gpu: Gpu, screen: Option<Screen>, stage: &Stage, hair: Option<Hair>) -> Result<Self, WebError> {
         let model = model(&gpu, stage, hair.as_ref())?;
         let avatar = AvatarState::new(&gpu.device, &model);
         let pace = Pace::default();

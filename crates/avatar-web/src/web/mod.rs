@@ -75,6 +75,21 @@ impl Face {
         Ok(())
     }
 
+    /// As `show`, but `plant` has to follow, after something was waited for: the device takes what is uploaded
+    /// while hair is planted.
+    pub fn begin(&mut self, device: Device) -> Result<()> {
+        self.show = None;
+        self.show = Some(Show::without_hair(device.screen, &self.stage)?);
+        self.stage.stir();
+        Ok(())
+    }
+
+    /// Plants the hair that the face has.
+    pub fn plant(&mut self) -> Result<()> {
+        let (stage, show) = self.show_mut()?;
+        Ok(show.relook(stage)?)
+    }
+
     /// Puts another avatar in the place of this one.
     pub fn load(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
         let mut stage = Stage::new(Avatar::read(name, bytes)?);
