@@ -173,6 +173,27 @@ impl Screen {
         Ok(())
     }
 
+    /// Draws a draft of this care that is not shown: a software adapter compiles most of what draws when it
+    /// first does, and does so while something else is got ready.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw).
+    pub fn warm_up(
+        &mut self,
+        step: Step,
+        scene: &Scene,
+        avatars: &[(&AvatarModel, &AvatarState)],
+    ) -> Result<(), ScreenError> {
+        let Gpu { device, queue, .. } = &self.gpu;
+        let (format, shading) = (self.format, self.shading);
+        let drafts = self.drafts.get_or_insert_with(|| Drafts::new(device, format, shading));
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let size = (self.config.width, self.config.height);
+        drafts.draw((device, queue), &mut encoder, step, size, scene, avatars, None)?;
+        queue.submit([encoder.finish()]);
+        self.check()
+    }
+
     /// What draws whole frames, and room for them.
     fn whole(&mut self) -> Result<&(Renderer, Option<Targets>), ScreenError> {
         let (renderer, targets) = match self.whole.take() {

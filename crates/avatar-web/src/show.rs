@@ -83,15 +83,23 @@ impl Show {
     }
 
     /// As [`on`](Self::on), but hair is planted by [`relook`](Self::relook): the device can take what is
-    /// uploaded meanwhile, once whoever calls has waited for something.
+    /// uploaded meanwhile, once whoever calls has waited for something. Where software draws, it draws the
+    /// bald face then, shows it nowhere, and has compiled what draws it.
     ///
     /// # Errors
     /// As [`on`](Self::on).
     pub fn without_hair(mut screen: Screen, stage: &Stage) -> Result<Self, WebError> {
         screen.set_shading(stage.look.shading(&screen.gpu().info))?;
-        let show = Self::new(screen.gpu().clone(), Some(screen), stage, None)?;
-        // What is written to a queue goes along with what is submitted.
-        show.gpu.queue.submit([]);
+        let mut show = Self::new(screen.gpu().clone(), Some(screen), stage, None)?;
+        show.avatar.set(&show.gpu.queue, stage.bones(), stage.weights())?;
+        match (&mut show.screen, Self::first_step(&show.gpu.info)) {
+            (Some(screen), Some(step)) => {
+                let scene = stage.scene(screen.aspect(), show.model.hair_top());
+                screen.warm_up(step, &scene, &[(&show.model, &show.avatar)])?;
+            }
+            // What is written to a queue goes along with what is submitted.
+            _ => show.gpu.queue.submit([]),
+        }
         Ok(show)
     }
 
