@@ -98,7 +98,7 @@ impl Show {
                 screen.warm_up(step, &scene, &[(&show.model, &show.avatar)])?;
             }
             // What is written to a queue goes along with what is submitted.
-            _ => show.gpu.queue.submit([]),
+            _ => drop(show.gpu.queue.submit([])),
         }
         Ok(show)
     }
