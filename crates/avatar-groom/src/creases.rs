@@ -1,6 +1,6 @@
 //! Creases and hollows that are too narrow for hair.
 
-use crate::grid::{Grid, Nearest};
+use crate::grid::{Grid, Nearest, places};
 
 /// Below the skin by more than so many cells no crease reaches.
 const DEEPEST: f32 = 3.0;
@@ -43,27 +43,27 @@ pub(crate) fn fill(grid: &Grid, distances: &mut [f32], radius: f32) {
 fn reached(grid: &Grid, distances: &[f32], radius: f32) -> Vec<bool> {
     let [nx, ny, nz] = grid.size;
     let mut is_reached = vec![false; distances.len()];
-    let mut ahead: Vec<usize> = Vec::new();
-    let step = |index: usize, is_reached: &mut [bool], ahead: &mut Vec<usize>| {
+    let mut ahead: Vec<(usize, [usize; 3])> = Vec::new();
+    let step = |index: usize, at: [usize; 3], is_reached: &mut [bool], ahead: &mut Vec<_>| {
         if distances[index] >= radius && !is_reached[index] {
             is_reached[index] = true;
-            ahead.push(index);
+            ahead.push((index, at));
         }
     };
-    for index in 0..distances.len() {
-        let [x, y, z] = [index % nx, index / nx % ny, index / nx / ny];
+    for (index, [x, y, z]) in places(grid.size).enumerate() {
         if x == 0 || y == 0 || z == 0 || x + 1 == nx || y + 1 == ny || z + 1 == nz {
-            step(index, &mut is_reached, &mut ahead);
+            step(index, [x, y, z], &mut is_reached, &mut ahead);
         }
     }
-    while let Some(index) = ahead.pop() {
-        let strides = [(index % nx, nx, 1), (index / nx % ny, ny, nx), (index / nx / ny, nz, nx * ny)];
-        for (along, size, stride) in strides {
-            if along > 0 {
-                step(index - stride, &mut is_reached, &mut ahead);
+    let strides = [1, nx, nx * ny];
+    while let Some((index, at)) = ahead.pop() {
+        for axis in 0..3 {
+            let beside = |along: usize| std::array::from_fn(|i| if i == axis { along } else { at[i] });
+            if at[axis] > 0 {
+                step(index - strides[axis], beside(at[axis] - 1), &mut is_reached, &mut ahead);
             }
-            if along + 1 < size {
-                step(index + stride, &mut is_reached, &mut ahead);
+            if at[axis] + 1 < grid.size[axis] {
+                step(index + strides[axis], beside(at[axis] + 1), &mut is_reached, &mut ahead);
             }
         }
     }

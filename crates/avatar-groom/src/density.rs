@@ -16,6 +16,17 @@ pub struct DensityMap {
 /// Side of a block. On most of a head the density is 0 or 1 over whole blocks, which is then known at once.
 const BLOCK: u32 = 16;
 
+/// The densities of all values.
+const SHARES: [f32; 256] = {
+    let mut shares = [0.0; 256];
+    let mut value = 0;
+    while value < 256 {
+        shares[value] = value as f32 / 255.0;
+        value += 1;
+    }
+    shares
+};
+
 /// How much longer pieces may be where the map is even.
 const EVEN_VALUES: f32 = 6.0;
 
@@ -52,13 +63,18 @@ impl DensityMap {
         let low = place.floor();
         let share = place - low;
         // One step beyond the edge at most, on either side.
-        let wrap = |at: i32, size: u32| if at < 0 { size - 1 } else { at as u32 % size };
+        let wrap = |at: i32, size: u32| match u32::try_from(at) {
+            Ok(at) if at < size => at,
+            Ok(at) => at % size,
+            Err(_) => size - 1,
+        };
         let (x0, y0) = (wrap(low.x as i32, self.width), wrap(low.y as i32, self.height));
-        let (x1, y1) = ((x0 + 1) % self.width, (y0 + 1) % self.height);
+        let next = |at: u32, size: u32| if at + 1 == size { 0 } else { at + 1 };
+        let (x1, y1) = (next(x0, self.width), next(y0, self.height));
         let value = |x: u32, y: u32| {
             self.values
                 .get(y as usize * self.width as usize + x as usize)
-                .map_or(0.0, |v| f32::from(*v) / 255.0)
+                .map_or(0.0, |value| SHARES[usize::from(*value)])
         };
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
         let above = mix(value(x0, y0), value(x1, y0), share.x);

@@ -1,5 +1,5 @@
 use crate::creases::fill;
-use crate::grid::{Grid, OTHER_BONES, smooth};
+use crate::grid::{Grid, OTHER_BONES, places, smooth};
 use crate::pseudonormal::pseudonormals;
 use crate::shoulders::with_shoulders;
 use avatar_mesh::{Bounds, Mesh};
@@ -99,7 +99,9 @@ impl Field {
         for _ in 0..SMOOTHING {
             smooth(&mut smoothed, grid.size);
         }
-        let slopes = (0..smoothed.len()).map(|i| slope(&smoothed, grid.size, i)).collect();
+        let mut slopes = Vec::with_capacity(smoothed.len());
+        let ends = grid.size;
+        places(ends).enumerate().for_each(|(index, at)| slopes.push(slope(&smoothed, ends, index, at)));
         let range = RANGE * cell;
         for (distance, smoothed) in distances.iter_mut().zip(smoothed) {
             // What is thin, as the rims of ears, would be smoothed away, and is missed between the places of
@@ -182,10 +184,10 @@ impl Field {
 
 /// The direction in which distances grow at a place of the grid. It is kept and not taken from the distances
 /// around a place where it is needed: there it would jump from cell to cell.
-fn slope(distances: &[f32], size: [usize; 3], index: usize) -> [i8; 3] {
+fn slope(distances: &[f32], size: [usize; 3], index: usize, at: [usize; 3]) -> [i8; 3] {
     let strides = [1, size[0], size[0] * size[1]];
     let slope = Vec3::from_array([0, 1, 2].map(|axis| {
-        let along = index / strides[axis] % size[axis];
+        let along = at[axis];
         let (back, on) = (along.min(1), (size[axis] - 1 - along).min(1));
         (distances[index + on * strides[axis]] - distances[index - back * strides[axis]]) / (back + on) as f32
     }));

@@ -10,19 +10,29 @@ pub const OTHER_BONES: usize = 2;
 /// nearest point.
 const BAND: f32 = 2.0;
 
+/// Less than 1 by more than rounding takes from the square of a distance.
+const ROUNDED: f32 = 0.999;
+
 /// Weights 1 2 1 along each axis; the ends stay.
 pub(crate) fn smooth(values: &mut [f32], size: [usize; 3]) {
     let strides = [1, size[0], size[0] * size[1]];
-    for axis in 0..3 {
-        let old = values.to_vec();
-        let stride = strides[axis];
-        for (i, value) in values.iter_mut().enumerate() {
-            let along = i / stride % size[axis];
-            if along > 0 && along + 1 < size[axis] {
-                *value = 0.25 * old[i - stride] + 0.5 * old[i] + 0.25 * old[i + stride];
+    let mut old = vec![0.0; values.len()];
+    for (stride, count) in strides.into_iter().zip(size) {
+        old.copy_from_slice(values);
+        let block = stride * count;
+        for (new, old) in values.chunks_exact_mut(block).zip(old.chunks_exact(block)) {
+            let Some(between) = new.get_mut(stride..block - stride) else { continue };
+            let neighbours = old.iter().zip(&old[stride..]).zip(&old[2 * stride..]);
+            for (value, ((before, here), after)) in between.iter_mut().zip(neighbours) {
+                *value = 0.25 * before + 0.5 * here + 0.25 * after;
             }
         }
     }
+}
+
+/// The places of a grid of this size by their numbers: across first, then up.
+pub(crate) fn places([nx, ny, nz]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    (0..nz).flat_map(move |z| (0..ny).flat_map(move |y| (0..nx).map(move |x| [x, y, z])))
 }
 
 /// A place's nearest point on the skin, the square of the distance, and which side the place is on.
@@ -78,20 +88,26 @@ impl Grid {
         shares: [[f32; OTHER_BONES]; 3],
     ) {
         let [a, b, c] = positions;
+        let (least, most) = (a.min(b).min(c), a.max(b).max(c));
         let band = BAND * self.cell;
-        let low = ((a.min(b).min(c) - band - self.origin) / self.cell).ceil().max(Vec3::ZERO);
-        let high = ((a.max(b).max(c) + band - self.origin) / self.cell).floor();
+        let low = ((least - band - self.origin) / self.cell).ceil().max(Vec3::ZERO);
+        let high = ((most + band - self.origin) / self.cell).floor();
         let (low, high) = (low.to_array(), high.to_array());
         let range = |i: usize| low[i] as usize..=(high[i] as usize).min(self.size[i] - 1);
         for z in range(2) {
             for y in range(1) {
                 for x in range(0) {
                     let place = self.place([x, y, z]);
+                    let index = self.index([x, y, z]);
+                    // No point of the triangle is nearer than its box.
+                    let beside = (least - place).max(place - most).max(Vec3::ZERO);
+                    if beside.length_squared() * ROUNDED > self.nearest[index].squared {
+                        continue;
+                    }
                     let weights = nearest_on_triangle(place, positions);
                     let blend = |v: [Vec3; 3]| v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2];
                     let point = blend(positions);
                     let squared = point.distance_squared(place);
-                    let index = self.index([x, y, z]);
                     if squared < self.nearest[index].squared {
                         let is_inside = (place - point).dot(normals.at(weights)) < 0.0;
                         let shares =
@@ -141,10 +157,10 @@ impl Grid {
                 false if at[axis] > 0 => index - strides[axis],
                 _ => continue,
             };
-            let other = self.nearest[neighbour];
+            let other = &self.nearest[neighbour];
             let squared = other.point.distance_squared(place);
             if other.squared.is_finite() && squared < self.nearest[index].squared {
-                self.nearest[index] = Nearest { squared, ..other };
+                self.nearest[index] = Nearest { squared, ..*other };
             }
         }
     }
@@ -155,8 +171,7 @@ impl Grid {
         let clear = |nearest: &Nearest| nearest.squared > (1.01 * self.cell).powi(2);
         let [nx, ny, nz] = self.size;
         let strides = [1, nx, nx * ny];
-        let flips = |index: usize| {
-            let at = [index % nx, index / nx % ny, index / nx / ny];
+        let flips = |index: usize, at: [usize; 3]| {
             let mut others = 0i32;
             for axis in 0..3 {
                 let below = (at[axis] > 0).then(|| index - strides[axis]);
@@ -169,8 +184,12 @@ impl Grid {
             }
             others > 0
         };
-        let wrong: Vec<usize> =
-            (0..self.nearest.len()).filter(|i| clear(&self.nearest[*i]) && flips(*i)).collect();
+        let mut wrong = Vec::new();
+        places(self.size).enumerate().for_each(|(index, at)| {
+            if clear(&self.nearest[index]) && flips(index, at) {
+                wrong.push(index);
+            }
+        });
         for index in wrong {
             self.nearest[index].is_inside ^= true;
         }

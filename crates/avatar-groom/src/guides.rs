@@ -1,6 +1,5 @@
 use crate::{Region, Root};
 use glam::Vec3;
-use std::collections::BTreeMap;
 
 /// Most guides that a head has.
 const MOST: usize = 1024;
@@ -36,38 +35,91 @@ pub(crate) fn assign(
     roots.iter().zip(positions).map(nearest).collect()
 }
 
+/// The number of a cube along each axis.
+type Cube = [i64; 3];
+
 /// Places by the cube that they are in.
 struct Cells {
     size: f32,
     rings: i32,
-    members: BTreeMap<[i32; 3], Vec<u32>>,
+    /// The lowest cube, and how many there are along each axis.
+    lowest: Cube,
+    counts: Cube,
+    /// Where the members of each cube end; they begin where those of the one before it end.
+    ends: Vec<u32>,
+    members: Vec<u32>,
+}
+
+/// The most cubes for a place; where there would be more, cubes are larger.
+const MOST_CUBES: i64 = 128;
+
+/// The cube of this size that a place is in.
+fn cube(place: Vec3, size: f32) -> Cube {
+    // Numbers that are too large for 32 bits end there.
+    (place / size).floor().to_array().map(|v| i64::from(v as i32))
 }
 
 impl Cells {
     fn new(places: &[Vec3], extent: f32) -> Self {
         // On a surface, a few of N places in each cube that it crosses.
-        let size = (3.0 * extent / (places.len().max(1) as f32).sqrt()).max(1e-9);
-        let mut cells = Self { size, rings: (64.0 * extent / size) as i32, members: BTreeMap::new() };
-        for (number, place) in (0u32..).zip(places) {
-            cells.members.entry(cells.cell(*place)).or_default().push(number);
-        }
+        let mut size = (3.0 * extent / (places.len().max(1) as f32).sqrt()).max(1e-9);
+        let (lowest, counts) = loop {
+            let cubes = || places.iter().map(|place| cube(*place, size));
+            let both = |one: fn(i64, i64) -> i64| {
+                let along = move |a: Cube, b: Cube| [0, 1, 2].map(|axis| one(a[axis], b[axis]));
+                cubes().reduce(along).unwrap_or([0; 3])
+            };
+            let (lowest, highest) = (both(i64::min), both(i64::max));
+            let counts = [0, 1, 2].map(|axis| highest[axis] - lowest[axis] + 1);
+            let product = counts.iter().fold(1i64, |product, count| product.saturating_mul(*count));
+            // Cubes without end hold everything.
+            if product <= MOST_CUBES * (places.len() as i64 + 1) {
+                break (lowest, counts);
+            }
+            size *= 2.0;
+        };
+        let rings = (64.0 * extent / size) as i32;
+        let mut cells = Self { size, rings, lowest, counts, ends: Vec::new(), members: Vec::new() };
+        let mut all: Vec<(usize, u32)> = (0u32..)
+            .zip(places)
+            .filter_map(|(number, place)| Some((cells.index(cube(*place, size))?, number)))
+            .collect();
+        all.sort_unstable();
+        cells.ends = vec![0; counts.iter().product::<i64>() as usize];
+        all.iter().for_each(|(cube, _)| cells.ends[*cube] += 1);
+        let mut end = 0;
+        cells.ends.iter_mut().for_each(|count| {
+            end += *count;
+            *count = end;
+        });
+        cells.members = all.into_iter().map(|(_, number)| number).collect();
         cells
     }
 
-    fn cell(&self, place: Vec3) -> [i32; 3] {
-        (place / self.size).floor().to_array().map(|v| v as i32)
+    /// Where a cube stands in the list, if there may be places in it.
+    fn index(&self, cube: Cube) -> Option<usize> {
+        let at = [0, 1, 2].map(|axis| cube[axis] - self.lowest[axis]);
+        let is_inside = (0..3).all(|axis| (0..self.counts[axis]).contains(&at[axis]));
+        is_inside.then(|| ((at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]) as usize)
+    }
+
+    fn members(&self, cube: Cube) -> &[u32] {
+        let Some(index) = self.index(cube) else { return &[] };
+        let begin = index.checked_sub(1).map_or(0, |before| self.ends[before]);
+        self.members.get(begin as usize..self.ends[index] as usize).unwrap_or_default()
     }
 
     fn nearest(&self, places: &[Vec3], place: Vec3) -> Option<u32> {
-        let [x, y, z] = self.cell(place);
+        let middle = cube(place, self.size);
         let mut best = (f32::INFINITY, None);
         for ring in 0..=self.rings {
             // Everything in a further ring is further away than this.
             if best.0 <= (ring - 1).max(0) as f32 * self.size {
                 break;
             }
-            for [dx, dy, dz] in shell(ring) {
-                for &number in self.members.get(&[x + dx, y + dy, z + dz]).into_iter().flatten() {
+            for offset in shell(ring) {
+                let beside = [0, 1, 2].map(|axis| middle[axis] + i64::from(offset[axis]));
+                for &number in self.members(beside) {
                     let distance = places[number as usize].distance(place);
                     // Of two at the same distance the one with the smaller number.
                     let is_nearer = match best {

@@ -4,7 +4,6 @@
 
 use avatar_mesh::{Mesh, weld_positions};
 use glam::Vec3;
-use std::collections::BTreeMap;
 
 /// The outward direction on a triangle: inside of it, at its edges (each opposite of a corner), and at its
 /// corners.
@@ -38,7 +37,8 @@ pub(crate) fn pseudonormals(skin: &Mesh) -> Vec<([u32; 3], Pseudonormals)> {
         })
         .collect();
     let face = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).normalize_or_zero();
-    let mut edges: BTreeMap<[u32; 2], Vec3> = BTreeMap::new();
+    // Each edge with the number of the corner opposite of it, three to a triangle.
+    let mut edges: Vec<([u32; 2], usize)> = Vec::with_capacity(3 * triangles.len());
     let mut vertices = vec![Vec3::ZERO; skin.positions.len()];
     // Triangles of some files run clockwise seen from outside; the normals tell.
     let mut agreement = 0.0;
@@ -46,24 +46,29 @@ pub(crate) fn pseudonormals(skin: &Mesh) -> Vec<([u32; 3], Pseudonormals)> {
         let face = face(*positions);
         for i in 0..3 {
             let (next, last) = ((i + 1) % 3, (i + 2) % 3);
-            *edges.entry(edge(&welded, corners[next], corners[last])).or_default() += face;
+            edges.push((edge(&welded, corners[next], corners[last]), edges.len()));
             let (to_next, to_last) = (positions[next] - positions[i], positions[last] - positions[i]);
             let angle = to_next.cross(to_last).length().atan2(to_next.dot(to_last));
             vertices[welded[corners[i] as usize] as usize] += face * angle;
             agreement += skin.normals.get(corners[i] as usize).map_or(0.0, |n| n.dot(face).signum());
         }
     }
+    edges.sort_unstable();
+    let mut at_edges = vec![Vec3::ZERO; edges.len()];
+    for same in edges.chunk_by(|a, b| a.0 == b.0) {
+        let sum = same.iter().fold(Vec3::ZERO, |sum, (_, corner)| sum + face(triangles[corner / 3].1));
+        same.iter().for_each(|(_, corner)| at_edges[*corner] = sum);
+    }
     let side = if agreement < 0.0 { -1.0 } else { 1.0 };
-    let of = |(corners, positions): ([u32; 3], [Vec3; 3])| {
-        let edge_of = |i: usize| edge(&welded, corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    let of = |(number, (corners, positions)): (usize, ([u32; 3], [Vec3; 3]))| {
         let normals = Pseudonormals {
             face: face(positions) * side,
-            edges: [0, 1, 2].map(|i| edges.get(&edge_of(i)).copied().unwrap_or_default() * side),
+            edges: [0, 1, 2].map(|i| at_edges[3 * number + i] * side),
             corners: corners.map(|i| vertices[welded[i as usize] as usize] * side),
         };
         (corners, normals)
     };
-    triangles.into_iter().map(of).collect()
+    triangles.into_iter().enumerate().map(of).collect()
 }
 
 fn edge(welded: &[u32], a: u32, b: u32) -> [u32; 2] {
