@@ -115,5 +115,5 @@ pub use skinning::Skinning;
 pub use smooth::SmoothNormals;
 pub use turning::{MIN_NORMAL_LENGTH, deformed_triangles, mirrors, normal_matrix, turns_evenly};
 pub use validate::{MeshError, MeshWarning, WEIGHT_SUM_LIMIT, WEIGHT_SUM_TOLERANCE};
-pub use weld::{Welded, weld, weld_positions};
+pub use weld::{Welded, weld, weld_positions, weld_repeated};
 pub use winding::Winding;

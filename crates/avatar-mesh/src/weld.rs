@@ -17,6 +17,30 @@ pub struct Welded {
 /// welded mesh deforms and draws exactly as the original does. Of [`Skinning::blend_index`], which nothing
 /// uses, each merged vertex keeps the first. Vertices keep the order of their first appearance.
 pub fn weld(mesh: &Mesh) -> Welded {
+    merged(mesh).of(mesh)
+}
+
+/// As [`weld`]; `None` where no two vertices are alike, which costs no copy of the mesh.
+pub fn weld_repeated(mesh: &Mesh) -> Option<Welded> {
+    let merged = merged(mesh);
+    (merged.originals.len() < mesh.positions.len()).then(|| merged.of(mesh))
+}
+
+/// The first of all vertices that are alike, in order, and for each vertex which of these it becomes.
+struct Merged {
+    originals: Vec<usize>,
+    welded_from_original: Vec<u32>,
+}
+
+impl Merged {
+    fn of(self, mesh: &Mesh) -> Welded {
+        let Self { originals, welded_from_original } = self;
+        let triangles = mesh.triangles.iter().map(|t| t.map(|i| renamed(&welded_from_original, i))).collect();
+        Welded { mesh: picked(mesh, &originals, triangles), welded_from_original }
+    }
+}
+
+fn merged(mesh: &Mesh) -> Merged {
     let alike = Alike::new(mesh);
     let hashes = alike.hashes(mesh.positions.len());
     let mut first_of: HashMap<Vertex<'_>, u32, BuildHasherDefault<Known>> =
@@ -31,9 +55,7 @@ pub fn weld(mesh: &Mesh) -> Welded {
         }
         welded_from_original.push(welded);
     }
-    let triangles = mesh.triangles.iter().map(|t| t.map(|i| renamed(&welded_from_original, i))).collect();
-    let mesh = picked(mesh, &originals, triangles);
-    Welded { mesh, welded_from_original }
+    Merged { originals, welded_from_original }
 }
 
 /// The mesh of these vertices, which ascend, with all that they carry, and with other triangles.

@@ -7,7 +7,7 @@
 )]
 
 use crate::common::{Random, edit_offset};
-use avatar_mesh::{Mesh, Offsets, Shape, Skinning, deform, raw, weld, weld_positions};
+use avatar_mesh::{Mesh, Offsets, Shape, Skinning, deform, raw, weld, weld_positions, weld_repeated};
 use glam::{Affine3A, Vec3, Vec4};
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
@@ -75,6 +75,9 @@ proptest! {
         }
         // Once welded there is nothing left to weld.
         prop_assert_eq!(&weld(&welded.mesh).mesh, &welded.mesh);
+        prop_assert_eq!(weld_repeated(&welded.mesh), None);
+        let repeats = used.len() < vertices;
+        prop_assert_eq!(weld_repeated(&mesh), repeats.then_some(welded));
     }
 
     #[test]

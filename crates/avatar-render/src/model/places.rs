@@ -1,6 +1,6 @@
 //! Where the vertices of a mesh are on the GPU.
 
-use avatar_mesh::{Mesh, Welded, weld};
+use avatar_mesh::{Mesh, Welded, weld_repeated};
 use std::sync::Arc;
 
 /// For each vertex of a mesh its place on the GPU, which stores vertices once that are alike to the bit: they
@@ -16,10 +16,11 @@ pub(crate) enum Places {
 impl Places {
     /// The mesh that is uploaded, where it has fewer vertices.
     pub(crate) fn weld(mesh: &Mesh) -> (Option<Mesh>, Self) {
-        let Welded { mesh: welded, welded_from_original } = weld(mesh);
-        match welded.positions.len() < mesh.positions.len() {
-            true => (Some(welded), Self::Welded(welded_from_original.into())),
-            false => (None, Self::Own(mesh.positions.len() as u32)),
+        match weld_repeated(mesh) {
+            Some(Welded { mesh, welded_from_original }) => {
+                (Some(mesh), Self::Welded(welded_from_original.into()))
+            }
+            None => (None, Self::Own(mesh.positions.len() as u32)),
         }
     }
 

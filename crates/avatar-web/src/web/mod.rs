@@ -75,8 +75,8 @@ impl Face {
         Ok(())
     }
 
-    /// As `show`, but `plant` has to follow, after something was waited for: the device takes what is uploaded
-    /// while hair is planted.
+    /// As `show`, but `plant` has to follow, after something was waited for: the device takes what is
+    /// uploaded while hair is planted.
     pub fn begin(&mut self, device: Device) -> Result<()> {
         self.show = None;
         self.show = Some(Show::without_hair(device.screen, &self.stage)?);
