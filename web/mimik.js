@@ -100,6 +100,8 @@ export class Mimik extends EventTarget {
     const why = whyNot();
     if (why) throw new Error(why);
     const started = performance.now();
+    // The first one that is asked for takes the browser longest: it may while the library is on its way.
+    navigator.gpu.requestAdapter().catch(() => {});
     // The library is about as large as the face.
     const shares = [0, 0];
     const part = (index) => (share) => {
