@@ -105,7 +105,7 @@ impl Pace {
 
     /// How the very first frame is drawn where all of what draws is still to be compiled, which takes longer
     /// than drawing: with the least of it.
-    pub const FIRST: Step = Step { is_plain: true, ..step(360, false, 2400) };
+    pub const FIRST: Step = Step { is_plain: true, ..step(288, false, 2000) };
 
     /// The level of the next frame.
     pub fn level(&self) -> usize {
