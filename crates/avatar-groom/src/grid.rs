@@ -10,9 +10,6 @@ pub const OTHER_BONES: usize = 2;
 /// nearest point.
 const BAND: f32 = 2.0;
 
-/// Less than 1 by more than rounding takes from the square of a distance.
-const ROUNDED: f32 = 0.999;
-
 /// Weights 1 2 1 along each axis; the ends stay.
 pub(crate) fn smooth(values: &mut [f32], size: [usize; 3]) {
     let strides = [1, size[0], size[0] * size[1]];
@@ -88,26 +85,20 @@ impl Grid {
         shares: [[f32; OTHER_BONES]; 3],
     ) {
         let [a, b, c] = positions;
-        let (least, most) = (a.min(b).min(c), a.max(b).max(c));
         let band = BAND * self.cell;
-        let low = ((least - band - self.origin) / self.cell).ceil().max(Vec3::ZERO);
-        let high = ((most + band - self.origin) / self.cell).floor();
+        let low = ((a.min(b).min(c) - band - self.origin) / self.cell).ceil().max(Vec3::ZERO);
+        let high = ((a.max(b).max(c) + band - self.origin) / self.cell).floor();
         let (low, high) = (low.to_array(), high.to_array());
         let range = |i: usize| low[i] as usize..=(high[i] as usize).min(self.size[i] - 1);
         for z in range(2) {
             for y in range(1) {
                 for x in range(0) {
                     let place = self.place([x, y, z]);
-                    let index = self.index([x, y, z]);
-                    // No point of the triangle is nearer than its box.
-                    let beside = (least - place).max(place - most).max(Vec3::ZERO);
-                    if beside.length_squared() * ROUNDED > self.nearest[index].squared {
-                        continue;
-                    }
                     let weights = nearest_on_triangle(place, positions);
                     let blend = |v: [Vec3; 3]| v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2];
                     let point = blend(positions);
                     let squared = point.distance_squared(place);
+                    let index = self.index([x, y, z]);
                     if squared < self.nearest[index].squared {
                         let is_inside = (place - point).dot(normals.at(weights)) < 0.0;
                         let shares =

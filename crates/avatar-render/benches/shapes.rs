@@ -1,8 +1,8 @@
 //! What shapes cost: frames of the built-in face, each with another turn of the head, with all its shapes at
-//! weight 1 and with none, in turns, drawn and read back, 1280×720 at four samples, without hair; then the
-//! same for deforming its skin on the CPU.
+//! weight 1 and with none, in turns, drawn and read back, at four samples, without hair; then the same for
+//! deforming its skin on the CPU.
 //!
-//! `cargo bench -p avatar-render --bench shapes [-- ROUNDS]`
+//! `cargo bench -p avatar-render --bench shapes [-- ROUNDS [WIDTH HEIGHT]]`, 25 rounds of 1280×720 without
 //!
 //! Prints milliseconds, the median and the least, and the ratio of the least ones, which other work on the
 //! machine disturbs less.
@@ -16,8 +16,6 @@ use avatar_stage::{NamedView, upload_with_hair};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-const SIZE: [u32; 2] = [1280, 720];
 
 struct Folder(PathBuf);
 
@@ -55,7 +53,9 @@ impl Times {
 }
 
 fn main() {
-    let rounds = std::env::args().find_map(|arg| arg.parse().ok()).unwrap_or(25);
+    let mut numbers = std::env::args().filter_map(|arg| arg.parse().ok());
+    let rounds = numbers.next().unwrap_or(25);
+    let size = [numbers.next().unwrap_or(1280), numbers.next().unwrap_or(720)];
     let folder = Folder(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/marsienne"));
     let (pack, textures) = (Pack::load(&folder).expect("the built-in avatar"), Textures::load(&folder));
     let gpu = open_blocking(GpuOptions::default()).expect("an adapter");
@@ -68,11 +68,11 @@ fn main() {
     let mut face = FaceState::new(&pack);
     let mut values = pack.controls().defaults();
     let turn = pack.controls().index("head.turn").expect("a control");
-    let aspect = SIZE[0] as f32 / SIZE[1] as f32;
+    let aspect = size[0] as f32 / size[1] as f32;
     let scene = NamedView::Front.view().scene(&pack, aspect, [0, 0, 0, 255], Light::default());
     for quality in [Quality::Plain, Quality::Low, Quality::Medium] {
         let shading = quality.shading(Style::Natural);
-        let canvas = Canvas::new(&gpu, SIZE[0], SIZE[1], 4, shading).expect("a canvas");
+        let canvas = Canvas::new(&gpu, size[0], size[1], 4, shading).expect("a canvas");
         let mut times = Times::default();
         for round in 0..=rounds {
             values[turn] = (round % 20) as f32 - 10.0;

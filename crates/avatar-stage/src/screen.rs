@@ -174,7 +174,7 @@ impl Screen {
     }
 
     /// Draws a draft of this care that is not shown: a software adapter compiles most of what draws when it
-    /// first does, and does so while something else is got ready.
+    /// first does, and does so while something else is got ready. A picture without area draws nothing.
     ///
     /// # Errors
     /// As [`draw`](Self::draw).
@@ -184,6 +184,9 @@ impl Screen {
         scene: &Scene,
         avatars: &[(&AvatarModel, &AvatarState)],
     ) -> Result<(), ScreenError> {
+        if !self.has_area {
+            return Ok(());
+        }
         let Gpu { device, queue, .. } = &self.gpu;
         let (format, shading) = (self.format, self.shading);
         let drafts = self.drafts.get_or_insert_with(|| Drafts::new(device, format, shading));
@@ -191,7 +194,8 @@ impl Screen {
         let size = (self.config.width, self.config.height);
         drafts.draw((device, queue), &mut encoder, step, size, scene, avatars, None)?;
         queue.submit([encoder.finish()]);
-        self.check()
+        // Whether a frame that failed deformed them is not known.
+        self.check().inspect_err(|_| avatars.iter().for_each(|(_, avatar)| avatar.redo()))
     }
 
     /// What draws whole frames, and room for them.

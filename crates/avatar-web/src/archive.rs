@@ -13,8 +13,6 @@ const MOST_FILES: usize = 10_000;
 /// What archives unpack to, of all that reading an avatar may take: while a file grows it is there twice, and
 /// readers need memory of their own.
 const UNPACKED: (u64, u64) = (memory::BASE / 4, memory::PER_BYTE / 4);
-/// Files seldom unpack to more times their size: room for so much is made at once.
-const USUAL: u64 = 8;
 /// Kilobytes that unpacking xz may take: its dictionary of 64 MiB at most, and a little.
 const XZ_KB: u32 = 66_000;
 
@@ -60,8 +58,7 @@ impl Archive {
                 return Err(error("names of files in folders below", format!("{:?}", file.name())));
             };
             // Sizes that an archive claims are not trusted: reading ends where the room does.
-            let claimed = file.size().min(left).min(file.compressed_size().saturating_mul(USUAL));
-            let mut unpacked = Vec::with_capacity(claimed as usize);
+            let mut unpacked = Vec::new();
             let most = left.saturating_add(1);
             let read = match file.compression() {
                 // The archive's own way to it trusts what xz claims to need.

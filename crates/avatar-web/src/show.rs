@@ -76,15 +76,15 @@ impl Show {
     ///
     /// # Errors
     /// A face that the device cannot hold.
-    pub fn on(screen: Screen, stage: &Stage) -> Result<Self, WebError> {
-        let mut show = Self::without_hair(screen, stage)?;
-        show.relook(stage)?;
-        Ok(show)
+    pub fn on(mut screen: Screen, stage: &Stage) -> Result<Self, WebError> {
+        screen.set_shading(stage.look.shading(&screen.gpu().info))?;
+        let hair = stage.look.hair(stage.pack().hair());
+        Self::new(screen.gpu().clone(), Some(screen), stage, hair)
     }
 
     /// As [`on`](Self::on), but hair is planted by [`relook`](Self::relook): the device can take what is
     /// uploaded meanwhile, once whoever calls has waited for something. Where software draws, it draws the
-    /// bald face then, shows it nowhere, and has compiled what draws it.
+    /// face without its hair then, shows it nowhere, and has compiled what draws it.
     ///
     /// # Errors
     /// As [`on`](Self::on).
@@ -92,7 +92,9 @@ impl Show {
         screen.set_shading(stage.look.shading(&screen.gpu().info))?;
         let mut show = Self::new(screen.gpu().clone(), Some(screen), stage, None)?;
         show.avatar.set(&show.gpu.queue, stage.bones(), stage.weights())?;
-        match (&mut show.screen, Self::first_step(&show.gpu.info)) {
+        let has_hair = stage.look.hair(stage.pack().hair()).is_some();
+        let step = Self::first_step(&show.gpu.info).filter(|_| has_hair);
+        match (&mut show.screen, step) {
             (Some(screen), Some(step)) => {
                 let scene = stage.scene(screen.aspect(), show.model.hair_top());
                 screen.warm_up(step, &scene, &[(&show.model, &show.avatar)])?;

@@ -199,9 +199,12 @@ impl Geometry {
     }
 }
 
+/// A place of wrinkles that no vertex is near.
+const NOWHERE: [f32; 4] = [1e18, 0.0, 0.0, 1.0];
+
 /// Places of wrinkles as the shader reads them.
 fn places_of(wrinkles: &[Wrinkle]) -> [[f32; 4]; Wrinkle::MOST] {
-    let mut places = [[0.0; 4]; Wrinkle::MOST];
+    let mut places = [NOWHERE; Wrinkle::MOST];
     for (place, wrinkle) in places.iter_mut().zip(wrinkles) {
         *place = wrinkle.center.extend(wrinkle.radius.max(f32::MIN_POSITIVE).recip()).to_array();
     }

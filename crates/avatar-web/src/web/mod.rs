@@ -87,7 +87,12 @@ impl Face {
     /// Plants the hair that the face has.
     pub fn plant(&mut self) -> Result<()> {
         let (stage, show) = self.show_mut()?;
-        Ok(show.relook(stage)?)
+        let planted = show.relook(stage);
+        if planted.is_err() {
+            // Nothing is better than half a face.
+            self.show = None;
+        }
+        Ok(planted?)
     }
 
     /// Puts another avatar in the place of this one.
@@ -305,6 +310,8 @@ impl Face {
 
     /// A picture of the face as it is: resolves to `ImageData`.
     pub fn picture(&mut self, width: u32, height: u32) -> Result<Promise> {
+        // Its hair may be about to be planted.
+        self.plant()?;
         let (stage, show) = self.show_mut()?;
         let shot = show.picture(stage, (width, height))?;
         Ok(future_to_promise(async move {

@@ -28,7 +28,8 @@ fn wrinkled(block: u32, position: vec3f) -> f32 {
     var left = avatar_weights[first_weight + 1u];
     while left != 0u {
         let bit = firstTrailingBit(left);
-        // The first one is computed wherever it is; of the others those that reach the block.
+        // The first one is computed wherever it is, also for parts that have no places and no table; of the
+        // others those that reach the block.
         left &= (left - 1u) & block_shapes[row_of(block)];
         let place = part.wrinkles[bit];
         let near = saturate(1.5 * (1.0 - distance(position, place.xyz) * place.w));
