@@ -305,10 +305,10 @@ mod tests {
             // Seldom a finer one is tried: each time after twice as much patience, so four times at most in
             // so many frames, there and back.
             prop_assert!(changes(&levels) <= 8, "{costs:?}: {levels:?}");
-            // Where any level is fast enough with room to spare, most frames are.
+            // Where any level is fast enough with room to spare, all frames but those of such trials are.
             if costs[LEVELS - 1] < 0.9 * WANTED {
                 let slow = levels.iter().filter(|level| costs[**level] > 1.15 * TOO_LONG).count();
-                prop_assert!(slow <= 15, "{costs:?}: {levels:?}");
+                prop_assert!(slow <= 4, "{costs:?}: {levels:?}");
             }
         }
 
