@@ -11,10 +11,10 @@ const PI: f64 = std::f64::consts::PI;
 
 /// Widths of the upper teeth from the midline outward, and their lengths.
 const UPPER: [(f64, f64); 7] =
-    [(0.64, 0.92), (0.50, 0.84), (0.53, 0.87), (0.50, 0.76), (0.50, 0.72), (0.72, 0.66), (0.70, 0.62)];
+    [(0.69, 0.92), (0.54, 0.84), (0.57, 0.87), (0.54, 0.76), (0.54, 0.72), (0.78, 0.66), (0.76, 0.62)];
 /// The same for the lower teeth.
 const LOWER: [(f64, f64); 7] =
-    [(0.42, 0.84), (0.44, 0.84), (0.50, 0.88), (0.50, 0.72), (0.52, 0.64), (0.74, 0.52), (0.72, 0.48)];
+    [(0.45, 0.84), (0.48, 0.84), (0.54, 0.88), (0.54, 0.72), (0.56, 0.64), (0.80, 0.52), (0.78, 0.48)];
 
 /// The dental arch at a signed arc position: a place on it and the way along it.
 struct Arch {
@@ -49,7 +49,7 @@ impl Arch {
 }
 
 /// The arch of the upper row, which is the wider one.
-const UPPER_ARCH: Arch = Arch { half_width: 2.12, front: 3.40, back: 0.7 };
+const UPPER_ARCH: Arch = Arch { half_width: 2.48, front: 3.74, back: 0.7 };
 
 /// The level direction away from the rows of teeth: that of an ellipse like the upper arch through a place
 /// before them.
@@ -70,7 +70,7 @@ pub fn upper() -> Part {
 /// Lower teeth, gum and tongue.
 #[must_use]
 pub fn lower() -> Part {
-    let arch = Arch { half_width: 2.0, front: 3.12, back: 0.6 };
+    let arch = Arch { half_width: 2.34, front: 3.56, back: 0.6 };
     let mut part = row(&LOWER, &arch, -6.54, 1.0);
     tongue(&mut part);
     part.finish();
@@ -137,7 +137,7 @@ fn gum(part: &mut Part, arch: &Arch, end: f64, gum_y: f64, grow: f64) {
         let around = if r == AROUND - 1 { 0.0 } else { 2.0 * PI * r as f64 / (AROUND - 1) as f64 };
         let shut = if c == 0 || c == ALONG - 1 { 0.0 } else { 1.0 };
         let outward = arch.outward(angle);
-        let centre = arch.at(angle) + DVec3::Y * (gum_y - grow * 0.30) - outward * 0.26;
+        let centre = arch.at(angle) + DVec3::Y * (gum_y - grow * 0.30) - outward * 0.33;
         let p = centre + (outward * (0.36 * cos(around)) - DVec3::Y * (0.42 * sin(around))) * shut;
         (p, DVec2::new(c as f64 / (ALONG - 1) as f64, 0.52 + 0.2 * r as f64 / (AROUND - 1) as f64))
     });
@@ -153,7 +153,7 @@ pub fn is_tongue(uv: DVec2) -> bool {
 fn tongue(part: &mut Part) {
     const ROWS: usize = 17;
     const COLUMNS: usize = 25;
-    let centre = DVec3::new(0.0, -6.15, 0.95);
+    let centre = DVec3::new(0.0, -6.15, 1.25);
     part.add_grid(ROWS, COLUMNS, |r, c| {
         let lat = PI * r as f64 / (ROWS - 1) as f64;
         let lon = if c == COLUMNS - 1 { 0.0 } else { 2.0 * PI * c as f64 / (COLUMNS - 1) as f64 };

@@ -15,20 +15,21 @@ use crate::{
 const BEHIND: [(f64, f64, f64); 6] = [
     (0.06, 0.012, 0.995),
     (0.18, 0.016, 0.985),
-    (0.34, 0.020, 0.975),
-    (0.52, 0.10, 0.97),
-    (0.72, 0.40, 0.98),
-    (0.86, 0.90, 1.00),
+    (0.32, 0.020, 0.975),
+    (0.45, 0.10, 0.97),
+    (0.53, 0.40, 0.98),
+    (0.57, 0.90, 1.00),
 ];
 
-/// Rows of the bag: depth, height above and below the line, half width, and how far the sides lie behind.
-const BAG: [(f64, f64, f64, f64, f64); 6] = [
-    (3.25, 1.45, 1.70, 2.50, 1.0),
-    (2.3, 1.82, 2.10, 2.88, 0.6),
-    (1.0, 1.95, 2.22, 3.00, 0.2),
-    (-0.4, 1.8, 2.0, 2.8, 0.0),
-    (-1.6, 1.4, 1.5, 2.2, 0.0),
-    (-2.5, 0.8, 0.8, 1.2, 0.0),
+/// Rows of the bag: depth at the upper and at the lower end, height above and below the line, half width, and
+/// how far the sides lie behind. The first row lies before the gums, and well behind the skin of the chin.
+const BAG: [(f64, f64, f64, f64, f64, f64); 6] = [
+    (3.80, 3.63, 1.45, 1.50, 2.60, 1.4),
+    (2.3, 2.3, 1.95, 2.35, 3.15, 0.6),
+    (1.0, 1.0, 2.15, 2.45, 3.40, 0.2),
+    (-0.4, -0.4, 1.9, 2.15, 3.1, 0.0),
+    (-1.6, -1.6, 1.4, 1.5, 2.2, 0.0),
+    (-2.5, -2.5, 0.8, 0.8, 1.2, 0.0),
 ];
 
 /// Adds the bag inside the line between the lips.
@@ -53,10 +54,13 @@ pub fn add(half: &mut Half, loops: &Loops) {
                 // Toward the corner the lips come together again, behind as well as in front.
                 let along = start.p.x / MOUTH_HALF_WIDTH;
                 let height = open * side.signum() * side.abs().min(1.0) * (1.0 - along * along * along);
+                // Thinner before the canines, which a jaw that goes sideways takes them across.
+                let depth = depth * (1.0 - 0.8 * along * along * (1.0 - along * along));
                 DVec3::new(start.p.x * share, start.p.y + height, start.p.z - depth)
             } else {
-                let (depth, up, down, width, back) = BAG[k - 1 - BEHIND.len()];
+                let (above, below, up, down, width, back) = BAG[k - 1 - BEHIND.len()];
                 let height = if side > 0.0 { up } else { down };
+                let depth = lerp(above, below, (-side).max(0.0));
                 DVec3::new(u * width, MOUTH_Y + height * side, depth - back * u * u)
             };
             let inside = k as f64 / (rows + 1) as f64;

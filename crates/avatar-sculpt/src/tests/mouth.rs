@@ -8,7 +8,7 @@ use super::{
     load::{loaded, posed, values},
     mesh, sculpture,
 };
-use crate::surface::half::Patch;
+use crate::{mesh::normals, surface::half::Patch};
 
 /// Half of the line between the lips, on the left: over the upper lip to the corner and back.
 fn rim(pack: &Pack, set: &[(&str, f32)]) -> Vec<DVec3> {
@@ -77,6 +77,38 @@ fn an_open_jaw_hollows_the_cheeks_and_draws_them_long() {
     let cheek = moved(DVec3::new(5.0, -4.6, 1.5));
     assert!(cheek.x < -0.25 && cheek.y < -0.2, "{cheek}");
     assert!(moved(APPLE).y < -0.1, "{}", moved(APPLE));
+}
+
+/// The least depth of the mouth's inside, from before the gums on, under the skin of lips and chin; below zero
+/// it comes through.
+fn bag_under_skin(pack: &Pack, set: &[(&str, f32)]) -> f64 {
+    let (skin, p) = (&sculpture().skin, posed(pack, set));
+    let patch = |i: usize| skin.half.nodes[skin.vertices[i].source].patch;
+    let triangles: Vec<[usize; 3]> = skin.triangles.iter().map(|t| t.map(|i| i as usize)).collect();
+    let n = normals(&p, &triangles);
+    let at = |i: usize| skin.vertices[i].p;
+    let about_mouth = |i: &usize| at(*i).z > 2.0 && at(*i).y > -9.0 && at(*i).y < -3.0;
+    let near = || (0..p.len()).filter(about_mouth);
+    let outer: Vec<usize> = near().filter(|i| patch(*i) == Patch::Sheet).collect();
+    let inner = near().filter(|i| patch(*i) == Patch::Mouth && (at(*i).y + 5.6).abs() > 1.2);
+    let depth = |i: usize| {
+        let nearest = outer
+            .iter()
+            .min_by(|a, b| p[**a].distance_squared(p[i]).total_cmp(&p[**b].distance_squared(p[i])));
+        nearest.map_or(f64::INFINITY, |k| (p[*k] - p[i]).dot(n[*k]))
+    };
+    inner.map(depth).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn the_inside_of_the_mouth_stays_under_the_skin() {
+    let pack = loaded();
+    let alone =
+        ["mouthShrugLower", "mouthShrugUpper", "mouthRollUpper", "mouthFrownLeft", "jawOpen", "jawLeft"];
+    for name in alone {
+        let depth = bag_under_skin(&pack, &[(name, 1.0)]);
+        assert!(depth > 0.1, "{name}: {depth:.3}");
+    }
 }
 
 /// How many vertices of the lower teeth are seen, from straight ahead and from above by a little.
