@@ -69,7 +69,7 @@ impl Drafts {
         timer: Option<&PassTimer>,
     ) -> Result<bool, DraftError> {
         let (picture, renderer, mut was_there) = self.made(gpu, step, size)?;
-        was_there &= renderer.is_ready(avatars);
+        was_there &= renderer.is_ready(scene, avatars);
         let Picture { view, targets, .. } = picture;
         renderer.draw_timed(encoder, view, targets, gpu.1, scene, avatars, timer)?;
         Ok(was_there)

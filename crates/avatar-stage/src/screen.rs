@@ -58,7 +58,7 @@ pub struct Screen {
     /// no area.
     whole: Option<(Renderer, Option<Targets>)>,
     shading: Shading,
-    /// How frames are seen by what draws them: in sRGB, whatever the surface has.
+    /// How frames are seen by what draws them: in sRGB, whatever the surface has, unless software draws.
     format: wgpu::TextureFormat,
     /// Whether the window has an area.
     has_area: bool,
@@ -136,8 +136,10 @@ impl Screen {
         let formats = surface.get_capabilities(&gpu.adapter).formats;
         config.format = formats.into_iter().find(wgpu::TextureFormat::is_srgb).unwrap_or(config.format);
         let mut format = config.format;
-        // A canvas has no such format, but can be seen as if it had.
-        if cfg!(target_arch = "wasm32") && !format.is_srgb() {
+        // A canvas has no such format, but can be seen as if it had. Not where software draws: there it takes
+        // thirty times as long to resolve samples in linear light, and a copy beside.
+        let is_software = gpu.info.device_type == wgpu::DeviceType::Cpu;
+        if cfg!(target_arch = "wasm32") && !format.is_srgb() && !is_software {
             format = format.add_srgb_suffix();
             config.view_formats = vec![format];
         }
@@ -314,7 +316,7 @@ impl Screen {
                 was_there
             }
             (None, Some((renderer, Some(targets)))) => {
-                let was_there = was_there && renderer.is_ready(avatars);
+                let was_there = was_there && renderer.is_ready(scene, avatars);
                 match &self.between {
                     Some((blitter, Some(picture))) => {
                         renderer.draw(&mut encoder, picture, targets, queue, scene, avatars)?;
@@ -333,7 +335,8 @@ impl Screen {
         let is_software = self.gpu.info.device_type == wgpu::DeviceType::Cpu;
         if step.is_none() && !is_software && !std::mem::replace(&mut self.is_prepared, true) {
             let renderer = self.whole.iter().map(|(renderer, _)| renderer);
-            renderer.for_each(|renderer| avatars.iter().for_each(|(model, _)| renderer.prepare(model)));
+            renderer
+                .for_each(|renderer| avatars.iter().for_each(|(model, _)| renderer.prepare(scene, model)));
         }
         // Whether a frame that failed deformed them is not known.
         self.check().inspect_err(|_| avatars.iter().for_each(|(_, avatar)| avatar.redo()))?;

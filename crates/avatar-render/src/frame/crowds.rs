@@ -69,7 +69,7 @@ impl<'a> Recording<'a> {
             });
         }
         for (place, drawable) in self.renderer.parts.drawables().filter(|(_, one)| one.is_transparent) {
-            let is_wanted = |part: &ModelPart| part.kind == drawable.kind && part.finish.get().is_none();
+            let is_wanted = |part: &ModelPart| part.is_face_part(drawable.kind);
             self.draw_crowds(pass, Chosen::Blended, is_wanted, |parts, _, effects| {
                 parts.in_picture(&self.renderer.layouts, place, effects)
             });

@@ -17,6 +17,8 @@ pub(crate) struct Drawable {
     /// What its program can show.
     pub(crate) effects: Effects,
     pub(crate) cull_mode: Option<wgpu::Face>,
+    /// Whether it shows the back sides of what another one shows from the front.
+    pub(crate) is_back: bool,
     /// Whether it is blended over what is there, without writing depth.
     pub(crate) is_transparent: bool,
 }
@@ -37,10 +39,11 @@ pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
         program,
         effects: Effects::ALL,
         cull_mode,
+        is_back: false,
         is_transparent: false,
     };
     let line = |kind, label| Drawable {
-        effects: Effects::NONE,
+        effects: Effects::TONES,
         ..part(kind, label, OUTLINE, Some(wgpu::Face::Front))
     };
     let (fronts, backs) = (Some(wgpu::Face::Back), Some(wgpu::Face::Front));
@@ -51,7 +54,11 @@ pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
         part(PartKind::Surface, "teeth", programs.teeth, None),
         // Eyeballs are closed: their back sides are never seen.
         part(PartKind::Eyeball, "eyeball", programs.eyeball, fronts),
-        Drawable { effects: Effects::COLORS, ..part(PartKind::Skin, "skin back", programs.skin_back, backs) },
+        Drawable {
+            effects: Effects::COLORS,
+            is_back: true,
+            ..part(PartKind::Skin, "skin back", programs.skin_back, backs)
+        },
     ];
     if shading == Shading::Toon {
         order.push(line(PartKind::Skin, "outline of skin"));

@@ -79,7 +79,7 @@ impl PartPipelines {
         let is_lit_before = part.kind == PartKind::Skin && self.config.shading.terms().separable();
         let mut drawn = self.picture.iter().filter(|(drawable, _)| drawable.kind == part.kind);
         drawn.all(|(drawable, built)| is_built(built, drawable.effects))
-            && (!is_lit_before || is_built(&self.skin_light, Effects::ALL))
+            && (!is_lit_before || is_built(&self.skin_light, Effects::LOOKS))
     }
 
     /// Makes what draws this part with these effects.
@@ -94,6 +94,7 @@ impl PartPipelines {
 
     /// The pipeline that lights the skin before light spreads below it, where the shading has that.
     pub(crate) fn skin_light(&self, layouts: &Layouts, effects: Effects) -> Option<&wgpu::RenderPipeline> {
+        let effects = effects.among(Effects::LOOKS);
         let built = self.skin_light.get(effects.place()).filter(|_| self.config.shading.terms().separable());
         let build = || skin_light_pipeline(&self.device, layouts, self.config, effects, self.vertices);
         Some(built?.get_or_init(build))

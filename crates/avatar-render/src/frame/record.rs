@@ -60,7 +60,7 @@ impl<'a> Recording<'a> {
 
     /// What the program of a part has to show.
     pub(crate) fn effects(&self, part: &ModelPart, is_wrinkled: bool) -> Effects {
-        part.effects(is_wrinkled || self.rehearses)
+        part.effects(is_wrinkled || self.rehearses, self.scene.light.tone_map)
     }
 
     pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, pass: Pass) {
@@ -111,8 +111,13 @@ impl<'a> Recording<'a> {
         let depth = depth_attachment(&targets.single_depth);
         let mut pass = self.begin(encoder, Pass::Prepass, Some(&targets.normals), Some(depth));
         self.set_groups(&mut pass, &targets.for_prepass);
-        for (kind, place) in [(PartKind::Skin, 1), (PartKind::Surface, 1), (PartKind::Eyeball, 0)] {
-            self.draw_kind(&mut pass, kind, |parts, _| parts.passes.prepass.as_ref()?.get(place));
+        for (kind, place) in
+            [(PartKind::Skin, 1), (PartKind::Skin, 0), (PartKind::Surface, 1), (PartKind::Eyeball, 0)]
+        {
+            let is_wanted = move |part: &ModelPart| {
+                part.is_face_part(kind) && (kind != PartKind::Skin || part.finish.has_back() == (place == 1))
+            };
+            self.draw_items(&mut pass, is_wanted, |parts, _| parts.passes.prepass.as_ref()?.get(place));
         }
         for (sides, place) in [(Sides::Front, 0), (Sides::Both, 1)] {
             let is_wanted = move |part: &ModelPart| {
@@ -212,7 +217,11 @@ impl<'a> Recording<'a> {
         let layouts = &self.renderer.layouts;
         for (place, drawable) in self.renderer.parts.drawables().filter(|(_, one)| !one.is_transparent) {
             pass.push_debug_group(drawable.label);
-            self.draw_kind(pass, drawable.kind, |parts, effects| parts.in_picture(layouts, place, effects));
+            let is_back = drawable.is_back;
+            let is_wanted = move |part: &ModelPart| {
+                part.is_face_part(drawable.kind) && (!is_back || part.finish.has_back())
+            };
+            self.draw_items(pass, is_wanted, |parts, effects| parts.in_picture(layouts, place, effects));
             pass.pop_debug_group();
         }
         self.draw_standard(pass, Step::Opaque, |finish| finish.opacity == Opacity::Opaque);
@@ -286,8 +295,7 @@ impl<'a> Recording<'a> {
         kind: PartKind,
         pipeline: impl Fn(&'a PartPipelines, Effects) -> Option<&'a wgpu::RenderPipeline>,
     ) {
-        let is_wanted = move |part: &ModelPart| part.kind == kind && part.finish.get().is_none();
-        self.draw_items(pass, is_wanted, pipeline);
+        self.draw_items(pass, move |part| part.is_face_part(kind), pipeline);
     }
 
     fn draw_items<F: Fn(&ModelPart) -> bool + Copy + 'a>(

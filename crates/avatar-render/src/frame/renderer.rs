@@ -11,9 +11,11 @@ use crate::gpu::identity::Identity;
 use crate::gpu::ring::Ring;
 use crate::hair::grower::Grower;
 use crate::hair::pipelines::{HairPipelines, HairViews};
+use crate::model::part::ModelPart;
 use crate::view::config::RendererConfig;
 use crate::view::lamps::SHADOW_COUNT;
 use crate::view::resources::Resources;
+use crate::view::scene::Scene;
 use crate::view::shadows::GpuShadowView;
 use std::sync::{Mutex, OnceLock};
 
@@ -120,23 +122,24 @@ impl Renderer {
         self.config
     }
 
-    /// Builds what faces of this model need as they look now, at rest and with wrinkles, so that the first
-    /// smile does not wait for its pipelines. Call it when there is time, such as after the first picture.
-    /// Where software draws, [`Renderer::rehearse`] does more.
-    pub fn prepare(&self, model: &AvatarModel) {
+    /// Builds what faces of this model need in this scene as they look now, at rest and with wrinkles, so that
+    /// the first smile does not wait for its pipelines. Call it when there is time, such as after the first
+    /// picture. Where software draws, [`Renderer::rehearse`] does more.
+    pub fn prepare(&self, scene: &Scene, model: &AvatarModel) {
         for (_, part) in model.parts_with_triangles().filter(|(_, part)| part.finish.get().is_none()) {
             for is_wrinkled in [false, true] {
-                self.parts.prepare(&self.layouts, part, part.effects(is_wrinkled));
+                self.parts.prepare(&self.layouts, part, part.effects(is_wrinkled, scene.light.tone_map));
             }
         }
     }
 
     /// Whether a frame of these avatars as they are now builds nothing for their faces first: the time of
     /// another one tells nothing about the next.
-    pub fn is_ready(&self, avatars: &[(&AvatarModel, &AvatarState)]) -> bool {
+    pub fn is_ready(&self, scene: &Scene, avatars: &[(&AvatarModel, &AvatarState)]) -> bool {
         avatars.iter().all(|(model, state)| {
             let mut parts = model.parts_with_triangles().filter(|(_, part)| part.finish.get().is_none());
-            parts.all(|(_, part)| self.parts.are_built(part, part.effects(state.pose.is_wrinkled())))
+            let effects = |part: &ModelPart| part.effects(state.pose.is_wrinkled(), scene.light.tone_map);
+            parts.all(|(_, part)| self.parts.are_built(part, effects(part)))
         })
     }
 

@@ -4,6 +4,7 @@ use crate::frame::programs::SEE_THROUGH;
 use crate::gpu::bindings::texture_entry;
 use crate::gpu::pipeline::{Recipe, color_target, pipeline_layout};
 use crate::gpu::program::{Constant, Value};
+use crate::model::effects::AGX;
 use crate::view::config::encodes_in_shader;
 
 /// Brings pictures whose background is transparent to a surface. What is drawn is weighted by its coverage
@@ -55,7 +56,7 @@ impl SeeThrough {
             beside: None,
         };
         let mut choices = see_through_choices(premultiplied, target.is_srgb()).to_vec();
-        choices.push(("ENCODE_SRGB", Value::Flag(encodes_in_shader(format))));
+        choices.extend([("ENCODE_SRGB", Value::Flag(encodes_in_shader(format))), (AGX, Value::Flag(false))]);
         let pipeline = recipe.build(device, &choices);
         let (texture, picture) = picture(device, &layout, format, size);
         Self { format, layout, pipeline, texture, picture }

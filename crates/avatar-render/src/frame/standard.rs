@@ -129,5 +129,5 @@ fn build(
         target,
         beside: None,
     };
-    build_parts(&recipe, device, config, Effects::NONE, vertices)
+    build_parts(&recipe, device, config, Effects::TONES, vertices)
 }

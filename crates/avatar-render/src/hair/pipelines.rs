@@ -10,6 +10,7 @@ use crate::hair::programs::{
     STRAND_SLICES,
 };
 use crate::hair::targets::{HAIR_CLEAR_FORMAT, HAIR_SUM_FORMAT};
+use crate::model::effects::AGX;
 use crate::view::config::{COVERAGE_MASK, RendererConfig};
 use crate::view::resources::HAIR_MAP_FORMAT;
 use std::sync::OnceLock;
@@ -85,7 +86,7 @@ impl HairPipelines {
             return pipeline;
         }
         // Strands cover the only sample of a pixel or not, by the same random numbers.
-        self.draft.get_or_init(|| self.ribbons().build(device, &masked(self.config.choices())))
+        self.draft.get_or_init(|| self.ribbons().build(device, &masked(choices(self.config))))
     }
 
     /// The pipeline of strands that cover some of a pixel's samples, on which the others build.
@@ -107,7 +108,7 @@ impl HairPipelines {
 
     fn strands(&self, device: &wgpu::Device) -> Strands {
         use wgpu::CompareFunction::{Always, Greater};
-        let (config, choices, ribbons) = (self.config, self.config.choices(), self.ribbons());
+        let (config, choices, ribbons) = (self.config, choices(self.config), self.ribbons());
         if config.samples > 1 {
             return Strands::Masked(ribbons.build(device, &choices));
         }
@@ -155,6 +156,13 @@ impl HairPipelines {
             compose: [compose, compose_depth].map(|recipe| recipe.build(device, &choices)),
         }
     }
+}
+
+/// The constants of programs that draw strands, in any tone.
+fn choices(config: RendererConfig) -> Vec<Constant> {
+    let mut choices = config.choices();
+    choices.push((AGX, Value::Flag(true)));
+    choices
 }
 
 /// The constants with which strands cover samples, even if there is only one.

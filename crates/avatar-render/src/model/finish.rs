@@ -70,9 +70,11 @@ const IS_THERE: u8 = 1;
 const DOUBLE_SIDED: u8 = 2;
 const OUTLINE: u8 = 4;
 const OPACITY_SHIFT: u8 = 3;
+const ONE_SIDED: u8 = 1 << 5;
 
 impl FinishCell {
-    pub(crate) fn set(&self, finish: Option<Finish>) {
+    pub(crate) fn set(&self, kind: PartKind, material: &Material) {
+        let finish = Finish::of(kind, material);
         let flag = |on: bool, bit: u8| if on { bit } else { 0 };
         let bits = finish.map_or(0, |finish| {
             let opacity: u8 = match finish.opacity {
@@ -86,12 +88,18 @@ impl FinishCell {
                 | flag(finish.has_outline, OUTLINE)
                 | (opacity << OPACITY_SHIFT)
         });
-        self.0.store(bits, Ordering::Relaxed);
+        let is_one_sided = material.standard.as_ref().is_some_and(|standard| !standard.is_double_sided);
+        self.0.store(bits | flag(is_one_sided, ONE_SIDED), Ordering::Relaxed);
+    }
+
+    /// Whether it can be seen from behind. Files say so of their materials; what has none can.
+    pub(crate) fn has_back(&self) -> bool {
+        self.0.load(Ordering::Relaxed) & ONE_SIDED == 0
     }
 
     pub(crate) fn get(&self) -> Option<Finish> {
         let bits = self.0.load(Ordering::Relaxed);
-        let opacity = match bits >> OPACITY_SHIFT {
+        let opacity = match (bits >> OPACITY_SHIFT) & 3 {
             0 => Opacity::Opaque,
             1 => Opacity::Cut,
             2 => Opacity::Blended,

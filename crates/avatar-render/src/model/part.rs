@@ -13,7 +13,7 @@ use crate::model::material::{
     COLOR_TEXTURE, EMISSIVE_TEXTURE, GLOSS_TEXTURE, GpuMaterial, METALLIC_ROUGHNESS_TEXTURE, NORMAL_TEXTURE,
     OCCLUSION_TEXTURE, SHADE_TEXTURE, THICKNESS_TEXTURE, WRINKLE_TEXTURE,
 };
-use avatar_look::{Material, Wrap, Wrinkle};
+use avatar_look::{Material, ToneMap, Wrap, Wrinkle};
 use avatar_mesh::{Bounds, PartKind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -203,14 +203,20 @@ impl ModelPart {
         Ok(Self { label, kind, geometry, look, finish, is_recolored, material, textures, eye, wrinkles })
     }
 
+    /// Whether it is drawn as this kind of part of a face, not as its file says.
+    pub(crate) fn is_face_part(&self, kind: PartKind) -> bool {
+        self.kind == kind && self.finish.get().is_none()
+    }
+
     /// Whether it is blended over what is behind.
     pub(crate) fn is_blended(&self) -> bool {
         self.kind == PartKind::Cornea || self.finish.get().is_some_and(Finish::is_blended)
     }
 
     /// What has to be shown of it where shapes wrinkle the avatar, or where they do not.
-    pub(crate) fn effects(&self, is_wrinkled: bool) -> Effects {
+    pub(crate) fn effects(&self, is_wrinkled: bool, tone_map: ToneMap) -> Effects {
         Effects {
+            has_agx: tone_map == ToneMap::AgX,
             has_grooves: is_wrinkled && self.textures & WRINKLE_TEXTURE != 0,
             is_recolored: self.is_recolored.load(Ordering::Relaxed),
         }
@@ -221,7 +227,7 @@ impl ModelPart {
         let gpu =
             GpuMaterial::new(material, self.kind, &self.geometry, self.eye.as_ref(), height, self.textures);
         queue.write_buffer(&self.material, 0, bytemuck::bytes_of(&gpu));
-        self.finish.set(Finish::of(self.kind, material));
+        self.finish.set(self.kind, material);
         self.is_recolored.store(gpu.is_recolored(), Ordering::Relaxed);
     }
 }

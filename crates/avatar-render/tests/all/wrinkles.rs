@@ -201,12 +201,12 @@ fn what_wrinkles_need_is_made_when_they_come_or_ahead() {
         let (by_drawing, ahead) = (stage(), stage());
         for weight in [0.0, 1.0] {
             set(&mut state, weight);
-            let is_ready = by_drawing.renderer.is_ready(&[(&model, &state)]);
+            let is_ready = by_drawing.renderer.is_ready(&scene, &[(&model, &state)]);
             assert_eq!(is_ready, weight == 0.0, "{name}");
             by_drawing.bytes(gpu, &scene, &[(&model, &state)]);
-            assert!(by_drawing.renderer.is_ready(&[(&model, &state)]), "{name}, {weight}");
+            assert!(by_drawing.renderer.is_ready(&scene, &[(&model, &state)]), "{name}, {weight}");
         }
-        ahead.renderer.prepare(&model);
+        ahead.renderer.prepare(&scene, &model);
         set(&mut state, 0.0);
         let [drawn, rehearsed] = [false, true].map(|rehearses| {
             ahead.bytes_after(gpu, |encoder| {
@@ -222,13 +222,19 @@ fn what_wrinkles_need_is_made_when_they_come_or_ahead() {
         assert!(drawn == rehearsed, "{name}");
         for weight in [0.0, 1.0] {
             set(&mut state, weight);
-            assert!(ahead.renderer.is_ready(&[(&model, &state)]), "{name}, {weight}");
+            assert!(ahead.renderer.is_ready(&scene, &[(&model, &state)]), "{name}, {weight}");
         }
         // Another tone of the skin needs others.
         let tone = Tone { color: [0.2, 0.1, 0.05], ..matte().tone };
         model.set_material(&gpu.queue, 0, &Material { tone, ..matte() }).expect("a part");
-        assert!(!ahead.renderer.is_ready(&[(&model, &state)]), "{name}");
+        assert!(!ahead.renderer.is_ready(&scene, &[(&model, &state)]), "{name}");
         model.set_material(&gpu.queue, 0, &matte()).expect("a part");
-        assert!(ahead.renderer.is_ready(&[(&model, &state)]), "{name}");
+        // So does another tone mapping.
+        let light = Light { tone_map: ToneMap::AgX, ..scene.light.clone() };
+        let in_agx = Scene { light, ..scene.clone() };
+        assert!(!ahead.renderer.is_ready(&in_agx, &[(&model, &state)]), "{name}");
+        ahead.renderer.prepare(&in_agx, &model);
+        assert!(ahead.renderer.is_ready(&in_agx, &[(&model, &state)]), "{name}");
+        assert!(ahead.renderer.is_ready(&scene, &[(&model, &state)]), "{name}");
     }
 }

@@ -48,11 +48,13 @@ fn agx(light: vec3f) -> vec3f {
 }
 
 fn tone_mapped(light: vec3f) -> vec3f {
-    switch frame.tone_map {
-        case TONE_NEUTRAL: { return neutral(light); }
-        case TONE_AGX: { return agx(light); }
-        default: { return light; }
+    if frame.tone_map == TONE_NEUTRAL {
+        return neutral(light);
     }
+    if AGX && frame.tone_map == TONE_AGX {
+        return agx(light);
+    }
+    return light;
 }
 
 // IEC 61966-2-1.

@@ -98,7 +98,7 @@ impl Stage {
         self.gpu.queue.present(frame);
         if is_first && self.motion.is_none() {
             // Nobody waits for wrinkles yet. Where there are drafts, these are rehearsed.
-            self.renderer.prepare(&self.model);
+            self.renderer.prepare(scene, &self.model);
         }
         match self.gpu.errors.take() {
             None => Ok(Drawn {
@@ -191,7 +191,7 @@ impl Stage {
         let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
         let avatars = [(&self.model, &self.avatar)];
         let timer = self.timer.as_ref();
-        let is_ready = self.renderer.is_ready(&avatars);
+        let is_ready = self.renderer.is_ready(scene, &avatars);
         self.renderer.draw_timed(encoder, &target, targets, &self.gpu.queue, scene, &avatars, timer)?;
         Ok(std::mem::replace(&mut self.has_drawn, true) && is_ready)
     }
