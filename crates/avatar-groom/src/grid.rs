@@ -90,15 +90,26 @@ impl Grid {
         let high = ((a.max(b).max(c) + band - self.origin) / self.cell).floor();
         let (low, high) = (low.to_array(), high.to_array());
         let range = |i: usize| low[i] as usize..=(high[i] as usize).min(self.size[i] - 1);
+        // No point of the triangle is nearer to a place than its plane, but for rounding; that of a needle is not
+        // known well enough.
+        let (ab, ac) = (b - a, c - a);
+        let normal = ab.cross(ac);
+        let is_needle = normal.length_squared() < 1e-4 * ab.length_squared() * ac.length_squared();
+        let plane = if is_needle { Vec3::ZERO } else { normal.normalize_or_zero() * (1.0 - 1e-3) };
+        let slack = 1e-4 * (a.abs().max_element() + band);
         for z in range(2) {
             for y in range(1) {
                 for x in range(0) {
                     let place = self.place([x, y, z]);
+                    let index = self.index([x, y, z]);
+                    let above = (plane.dot(place - a).abs() - slack).max(0.0);
+                    if above * above > self.nearest[index].squared {
+                        continue;
+                    }
                     let weights = nearest_on_triangle(place, positions);
                     let blend = |v: [Vec3; 3]| v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2];
                     let point = blend(positions);
                     let squared = point.distance_squared(place);
-                    let index = self.index([x, y, z]);
                     if squared < self.nearest[index].squared {
                         let is_inside = (place - point).dot(normals.at(weights)) < 0.0;
                         let shares =

@@ -111,6 +111,10 @@ impl Cells {
 
     fn nearest(&self, places: &[Vec3], place: Vec3) -> Option<u32> {
         let middle = cube(place, self.size);
+        let low = Vec3::from_array(middle.map(|v| v as f32)) * self.size;
+        // How far it is to the cubes below and above, along each axis, less what rounding may add.
+        let slack = 1e-3 * self.size + 1e-5 * place.abs().max_element();
+        let (below, above) = (place - low - slack, low + self.size - place - slack);
         let mut best = (f32::INFINITY, None);
         for ring in 0..=self.rings {
             // Everything in a further ring is further away than this.
@@ -118,6 +122,15 @@ impl Cells {
                 break;
             }
             for offset in shell(ring) {
+                let apart = |axis: usize| match offset[axis] {
+                    0 => 0.0,
+                    steps @ ..0 => (below[axis] - (steps + 1) as f32 * self.size).max(0.0),
+                    steps => (above[axis] + (steps - 1) as f32 * self.size).max(0.0),
+                };
+                let apart = Vec3::new(apart(0), apart(1), apart(2));
+                if apart.length_squared() > best.0 * best.0 {
+                    continue;
+                }
                 let beside = [0, 1, 2].map(|axis| middle[axis] + i64::from(offset[axis]));
                 for &number in self.members(beside) {
                     let distance = places[number as usize].distance(place);

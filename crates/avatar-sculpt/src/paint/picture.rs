@@ -49,7 +49,7 @@ fn byte(channel: f64) -> u8 {
 
 fn encode(bytes: &[u8], width: usize, colour: ExtendedColorType) -> Result<Vec<u8>> {
     let mut out = Vec::new();
-    png::PngEncoder::new_with_quality(&mut out, png::CompressionType::Best, png::FilterType::Adaptive)
+    png::PngEncoder::new_with_quality(&mut out, png::CompressionType::Best, png::FilterType::Up)
         .write_image(bytes, width as u32, width as u32, colour)
         .context("cannot encode a picture")?;
     Ok(out)

@@ -98,7 +98,8 @@ impl Stage {
         self.gpu.queue.present(frame);
         if is_first && self.motion.is_none() {
             // Nobody waits for wrinkles yet. Where there are drafts, these are rehearsed.
-            self.renderer.prepare(scene, &self.model);
+            let scene = shot.scene(self.config.width, self.config.height, &self.look);
+            self.renderer.prepare(&scene, &self.model);
         }
         match self.gpu.errors.take() {
             None => Ok(Drawn {
