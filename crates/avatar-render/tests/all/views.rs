@@ -4,7 +4,7 @@
 use crate::common::stage::{bare_light, key_light, light_of, lit_scene};
 use crate::common::{ball, gpu, mirrored, model, part, plain, shadings, square};
 use avatar_mesh::{Mesh, PartKind};
-use avatar_render::{Camera, Environment, Lamp, Light, PartTextures};
+use avatar_render::{Camera, Environment, Lamp, Light, Material, PartTextures, Shading, Standard};
 use glam::{Affine3A, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI};
 
@@ -111,6 +111,30 @@ fn skin_and_teeth_are_seen_from_behind_and_teeth_are_lit_there() {
                 // outline.
                 assert!((0.04..0.15).contains(&skin), "{name}, {way}, {yaw}: {skin}");
             }
+        }
+    }
+}
+
+#[test]
+fn skin_of_a_file_is_seen_from_behind_where_the_file_says_so() {
+    let Some(gpu) = gpu() else { return };
+    let sheet = square(Vec3::ZERO, 1.0);
+    let light = bare_light(Environment::uniform([0.3; 3]));
+    for (name, shading) in shadings() {
+        let seen = |yaw, is_double_sided| {
+            let scene = lit_scene(Camera::orbit(Vec3::ZERO, 5.0, yaw, 0.0, 0.6, 1.0), light);
+            let avatar = model(gpu, &[part(&sheet, PartKind::Skin, PartTextures::default())]);
+            let standard = Some(Standard { is_double_sided, ..Standard::default() });
+            let material = Material { standard, ..Material::of(PartKind::Skin) };
+            avatar.0.set_material(&gpu.queue, 0, &material).expect("a part");
+            light_of(shading, SIZE, &scene, &avatar).middle()
+        };
+        assert!(seen(0.0, false).min_element() > 0.1, "{name}");
+        assert_eq!(seen(0.0, false), seen(0.0, true), "{name}");
+        assert_ne!(seen(PI, true), Vec3::ZERO, "{name}");
+        // Cartoons have an outline, which is a back side.
+        if shading != Shading::Toon {
+            assert_eq!(seen(PI, false), Vec3::ZERO, "{name}");
         }
     }
 }

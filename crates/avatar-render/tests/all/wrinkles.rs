@@ -5,8 +5,8 @@ use crate::common::stage::{Picture, Stage, key_light, light_of, lit_scene};
 use crate::common::{gpu, model, part, shadings};
 use avatar_mesh::{Mesh, PartKind, Shape};
 use avatar_render::{
-    AvatarCrowd, AvatarModel, AvatarState, Camera, Image, Light, Material, PartTextures, Shading, Terms,
-    Tone, Wrinkle, Wrinkles,
+    AvatarCrowd, AvatarModel, AvatarState, Camera, Image, Light, Material, PartTextures, Scene, Shading,
+    Terms, Tone, ToneMap, Wrinkle, Wrinkles,
 };
 use glam::{Affine3A, Vec2, Vec3};
 
