@@ -90,8 +90,8 @@ impl Grid {
         let high = ((a.max(b).max(c) + band - self.origin) / self.cell).floor();
         let (low, high) = (low.to_array(), high.to_array());
         let range = |i: usize| low[i] as usize..=(high[i] as usize).min(self.size[i] - 1);
-        // No point of the triangle is nearer to a place than its plane, but for rounding; that of a needle is not
-        // known well enough.
+        // No point of the triangle is nearer to a place than its plane, but for rounding; that of a needle is
+        // not known well enough.
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
         let is_needle = normal.length_squared() < 1e-4 * ab.length_squared() * ac.length_squared();

@@ -122,9 +122,9 @@ impl Renderer {
         self.config
     }
 
-    /// Builds what faces of this model need in this scene as they look now, at rest and with wrinkles, so that
-    /// the first smile does not wait for its pipelines. Call it when there is time, such as after the first
-    /// picture. Where software draws, [`Renderer::rehearse`] does more.
+    /// Builds what faces of this model need in this scene as they look now, at rest and with wrinkles, so
+    /// that the first smile does not wait for its pipelines. Call it when there is time, such as after the
+    /// first picture. Where software draws, [`Renderer::rehearse`] does more.
     pub fn prepare(&self, scene: &Scene, model: &AvatarModel) {
         for (_, part) in model.parts_with_triangles().filter(|(_, part)| part.finish.get().is_none()) {
             for is_wrinkled in [false, true] {

@@ -230,8 +230,8 @@ fn what_wrinkles_need_is_made_when_they_come_or_ahead() {
         assert!(!ahead.renderer.is_ready(&scene, &[(&model, &state)]), "{name}");
         model.set_material(&gpu.queue, 0, &matte()).expect("a part");
         // So does another tone mapping.
-        let light = Light { tone_map: ToneMap::AgX, ..scene.light.clone() };
-        let in_agx = Scene { light, ..scene.clone() };
+        let light = Light { tone_map: ToneMap::AgX, ..scene.light };
+        let in_agx = Scene { light, ..scene };
         assert!(!ahead.renderer.is_ready(&in_agx, &[(&model, &state)]), "{name}");
         ahead.renderer.prepare(&in_agx, &model);
         assert!(ahead.renderer.is_ready(&in_agx, &[(&model, &state)]), "{name}");

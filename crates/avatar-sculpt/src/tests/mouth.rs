@@ -79,8 +79,8 @@ fn an_open_jaw_hollows_the_cheeks_and_draws_them_long() {
     assert!(moved(APPLE).y < -0.1, "{}", moved(APPLE));
 }
 
-/// The least depth of the mouth's inside, from before the gums on, under the skin of lips and chin; below zero
-/// it comes through.
+/// The least depth of the mouth's inside, from before the gums on, under the skin of lips and chin; below
+/// zero it comes through.
 fn bag_under_skin(pack: &Pack, set: &[(&str, f32)]) -> f64 {
     let (skin, p) = (&sculpture().skin, posed(pack, set));
     let patch = |i: usize| skin.half.nodes[skin.vertices[i].source].patch;
