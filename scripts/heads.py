@@ -28,7 +28,8 @@ def three(viewer, makehuman, folder):
 
 def as_vrm(glb):
     """A GLB whose shapes have the names of VRM's expressions as a VRM 1.0: bones of a humanoid by the names of its
-    joints, an expression for each shape, eyes that turn."""
+    joints, an expression for each shape, eyes that turn. It is made for these films: lengths are centimetres, and
+    the neck hangs on no spine, which stricter programs may refuse."""
     (length,) = struct.unpack_from("<I", glb, 12)
     scene = json.loads(glb[20 : 20 + length])
     nodes = {node.get("name"): number for number, node in enumerate(scene["nodes"])}

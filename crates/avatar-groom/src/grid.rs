@@ -94,9 +94,9 @@ impl Grid {
         // not known well enough.
         let (ab, ac) = (b - a, c - a);
         let normal = ab.cross(ac);
-        let is_needle = normal.length_squared() < 1e-4 * ab.length_squared() * ac.length_squared();
+        let is_needle = normal.length_squared() <= 1e-4 * ab.length_squared() * ac.length_squared();
         let plane = if is_needle { Vec3::ZERO } else { normal.normalize_or_zero() * (1.0 - 1e-3) };
-        let slack = 1e-4 * (a.abs().max_element() + band);
+        let slack = 1e-4 * (a.abs().max(b.abs()).max(c.abs()).max_element() + band);
         for z in range(2) {
             for y in range(1) {
                 for x in range(0) {
@@ -246,4 +246,69 @@ fn nearest_on_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> [f32; 3] {
         return [1.0, 0.0, 0.0];
     }
     [va / sum, vb / sum, vc / sum]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pseudonormal::pseudonormals;
+    use crate::random::unit;
+    use avatar_mesh::Mesh;
+
+    /// What is nearest to each place, without passing any triangle over.
+    fn slowly(grid: &mut Grid, triangles: &[[Vec3; 3]]) {
+        let band = BAND * grid.cell;
+        for positions in triangles {
+            let [a, b, c] = *positions;
+            let (low, high) = (a.min(b).min(c) - band, a.max(b).max(c) + band);
+            for index in 0..grid.nearest.len() {
+                let place = grid.place_of(index);
+                let weights = nearest_on_triangle(place, *positions);
+                let point = a * weights[0] + b * weights[1] + c * weights[2];
+                let squared = point.distance_squared(place);
+                // In cells, as `splat` has it.
+                let [from, to] = [low, high].map(|edge| (edge - grid.origin) / grid.cell);
+                let at = ((place - grid.origin) / grid.cell).round();
+                let is_near = at.cmpge(from.ceil()).all() && at.cmple(to.floor()).all();
+                if is_near && squared < grid.nearest[index].squared {
+                    grid.nearest[index] = Nearest { point, squared, ..Nearest::NONE };
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn far_triangles_are_passed_over_and_none_that_is_nearest() {
+        for round in 0..40u64 {
+            let vector = |number: u64| Vec3::from([0, 1, 2].map(|axis| unit(round, 3 * number + axis)));
+            let triangle = |i: u64| {
+                let number = 3 * i;
+                let (a, along) = (2.0 * vector(number), vector(number + 1) - 0.5);
+                // Some are needles, some have no area, some lie in one plane with the places.
+                let aside = match i % 4 {
+                    0 => along * 0.7 + 1e-3 * vector(number + 2),
+                    1 => along * 0.5,
+                    2 => Vec3::new(0.3, 0.0, vector(number + 2).x),
+                    _ => vector(number + 2) - 0.5,
+                };
+                [a, a + along, a + aside]
+            };
+            let triangles: Vec<[Vec3; 3]> = (0..30).map(triangle).collect();
+            let empty = || Grid::new(Vec3::splat(-0.5), 0.25, [12; 3]);
+            let (mut fast, mut slow) = (empty(), empty());
+            let mesh = Mesh {
+                positions: triangles.as_flattened().to_vec(),
+                triangles: (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+                ..Mesh::default()
+            };
+            for (triangle, (_, normals)) in triangles.iter().zip(&pseudonormals(&mesh)) {
+                fast.splat(*triangle, normals, [[0.0; OTHER_BONES]; 3]);
+            }
+            slowly(&mut slow, &triangles);
+            let found = |grid: &Grid| -> Vec<(Vec3, f32)> {
+                grid.nearest.iter().map(|nearest| (nearest.point, nearest.squared)).collect()
+            };
+            assert!(found(&fast) == found(&slow), "{round}");
+        }
+    }
 }

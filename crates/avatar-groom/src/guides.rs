@@ -159,3 +159,28 @@ fn shell(ring: i32) -> impl Iterator<Item = [i32; 3]> {
         (-ring..=ring).step_by(step as usize).map(move |x| [x, y, z])
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::unit;
+
+    #[test]
+    fn the_nearest_of_all_is_found_and_of_equals_the_first() {
+        for round in 0..20u64 {
+            // Places on a coarse grid: many lie at one place, or at the same distance.
+            let step = [0.05, 0.25, 1.0][round as usize % 3];
+            let vector = |number: u64| Vec3::from([0, 1, 2].map(|axis| unit(round, 3 * number + axis) - 0.5));
+            let place = |number: u64| (vector(number) * 4.0 / step).round() * step;
+            let places: Vec<Vec3> = (0..400).map(place).collect();
+            let cells = Cells::new(&places, 2.0);
+            for number in 1000..1300 {
+                // Some of them on the grid as well, some beside it, some far away.
+                let at = [place(number), 4.0 * vector(number), 8.0 * vector(number)][number as usize % 3];
+                let mut all: Vec<(f32, u32)> = (0..).zip(&places).map(|(i, p)| (p.distance(at), i)).collect();
+                all.sort_by(|a, b| a.partial_cmp(b).unwrap());
+                assert_eq!(cells.nearest(&places, at), Some(all[0].1), "{at} {step}");
+            }
+        }
+    }
+}

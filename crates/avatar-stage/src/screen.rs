@@ -4,7 +4,7 @@ use avatar_render::headless::{Gpu, GpuOptions, NoAdapter, open_for_surface};
 use avatar_render::wgpu::util::TextureBlitter;
 use avatar_render::{
     AvatarModel, AvatarState, DrawError, Quality, Renderer, RendererConfig, RendererError, Scene, Shading,
-    SizeError, Style, Targets, wgpu,
+    SizeError, Style, Targets, ToneMap, wgpu,
 };
 
 /// Why there is nothing on the screen.
@@ -58,14 +58,15 @@ pub struct Screen {
     /// no area.
     whole: Option<(Renderer, Option<Targets>)>,
     shading: Shading,
-    /// How frames are seen by what draws them: in sRGB, whatever the surface has, unless software draws.
+    /// How frames are seen by what draws them: in sRGB, whatever the surface has, unless software draws on a
+    /// canvas.
     format: wgpu::TextureFormat,
     /// Whether the window has an area.
     has_area: bool,
     /// Made for the first frame in motion.
     drafts: Option<Drafts>,
-    /// Whether it was made ready for wrinkles.
-    is_prepared: bool,
+    /// The tone mapping with which it was made ready for wrinkles.
+    prepared: Option<ToneMap>,
     /// Where a surface is only seen as sRGB: what whole frames are drawn on, and how they get from there to
     /// the surface. Samples that are resolved straight to such a view come out dark in some browsers.
     between: Option<(TextureBlitter, Option<wgpu::TextureView>)>,
@@ -145,9 +146,9 @@ impl Screen {
         }
         let blitter = || TextureBlitter::new(&gpu.device, format);
         let between = (format != config.format).then(|| (blitter(), None));
-        let (whole, drafts, has_area, is_prepared) = (None, None, false, false);
+        let (whole, drafts, has_area, prepared) = (None, None, false, None);
         let mut screen =
-            Self { surface, config, gpu, whole, shading, format, has_area, drafts, is_prepared, between };
+            Self { surface, config, gpu, whole, shading, format, has_area, drafts, prepared, between };
         screen.resize(width, height)?;
         Ok(screen)
     }
@@ -333,7 +334,9 @@ impl Screen {
         self.gpu.queue.present(frame);
         // Software compiles what draws when it first does, and would wait here for nothing.
         let is_software = self.gpu.info.device_type == wgpu::DeviceType::Cpu;
-        if step.is_none() && !is_software && !std::mem::replace(&mut self.is_prepared, true) {
+        let tone_map = Some(scene.light.tone_map);
+        if step.is_none() && !is_software && self.prepared != tone_map {
+            self.prepared = tone_map;
             let renderer = self.whole.iter().map(|(renderer, _)| renderer);
             renderer
                 .for_each(|renderer| avatars.iter().for_each(|(model, _)| renderer.prepare(scene, model)));
@@ -356,7 +359,7 @@ impl Screen {
         if shading == self.shading {
             return Ok(());
         }
-        (self.shading, self.drafts, self.is_prepared) = (shading, None, false);
+        (self.shading, self.drafts, self.prepared) = (shading, None, None);
         match self.whole.take() {
             Some(_) => self.whole().map(|_| ()),
             None => Ok(()),

@@ -17,7 +17,7 @@ pub(crate) struct Drawable {
     /// What its program can show.
     pub(crate) effects: Effects,
     pub(crate) cull_mode: Option<wgpu::Face>,
-    /// Whether it shows the back sides of what another one shows from the front.
+    /// Whether it shows the back sides of what another one shows from the front: of skin that has some.
     pub(crate) is_back: bool,
     /// Whether it is blended over what is there, without writing depth.
     pub(crate) is_transparent: bool,
@@ -56,7 +56,8 @@ pub(crate) fn draw_order(shading: Shading) -> Vec<Drawable> {
         part(PartKind::Eyeball, "eyeball", programs.eyeball, fronts),
         Drawable {
             effects: Effects::COLORS,
-            is_back: true,
+            // A cartoon's outline lies behind it.
+            is_back: shading != Shading::Toon,
             ..part(PartKind::Skin, "skin back", programs.skin_back, backs)
         },
     ];

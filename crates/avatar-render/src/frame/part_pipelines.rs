@@ -78,7 +78,7 @@ impl Layouts {
 #[derive(Debug)]
 pub(crate) struct PassPipelines {
     pub(crate) shadow: Option<wgpu::RenderPipeline>,
-    /// Skin and eyeballs from the front, teeth from both sides.
+    /// From the front, and from both sides.
     pub(crate) prepass: Option<[wgpu::RenderPipeline; 2]>,
     pub(crate) occlusion: Option<wgpu::RenderPipeline>,
     pub(crate) scatter_across: Option<wgpu::RenderPipeline>,

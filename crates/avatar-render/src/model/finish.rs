@@ -92,7 +92,7 @@ impl FinishCell {
         self.0.store(bits | flag(is_one_sided, ONE_SIDED), Ordering::Relaxed);
     }
 
-    /// Whether it can be seen from behind. Files say so of their materials; what has none can.
+    /// Whether it can be seen from behind. The material of a file says so; parts without one can.
     pub(crate) fn has_back(&self) -> bool {
         self.0.load(Ordering::Relaxed) & ONE_SIDED == 0
     }

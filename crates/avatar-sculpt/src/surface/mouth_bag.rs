@@ -54,7 +54,7 @@ pub fn add(half: &mut Half, loops: &Loops) {
                 // Toward the corner the lips come together again, behind as well as in front.
                 let along = start.p.x / MOUTH_HALF_WIDTH;
                 let height = open * side.signum() * side.abs().min(1.0) * (1.0 - along * along * along);
-                // Thinner before the canines, which a jaw that goes sideways takes them across.
+                // Thinner before the canines: a jaw that goes sideways moves the lips across there.
                 let depth = depth * (1.0 - 0.8 * along * along * (1.0 - along * along));
                 DVec3::new(start.p.x * share, start.p.y + height, start.p.z - depth)
             } else {
