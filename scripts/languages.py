@@ -13,7 +13,6 @@ import tempfile
 from pathlib import Path
 
 import heads
-from heads import run
 
 RATE = 25
 SENTENCES = [
@@ -35,7 +34,7 @@ def main():
                 frames = folder / f"{voice}{place}"
                 command = [viewer, "speak", *avatar, "--say", text, "--voice", voice, "--life", "lively", "--seed", "3"]
                 command += ["--quality", "low", "--fps", RATE, "--size", f"{heads.WIDTH}x{heads.HEIGHT}", "--out", f"{frames}/"]
-                run(*command)
+                heads.run(*command)
                 films.append(sorted(frames.glob("*.png")))
             beside = folder / voice
             beside.mkdir()
@@ -47,12 +46,12 @@ def main():
             sound = next((folder / f"{voice}0").glob("*.wav"))
             encode = ["ffmpeg", "-y", "-loglevel", "error", "-framerate", RATE, "-i", beside / "%04d.png", "-i", sound]
             encode += ["-af", "apad", "-shortest", "-c:v", "libx264", "-crf", 26, "-pix_fmt", "yuv420p"]
-            run(*encode, "-c:a", "aac", "-b:a", "64k", part)
+            heads.run(*encode, "-c:a", "aac", "-b:a", "64k", part)
             parts.append(f"file '{part}'\n")
         listed = folder / "parts.txt"
         listed.write_text("".join(parts))
         join = ["ffmpeg", "-y", "-loglevel", "error", "-f", "concat", "-safe", 0, "-i", listed, "-c", "copy"]
-        run(*join, "-movflags", "+faststart", film)
+        heads.run(*join, "-movflags", "+faststart", film)
         # Without sound, in a third of the pictures: what shows itself in a document.
         heads.save(pictures[::3], moving, round(3000 / RATE), 55)
 

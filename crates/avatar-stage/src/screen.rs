@@ -139,8 +139,7 @@ impl Screen {
         let mut format = config.format;
         // A canvas has no such format, but can be seen as if it had. Not where software draws: there it takes
         // thirty times as long to resolve samples in linear light, and a copy beside.
-        let is_software = gpu.info.device_type == wgpu::DeviceType::Cpu;
-        if cfg!(target_arch = "wasm32") && !format.is_srgb() && !is_software {
+        if cfg!(target_arch = "wasm32") && !format.is_srgb() && !is_software(&gpu) {
             format = format.add_srgb_suffix();
             config.view_formats = vec![format];
         }
@@ -333,9 +332,8 @@ impl Screen {
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.queue.present(frame);
         // Software compiles what draws when it first does, and would wait here for nothing.
-        let is_software = self.gpu.info.device_type == wgpu::DeviceType::Cpu;
         let tone_map = Some(scene.light.tone_map);
-        if step.is_none() && !is_software && self.prepared != tone_map {
+        if step.is_none() && !is_software(&self.gpu) && self.prepared != tone_map {
             self.prepared = tone_map;
             let renderer = self.whole.iter().map(|(renderer, _)| renderer);
             renderer
@@ -375,6 +373,10 @@ impl Screen {
             Some(reason) => Err(ScreenError::Device { reason }),
         }
     }
+}
+
+fn is_software(gpu: &Gpu) -> bool {
+    gpu.info.device_type == wgpu::DeviceType::Cpu
 }
 
 /// The best that the adapter draws smoothly, after nature.

@@ -111,6 +111,7 @@ impl<'a> Recording<'a> {
         let depth = depth_attachment(&targets.single_depth);
         let mut pass = self.begin(encoder, Pass::Prepass, Some(&targets.normals), Some(depth));
         self.set_groups(&mut pass, &targets.for_prepass);
+        // Of skin, what has a back from both sides, and the rest from the front.
         for (kind, place) in
             [(PartKind::Skin, 1), (PartKind::Skin, 0), (PartKind::Surface, 1), (PartKind::Eyeball, 0)]
         {

@@ -8,7 +8,7 @@ use super::{
     load::{loaded, posed, values},
     mesh, sculpture,
 };
-use crate::{mesh::normals, surface::half::Patch};
+use crate::{anatomy::MOUTH_Y, mesh::normals, surface::half::Patch};
 
 /// Half of the line between the lips, on the left: over the upper lip to the corner and back.
 fn rim(pack: &Pack, set: &[(&str, f32)]) -> Vec<DVec3> {
@@ -91,7 +91,7 @@ fn bag_under_skin(pack: &Pack, set: &[(&str, f32)]) -> f64 {
     let near = || (0..p.len()).filter(about_mouth);
     let outer: Vec<usize> = near().filter(|i| patch(*i) == Patch::Sheet).collect();
     // Above and below the lips, every third one.
-    let is_inner = |i: &usize| patch(*i) == Patch::Mouth && (at(*i).y + 5.6).abs() > 1.0;
+    let is_inner = |i: &usize| patch(*i) == Patch::Mouth && (at(*i).y - MOUTH_Y).abs() > 1.0;
     let inner: Vec<usize> = near().filter(is_inner).step_by(3).collect();
     assert!(inner.len() > 30 && outer.len() > 1000, "{} under {}", inner.len(), outer.len());
     let depth = |i: usize| {
