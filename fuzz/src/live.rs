@@ -1,5 +1,5 @@
 use avatar_live::{
-    Calibration, ControlMap, Frame, IFacialMocap, LiveLink, MediaPipe, Protocol, Receiver, Separator,
+    Calibration, ControlMap, Frame, IFacialMocap, LiveLink, MediaPipe, MediaPipeReader, Protocol, Receiver, Separator,
     Settings, Vmc, VmcSender, mediapipe_line, read_osc, read_table,
 };
 use pose_anim::ControlTable;
@@ -79,6 +79,11 @@ fn again(data: &[u8]) {
         written.clear();
         mediapipe_line(&frame, &mut written);
         assert!(MediaPipe::decode(&written).is_ok());
+    }
+    // A line says the same, whatever lines came before.
+    let mut reader = MediaPipeReader::default();
+    for line in data.split(|byte| *byte == b'\n').take(16) {
+        assert_eq!(reader.read(line), MediaPipe::decode(line));
     }
     let mut messages = 0usize;
     let _ = read_osc(data, &mut |message| messages += 1 + message.args().count());

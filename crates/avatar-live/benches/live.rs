@@ -3,8 +3,8 @@
 #![allow(missing_docs, clippy::unwrap_used, reason = "a program")]
 
 use avatar_live::{
-    ControlMap, Frame, FrameTime, IFacialMocap, LiveLink, MediaPipe, Protocol, Receiver, Separator, Settings,
-    Vmc, VmcSender, channels, mediapipe_line,
+    ControlMap, Frame, FrameTime, IFacialMocap, LiveLink, MediaPipe, MediaPipeReader, Protocol, Receiver,
+    Separator, Settings, Vmc, VmcSender, channels,
 };
 use divan::{Bencher, black_box};
 use pose_anim::ControlTable;
@@ -53,11 +53,41 @@ fn decode_ifacialmocap(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| IFacialMocap::decode(black_box(&packet)).unwrap());
 }
 
+/// Lines as a browser writes them: numbers of 32 bits with the digits of 64.
+fn mediapipe(index: usize) -> String {
+    let face = face(index);
+    let categories = channels().iter().take(52).enumerate().map(|(channel, about)| {
+        let score = f64::from(face.get(channel).unwrap());
+        let (number, name) = (channel + 1, about.name);
+        format!(r#"{{"index":{number},"score":{score},"categoryName":"{name}","displayName":""}}"#)
+    });
+    let categories = categories.collect::<Vec<_>>().join(",");
+    let (sin, cos) = (0.01 * index as f32).sin_cos();
+    let rows =
+        [cos, 0.0, -sin, 0.0, 0.0, 1.0, 0.0, 0.0, sin, 0.0, cos, 0.0, 0.3 * sin, 3.1 * cos, -41.7, 1.0];
+    let rows = rows.map(|number| f64::from(number).to_string()).join(",");
+    format!(
+        r#"{{"faceBlendshapes":[{{"categories":[{categories}],"headIndex":-1,"headName":""}}],"facialTransformationMatrixes":[{{"rows":4,"columns":4,"data":[{rows}]}}],"timestampMs":{}}}"#,
+        index as f64 * 16.7
+    )
+}
+
+/// A line that is read for itself, as the first one of a sender is.
+#[divan::bench]
+fn decode_mediapipe_first(bencher: Bencher<'_, '_>) {
+    let line = mediapipe(5);
+    bencher.bench_local(|| MediaPipe::decode(black_box(line.as_bytes())).unwrap());
+}
+
+/// Lines of one sender, each with other numbers.
 #[divan::bench]
 fn decode_mediapipe(bencher: Bencher<'_, '_>) {
-    let mut line = Vec::new();
-    mediapipe_line(&face(5), &mut line);
-    bencher.bench_local(|| MediaPipe::decode(black_box(&line)).unwrap());
+    let lines: Vec<_> = (0..16).map(mediapipe).collect();
+    let (mut reader, mut index) = (MediaPipeReader::default(), 0);
+    bencher.bench_local(|| {
+        index = (index + 1) % lines.len();
+        reader.read(black_box(lines[index].as_bytes())).unwrap()
+    });
 }
 
 /// A packet of Live Link Face from its bytes to the values of the default face's controls, with smoothing.

@@ -121,6 +121,25 @@ impl<'a> Iterator for Args<'a> {
 /// are nested deeper than eight, sizes that are no multiple of four or larger than what is there. Messages
 /// before the mistake have been shown.
 pub fn read_osc<'a>(packet: &'a [u8], show: &mut dyn FnMut(Message<'a>)) -> Result<(), DecodeError> {
+    element(Bytes::new(packet), None, DEPTH, &mut |read| {
+        if let Read::Message(message) = read {
+            show(message);
+        }
+        false
+    })
+}
+
+/// A message, before it has been looked at and after.
+pub(crate) enum Read<'a> {
+    Bytes(&'a [u8]),
+    Message(Message<'a>),
+}
+
+/// As [`read_osc`], but shows the bytes of each message first: where that returns true, it is not read.
+pub(crate) fn read_osc_unless<'a>(
+    packet: &'a [u8],
+    show: &mut dyn FnMut(Read<'a>) -> bool,
+) -> Result<(), DecodeError> {
     element(Bytes::new(packet), None, DEPTH, show)
 }
 
@@ -128,11 +147,15 @@ fn element<'a>(
     mut bytes: Bytes<'a>,
     time: Option<u64>,
     depth: usize,
-    show: &mut dyn FnMut(Message<'a>),
+    show: &mut dyn FnMut(Read<'a>) -> bool,
 ) -> Result<(), DecodeError> {
     const START: &str = "an address that begins with /, or #bundle";
     match bytes.rest().first() {
-        Some(b'/') => return message(bytes, time, show),
+        Some(b'/') if show(Read::Bytes(bytes.rest())) => return Ok(()),
+        Some(b'/') => {
+            message(bytes, time).map(|message| show(Read::Message(message)))?;
+            return Ok(());
+        }
         Some(b'#') => {}
         _ => return Err(bytes.wrong(START)),
     }
@@ -162,11 +185,7 @@ fn element<'a>(
     Ok(())
 }
 
-fn message<'a>(
-    mut bytes: Bytes<'a>,
-    time: Option<u64>,
-    show: &mut dyn FnMut(Message<'a>),
-) -> Result<(), DecodeError> {
+fn message(mut bytes: Bytes<'_>, time: Option<u64>) -> Result<Message<'_>, DecodeError> {
     let address = string(&mut bytes)?;
     // Old senders leave the types out where there are no arguments.
     let tags: &[u8] = match bytes.is_empty() {
@@ -184,8 +203,7 @@ fn message<'a>(
     if !bytes.is_empty() {
         return Err(bytes.wrong("the end of the message"));
     }
-    show(Message { address, time, tags, data });
-    Ok(())
+    Ok(Message { address, time, tags, data })
 }
 
 fn arg<'a>(tag: u8, bytes: &mut Bytes<'a>) -> Result<Arg<'a>, DecodeError> {

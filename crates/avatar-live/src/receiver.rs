@@ -138,7 +138,10 @@ impl Receiver {
                 self.accept(now_secs, origin, protocol, ["", ""], &frame)
             }
             Protocol::MediaPipe => {
-                let frame = MediaPipe::decode(packet)?;
+                let frame = match self.find(origin, protocol, ["", ""]) {
+                    Some((_, sender)) => sender.mediapipe.read(packet),
+                    None => MediaPipe::decode(packet),
+                }?;
                 self.accept(now_secs, origin, protocol, ["", ""], &frame)
             }
             Protocol::Vmc => self.vmc(now_secs, origin, packet),

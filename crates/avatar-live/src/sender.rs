@@ -5,7 +5,7 @@ use crate::channel::CHANNELS;
 use crate::clock::Clock;
 use crate::lag::{Step, ThreeLags};
 use crate::motion::Motion;
-use crate::{Frame, Protocol, Settings, Vmc};
+use crate::{Frame, MediaPipeReader, Protocol, Settings, Vmc};
 use core::net::SocketAddr;
 
 /// So many latenesses are remembered.
@@ -60,6 +60,7 @@ pub(crate) struct Sender {
     pub(crate) protocol: Protocol,
     pub(crate) origin: SocketAddr,
     pub(crate) vmc: Vmc,
+    pub(crate) mediapipe: MediaPipeReader,
     clock: Option<Clock>,
     buffer: Buffer,
     pub(crate) motion: Motion,
@@ -92,6 +93,7 @@ impl Sender {
             protocol,
             origin,
             vmc: Vmc::default(),
+            mediapipe: MediaPipeReader::default(),
             clock: None,
             buffer: Buffer::new(),
             motion: Motion::new(),
@@ -158,7 +160,7 @@ impl Sender {
         if self.lateness_count >= 2 * LATENESSES {
             self.lateness_count = LATENESSES;
         }
-        if lateness > self.jitter_secs + self.period_secs() {
+        if lateness > self.bridged_secs(settings) {
             self.late += 1;
         }
         let count = self.lateness_count.min(LATENESSES);
@@ -168,6 +170,12 @@ impl Sender {
             let (_, enough, _) = sorted.select_nth_unstable_by(place, f32::total_cmp);
             self.jitter_secs = f64::from(*enough).min(settings.jitter_limit_secs);
         }
+    }
+
+    /// How much later than it could be the line is where frames are: that bridges jitter and leads to the next one.
+    fn bridged_secs(&self, settings: &Settings) -> f64 {
+        let period_secs = self.period_secs();
+        self.jitter_secs + period_secs - settings.lead_secs.min(period_secs / 2.0).max(0.0)
     }
 
     fn period_secs(&self) -> f64 {
@@ -204,7 +212,7 @@ impl Sender {
             self.motion.restart();
             return;
         }
-        let toward_secs = clock.theirs(now_secs) - self.jitter_secs - self.period_secs();
+        let toward_secs = clock.theirs(now_secs) - self.bridged_secs(settings);
         self.motion.advance(&self.buffer, toward_secs, dt_secs, settings);
         // Three lags of a third each.
         self.share.go(&Step::new(3.0 / settings.ease_secs.max(1e-3), dt_secs), target);
@@ -261,7 +269,7 @@ impl Sender {
             reordered: self.reordered,
             duplicates: self.duplicates,
             late: self.late,
-            delay_secs: self.jitter_secs + self.period_secs() + settings.lag_secs,
+            delay_secs: self.bridged_secs(settings) + settings.lag_secs,
             drift_ppm: self.clock.as_ref().map_or(0.0, |clock| clock.drift() * 1e6),
         }
     }

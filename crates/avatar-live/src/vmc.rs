@@ -1,8 +1,9 @@
 //! The VMC protocol (<https://protocol.vmc.info/english>) and plain Open Sound Control, in and out.
 
-use crate::channel::{SHAPES, channels};
+use crate::channel::{SHAPES, channels, find};
+use crate::osc::{Read, read_osc_unless};
 use crate::turn::{self, Eye, Quaternion, about, head, matrix, other_handed, times};
-use crate::{Arg, DecodeError, Frame, Message, OscWriter, read_osc};
+use crate::{Arg, DecodeError, Frame, Message, OscWriter};
 
 /// Addresses of the messages that VMC's senders send.
 const VALUE: &str = "/VMC/Ext/Blend/Val";
@@ -55,11 +56,22 @@ impl Vmc {
     /// of its messages were understood.
     ///
     /// # Errors
-    /// As those of [`read_osc`]; what stands before the mistake counts. Messages that are well-formed but say
+    /// As those of [`crate::read_osc`]; what stands before the mistake counts. Messages that are well-formed but say
     /// something else are passed over.
     pub fn read(&mut self, packet: &[u8]) -> Result<(Option<Frame>, usize), DecodeError> {
         let (mut understood, mut done, mut plain) = (0, None, None);
-        read_osc(packet, &mut |message| {
+        read_osc_unless(packet, &mut |read| {
+            let message = match read {
+                Read::Message(message) => message,
+                Read::Bytes(bytes) => {
+                    let known = known_value(bytes);
+                    if let Some((channel, value)) = known {
+                        self.frame.set(channel, value);
+                        understood += 1;
+                    }
+                    return known.is_some();
+                }
+            };
             let is_understood = match message.address.starts_with("/VMC/") {
                 true => self.message(&message, &mut done).is_some(),
                 false => {
@@ -71,6 +83,7 @@ impl Vmc {
                 }
             };
             understood += usize::from(is_understood);
+            true
         })?;
         if let Some(time) = plain {
             // In 2⁻³² of a second, of which the upper half are seconds.
@@ -165,6 +178,29 @@ impl Vmc {
     }
 }
 
+/// The bytes of a message that gives a channel its value, as all senders write it: a packet has dozens of them,
+/// and reading them as any other message takes three times as long. `None` for what has to be read so.
+fn known_value(bytes: &[u8]) -> Option<(usize, f32)> {
+    let (text, value) = bytes.strip_prefix(b"/VMC/Ext/Blend/Val\0\0,sf\0")?.split_last_chunk()?;
+    let value = f32::from_be_bytes(*value);
+    // A text ends with one to four zeros, up to a multiple of four bytes.
+    let name = match text.as_chunks() {
+        (words, []) => {
+            let [.., last] = words else { return None };
+            let zeros = match last {
+                [0, 0, 0, 0] => 4,
+                [_, 0, 0, 0] => 3,
+                [_, _, 0, 0] => 2,
+                [_, _, _, 0] => 1,
+                _ => return None,
+            };
+            text.get(..text.len() - zeros)?
+        }
+        _ => return None,
+    };
+    Some((find(name)?, value)).filter(|_| value.is_finite())
+}
+
 /// Packets are no larger than this, so that networks do not divide them.
 const PACKET_LIMIT: usize = 1400;
 
@@ -214,5 +250,54 @@ impl VmcSender {
             self.begin();
             OscWriter::new(&mut self.packet).element(|out| out.message(address, args));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
+    use super::*;
+    use crate::read_osc;
+
+    /// What the short way knows, the long way reads as the same.
+    #[test]
+    fn known_values_are_those_of_any_message() {
+        let mut messages = Vec::new();
+        for name in ["jawOpen", "A", "Joy", "mouthSmileLeft", "blink_l", "nobody", "", "Größe"] {
+            for value in [0.25, -1.0, 2.0, f32::NAN, f32::INFINITY] {
+                let mut packet = Vec::new();
+                OscWriter::new(&mut packet).message(VALUE, &[Arg::Text(name), Arg::Float(value)]);
+                messages.push(packet);
+            }
+        }
+        let mut state = 3u32;
+        let mut random = |below: usize| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as usize % below
+        };
+        let mut known = 0;
+        for message in messages {
+            for change in 0..2000 {
+                let mut changed = message.clone();
+                if change > 0 {
+                    let at = random(changed.len());
+                    changed[at] = [0, b',', b'f', b's', b'A', b'_', 0x7f, 0x80][random(8)];
+                    changed.truncate(message.len() - random(3) / 2 * 4);
+                }
+                let Some((channel, value)) = known_value(&changed) else { continue };
+                known += 1;
+                let mut read = None;
+                read_osc(&changed, &mut |message| {
+                    let mut args = message.args();
+                    let name = args.text().unwrap();
+                    let [number] = args.numbers().unwrap();
+                    read = Some((message.address == VALUE, find(name.as_bytes()), number as f32));
+                })
+                .unwrap();
+                assert_eq!(read, Some((true, Some(channel), value)));
+            }
+        }
+        assert!(known > 3000, "{known}");
     }
 }

@@ -82,7 +82,7 @@ fn senders(ui: &mut Ui, live: &Live<'_>, actions: &mut Vec<Action>) {
         ui.indent(("sender", index), |ui| ui.weak(numbers(sender)));
     }
     if let Some(ms) = live.draw_ms {
-        ui.weak(format!("A packet is drawn {ms:.0} ms after its time has come."));
+        ui.weak(format!("A face is drawn {ms:.0} ms after its time."));
     }
 }
 

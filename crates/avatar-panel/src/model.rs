@@ -191,7 +191,7 @@ pub struct Live<'a> {
     pub senders: &'a [LiveSender<'a>],
     /// Whether the sender that is followed was chosen; otherwise whoever sends a face is.
     pub is_choice: bool,
-    /// Milliseconds from the time for which a frame is computed to when it is handed to the screen.
+    /// Milliseconds from the time for which a frame is computed to when it is drawn.
     pub draw_ms: Option<f32>,
     /// Whether something else than zero counts as the person's neutral face.
     pub is_calibrated: bool,

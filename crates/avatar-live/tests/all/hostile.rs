@@ -2,8 +2,8 @@
 
 use crate::chance::Chance;
 use avatar_live::{
-    FrameTime, Gate, IFacialMocap, LiveLink, MediaPipe, OscWriter, Protocol, Receiver, Refused, Separator,
-    Settings, VmcSender, mediapipe_line, read_osc,
+    FrameTime, Gate, IFacialMocap, LiveLink, MediaPipe, MediaPipeReader, OscWriter, Protocol, Receiver,
+    Refused, Separator, Settings, VmcSender, mediapipe_line, read_osc,
 };
 
 /// A good packet of each protocol.
@@ -69,6 +69,53 @@ fn deep_bundles_and_long_packets_are_refused() {
     assert!(MediaPipe::decode(&deep).is_err());
     let line = [br#"{"faceBlendshapes":"#.to_vec(), deep].concat();
     assert!(MediaPipe::decode(&line).is_err());
+}
+
+/// Whatever lines a sender has sent before, the next one says what it says for itself.
+#[test]
+fn a_line_does_not_depend_on_the_lines_before_it() {
+    let mut chance = Chance::new(11);
+    let mut lines = Vec::new();
+    for index in 0..4 {
+        let mut face = chance.frame();
+        face.time_secs = (index % 2 == 0).then_some(0.25 * f64::from(index));
+        let mut line = Vec::new();
+        mediapipe_line(&face, &mut line);
+        lines.push(line);
+    }
+    for line in [
+        r#"{"faceLandmarks":[[{"x":0.51,"y":0.5,"z":-0.01}]],"faceBlendshapes":[{"categories":[{"index":1,"score":0.25,"categoryName":"jawOpen","displayName":"\"1.5\\"},{"score":1e-3,"categoryName":"_neutral"}]},{"categories":[{"score":0.5,"categoryName":"jawLeft"}]}],"facialTransformationMatrixes":[{"rows":4,"columns":4,"data":[1,0,0,0,0,1,0,0,0,0,1,0,1.5,2.5,-40,1]}],"timestampMs":40.25}"#,
+        r#"{"timestamp_ms":40,"face_blendshapes":[[{"score":0.25,"category_name":"jawOpen","score":0.75}]],"facial_transformation_matrixes":[[[1,0,0,1.5],[0,1,0,2.5],[0,0,1,-40],[0,0,0,1]]]}"#,
+        r#"{"timestampMs":7,"facialTransformationMatrixes":[[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]],"timestampMs":null,"facialTransformationMatrixes":[[0,0,1,0,0,1,0,0,-1,0,0,0,0,0,0,1]],"timestampMs":9}"#,
+        r#"{"faceBlendshapes":[],"number":1e999,"text":"\ud800"}"#,
+    ] {
+        lines.push(line.as_bytes().to_vec());
+    }
+    let mut reader = MediaPipeReader::default();
+    let mut read = 0;
+    for line in &lines {
+        for _ in 0..4000 {
+            let mut changed = line.clone();
+            // Digits for digits mostly, so that the words stay as they are; now and then anything.
+            for _ in 0..chance.bits() % 4 {
+                let at = chance.bits() as usize % changed.len();
+                let byte = &mut changed[at];
+                match (byte.is_ascii_digit(), chance.bits() % 8) {
+                    (true, 1..) => *byte = b"0123456789"[chance.bits() as usize % 10],
+                    (_, 0) => *byte = chance.bits() as u8,
+                    _ => {}
+                }
+            }
+            if chance.bits() % 16 == 0 {
+                let at = chance.bits() as usize % changed.len();
+                changed.splice(at..at, *b"0.5");
+            }
+            let expected = MediaPipe::decode(&changed);
+            read += u32::from(expected.is_ok());
+            assert_eq!(reader.read(&changed), expected, "{}", String::from_utf8_lossy(&changed));
+        }
+    }
+    assert!(read > 16_000, "{read}");
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use crate::chance::Chance;
 use avatar_live::{
-    Arg, Frame, FrameTime, IFacialMocap, LiveLink, MediaPipe, OscWriter, Separator, Vmc, VmcSender,
-    mediapipe_line, read_osc,
+    Arg, Frame, FrameTime, IFacialMocap, LiveLink, MediaPipe, MediaPipeReader, OscWriter, Separator, Vmc,
+    VmcSender, mediapipe_line, read_osc,
 };
 
 const FRAMES: usize = 10_000;
@@ -80,6 +80,7 @@ fn ifacialmocap() {
 #[test]
 fn mediapipe() {
     let (mut chance, mut line) = (Chance::new(4), Vec::new());
+    let mut reader = MediaPipeReader::default();
     for frame in 0..FRAMES {
         let whole = chance.frame();
         let mut face = Frame::at(Some(frame as f64 / 32.0));
@@ -88,6 +89,7 @@ fn mediapipe() {
         line.clear();
         mediapipe_line(&face, &mut line);
         let read = MediaPipe::decode(&line).unwrap();
+        assert_eq!(reader.read(&line).unwrap(), read);
         assert_eq!(read.time_secs, face.time_secs);
         near(&face, &read, 1e-4);
         for (channel, value) in face.iter().take(52) {

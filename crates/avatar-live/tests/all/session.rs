@@ -105,6 +105,48 @@ fn on_a_good_network_a_frame_is_there_one_frame_and_five_milliseconds_later() {
     assert!((delay_secs - (1.0 / 60.0 + 0.005)).abs() < 1e-6, "{delay_secs}");
 }
 
+/// Where drawing takes a while, the face is early by that: a frame is seen no later than without.
+#[test]
+fn the_time_of_drawing_is_made_up_for() {
+    // How far from a frame the face is when that frame has to be seen: one frame and 5 ms after it came.
+    let run = |draw_secs: f64, lead_secs: f64| {
+        let mut receiver = Receiver::new(Settings { lead_secs, ..Settings::default() });
+        let mut worst = 0.0f32;
+        for frame in 0..600 {
+            let came_secs = f64::from(frame) / 60.0;
+            receiver
+                .receive(came_secs, PHONE, Protocol::LiveLink, &packet("Ann", frame, jaw(came_secs)))
+                .unwrap();
+            // The frame before is seen some time after this one has come.
+            for step in 0..=12 {
+                receiver.advance(came_secs + f64::from(step) / (60.0 * 16.0));
+            }
+            let seen_secs = came_secs + 1.0 / 60.0 + 0.005;
+            let drawn_secs = seen_secs - draw_secs;
+            receiver.advance(drawn_secs);
+            if frame > 240 {
+                worst = worst.max((jaw_of(&receiver) - jaw(came_secs)).abs());
+            }
+        }
+        (worst, receiver.senders().next().unwrap().delay_secs)
+    };
+    for draw_secs in [0.006, 1.0 / 120.0] {
+        let (worst, delay_secs) = run(draw_secs, draw_secs);
+        let (without, _) = run(draw_secs, 0.0);
+        assert!((delay_secs - (1.0 / 60.0 + 0.005 - draw_secs)).abs() < 1e-6, "{delay_secs}");
+        // The jaw moves by 3 a second at most, and twice as fast on the way to a frame. 5 ms after that ends, two
+        // lags of 2.5 ms are behind by 4 · exp(−2) · 2.5 ms of it.
+        println!("{draw_secs}: {worst}, {without}");
+        assert!(worst < 2.0 * 3.0 * 0.00136, "{worst}");
+        assert!(without > 1.5 * worst, "{without} {worst}");
+    }
+    // Never by more than half of a frame, whatever is said.
+    for (lead_secs, expected_secs) in [(1.0, 0.5 / 60.0), (-1.0, 1.0 / 60.0), (f64::NAN, 0.5 / 60.0)] {
+        let (_, delay_secs) = run(0.006, lead_secs);
+        assert!((delay_secs - 0.005 - expected_secs).abs() < 1e-6, "{lead_secs}: {delay_secs}");
+    }
+}
+
 #[test]
 fn a_gap_is_held_then_eased_to_neutral_and_back() {
     let mut receiver = Receiver::new(Settings::default());

@@ -11,7 +11,9 @@ fn nothing_makes_it_jump() {
     let rate = 2.0 / lag_secs;
     for seed in 0..3 {
         let mut chance = Chance::new(seed);
-        let settings = Settings { lag_secs, hold_secs: 0.1, ease_secs: 0.2, ..Settings::default() };
+        let lead_secs = 0.004 * seed as f64;
+        let settings =
+            Settings { lag_secs, lead_secs, hold_secs: 0.1, ease_secs: 0.2, ..Settings::default() };
         let mut receiver = Receiver::new(settings);
         let mut next = [0.0, 0.0];
         let mut past = [0.0f64; 4];

@@ -10,7 +10,7 @@ use super::messages::About;
 use super::overlay::Painted;
 use super::presenter::Presenter;
 use super::session::Session;
-use super::stage::Stage;
+use super::stage::{Drawn, Stage};
 use super::stirring::Change;
 use super::talking::Talking;
 use anyhow::Result;
@@ -36,6 +36,9 @@ impl App {
     pub(super) fn frame(&mut self, event_loop: &ActiveEventLoop) -> Result<()> {
         if self.presenter.stage.as_ref().is_some_and(Stage::is_lost) {
             return self.reopen(event_loop);
+        }
+        if let Some(stage) = &mut self.presenter.stage {
+            self.live.finished(stage.ready()?);
         }
         let began = Instant::now();
         self.presenter.frames.begin(began);
@@ -70,8 +73,10 @@ impl App {
         if let (Some(overlay), Some(painted)) = (&presenter.overlay, &mut painted) {
             overlay.mark(painted);
         }
-        let is_whole_again = presenter.draw(session, painted.as_ref(), acts, change)?;
-        live.drawn(is_driven);
+        let drawn = presenter.draw(session, painted.as_ref(), acts, change)?;
+        if is_driven {
+            live.drawn(&drawn);
+        }
 
         let acts = session.face.acts() || is_driven;
         let (lives, swings) = (session.face.lives(), presenter.frames.swings());
@@ -80,7 +85,7 @@ impl App {
         presenter.frames.end(began, acts, runs, again);
         presenter.stir_later(session);
         // Nothing moves: no frame until something happens.
-        if acts || swings || has_acted || again.is_zero() || has_more || is_whole_again {
+        if acts || swings || has_acted || again.is_zero() || has_more || drawn.whole_again {
             presenter.redraw();
         } else if let Some(due) = presenter.stage.as_mut().and_then(Stage::comes_to_rest) {
             presenter.frames.no_later(due);
@@ -243,16 +248,16 @@ impl Presenter {
         Some(overlay.run(stage.window(), &model, actions))
     }
 
-    /// Draws the face and the panel. Returns whether a draft gave way to the whole picture.
+    /// Draws the face and the panel.
     fn draw(
         &mut self,
         session: &Session,
         painted: Option<&Painted>,
         acts: bool,
         change: Change,
-    ) -> Result<bool> {
+    ) -> Result<Drawn> {
         let shot = self.shot(session, painted.map(|painted| painted.free));
-        let Some(stage) = &mut self.stage else { return Ok(false) };
+        let Some(stage) = &mut self.stage else { return Ok(Drawn::default()) };
         let hangs = !acts && (!session.face.lives() || change.spares_hair(stage.is_software()));
         stage.advance_hair(self.frames.swing(!acts, stage.has_swinging_hair()), hangs);
         let moves = acts || self.frames.swings();
@@ -260,7 +265,7 @@ impl Presenter {
         if drawn.is_shown && !acts {
             self.stirring.drawn(drawn.all, drawn.part);
         }
-        Ok(drawn.whole_again)
+        Ok(drawn)
     }
 
     /// Draws the small picture of one pose that has none, while nothing moves and the poses are seen. Returns

@@ -3,6 +3,7 @@
 use super::face::Face;
 use super::messages::{About, Messages};
 use super::session::Session;
+use super::stage::Drawn;
 use super::watch::Wake;
 use crate::live::{CalibrationFile, FORMATS, Follow, Inbox, Recorder, Sending, Take, everywhere, usual};
 use crate::live_args::LiveOptions;
@@ -47,9 +48,11 @@ pub(super) struct Live {
     calibration_name: Option<String>,
     /// The file that was named on the command line.
     named: Option<PathBuf>,
-    /// The time that the last frame shows, and how many milliseconds later it was handed to the screen.
+    /// The time that the last frame shows, and how many milliseconds later it was drawn, in the mean.
     shown_at: Instant,
     draw_ms: Option<f32>,
+    /// That frame is still being drawn.
+    is_drawing: bool,
 }
 
 impl Live {
@@ -97,6 +100,7 @@ impl Live {
             named: args.and_then(|args| args.calibration.clone()),
             shown_at: Instant::now(),
             draw_ms: None,
+            is_drawing: false,
         };
         let calibration = live.read_calibration(session);
         // One that nobody named must not keep the window from opening.
@@ -149,6 +153,10 @@ impl Live {
         self.shown_at = Instant::now();
         let now_secs = self.follow.secs(self.shown_at);
         self.go(now_secs, face)?;
+        // What is kept is as it was sent; who looks sees it as early as possible.
+        let is_kept = self.take.is_some() || self.sending.is_some() || face.recording.is_some();
+        let lead_ms = self.draw_ms.filter(|_| !is_kept).unwrap_or_default();
+        self.follow.receiver.settings.lead_secs = f64::from(lead_ms) / 1e3;
         self.follow.advance(now_secs)?;
         // Until somebody sends, keys and sliders have the face.
         if !self.show(face) {
@@ -201,10 +209,21 @@ impl Live {
         self.follow.wakes_at().map(|secs| self.follow.instant(secs))
     }
 
-    /// The frame has been handed to the screen; whether the face was driven in it.
-    pub(super) fn drawn(&mut self, is_driven: bool) {
-        if is_driven {
-            let ms = self.shown_at.elapsed().as_secs_f32() * 1e3;
+    /// A frame with a face that is driven has been handed over to be drawn.
+    pub(super) fn drawn(&mut self, drawn: &Drawn) {
+        if drawn.all || drawn.part {
+            self.is_drawing = true;
+            if !drawn.is_waited_for {
+                self.finished(Some(Instant::now()));
+            }
+        }
+    }
+
+    /// The frame before was finished then, if that is known.
+    pub(super) fn finished(&mut self, then: Option<Instant>) {
+        let is_drawing = std::mem::take(&mut self.is_drawing);
+        if let Some(then) = then.filter(|_| is_drawing) {
+            let ms = then.saturating_duration_since(self.shown_at).as_secs_f32() * 1e3;
             self.draw_ms = Some(self.draw_ms.map_or(ms, |mean| mean + NEWEST * (ms - mean)));
         }
     }
@@ -215,7 +234,7 @@ impl Live {
             crate::standard::tell(crate::live::line(&sender));
         }
         if let Some(ms) = self.draw_ms {
-            crate::standard::tell(format_args!("a frame is handed to the screen {ms:.1} ms after its time"));
+            crate::standard::tell(format_args!("a frame is drawn {ms:.1} ms after its time"));
         }
         self.take.as_ref().map_or(Ok(()), |(take, recorder)| take.write(recorder, pack))
     }

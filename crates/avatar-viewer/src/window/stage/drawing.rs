@@ -20,9 +20,22 @@ pub(in crate::window) struct Drawn {
     pub(in crate::window) part: bool,
     /// A draft gave way to the whole picture.
     pub(in crate::window) whole_again: bool,
+    /// It is known when the picture is finished: [`Stage::ready`] says so.
+    pub(in crate::window) is_waited_for: bool,
 }
 
 impl Stage {
+    /// Waits until a frame can be drawn at once: for the one before it where software draws, and for a picture of
+    /// the surface. What the frame shows is computed after that: before, it would be a frame old when it is
+    /// seen. Returns when the frame before was finished, if that was waited for.
+    pub(in crate::window) fn ready(&mut self) -> Result<Option<Instant>> {
+        let finished = self.motion.as_mut().and_then(|motion| motion.wait(&self.gpu.device));
+        if self.targets.is_some() && self.next.is_none() {
+            self.next = self.acquire()?;
+        }
+        Ok(finished)
+    }
+
     /// Draws one frame, the panel over the picture; `moves` says whether another one follows at once. A
     /// surface that is not ready loses this frame, not the window.
     pub(in crate::window) fn draw(
@@ -39,7 +52,10 @@ impl Stage {
         if self.targets.is_none() {
             return Ok(Drawn::default());
         }
-        let Some(frame) = self.acquire()? else { return Ok(Drawn::default()) };
+        let next = self.next.take();
+        let Some(frame) = next.map_or_else(|| self.acquire(), |next| Ok(Some(next)))? else {
+            return Ok(Drawn::default());
+        };
         let shown = self.see_through.as_ref().map_or(&frame.texture, SeeThrough::texture).clone();
         let label = Some("frame");
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });
@@ -107,6 +123,7 @@ impl Stage {
                 all: matches!(wanted, Wanted::Level(_)),
                 part: matches!(wanted, Wanted::Part(_)),
                 whole_again: was_draft && !self.shows_draft(),
+                is_waited_for: self.motion.is_some(),
             }),
             Some(error) => {
                 // What the kept picture shows now is not known, nor whether the face was deformed.
@@ -210,6 +227,7 @@ impl Stage {
             }
             Acquired::Outdated => self.resize(self.window.inner_size())?,
             Acquired::Lost => {
+                self.next = None;
                 self.surface =
                     self.gpu.instance.create_surface(self.window.clone()).context("the lost surface")?;
                 self.resize(self.window.inner_size())?;

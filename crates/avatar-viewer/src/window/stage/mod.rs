@@ -21,10 +21,14 @@ use winit::event_loop::OwnedDisplayHandle;
 use winit::raw_window_handle::{HasWindowHandle, RawWindowHandle};
 use winit::window::Window;
 
+pub(super) use drawing::Drawn;
+
 /// The window's surface and everything that draws on it.
 pub(super) struct Stage {
     window: Arc<Window>,
     gpu: Gpu,
+    /// The picture of the surface that the next frame is drawn on, once there is one.
+    next: Option<wgpu::SurfaceTexture>,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     renderer: Renderer,
@@ -157,6 +161,7 @@ impl Stage {
         let mut stage = Self {
             window,
             gpu,
+            next: None,
             surface,
             config,
             renderer,
@@ -201,6 +206,7 @@ impl Stage {
         if size.width == 0 || size.height == 0 {
             return Ok(());
         }
+        self.next = None;
         (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
         self.surface.configure(&self.gpu.device, &self.config);
         let (width, height) = (self.config.width, self.config.height);

@@ -98,7 +98,7 @@ impl<D> Motion<D> {
 
     /// A frame begins: waits for the one before it.
     pub(super) fn begin(&mut self, device: &wgpu::Device) -> Instant {
-        self.began = self.wait(device);
+        self.began = self.wait(device).unwrap_or_else(Instant::now);
         self.began
     }
 
@@ -123,17 +123,17 @@ impl<D> Motion<D> {
         self.pending = counts.then_some((level, began));
     }
 
-    /// Waits for the frame whose time is not known yet, and returns the time. Drawing in software
-    /// takes all processors, so that nothing else would be done meanwhile.
-    pub(super) fn wait(&mut self, device: &wgpu::Device) -> Instant {
-        let Some((level, began)) = self.pending.take() else { return Instant::now() };
+    /// Waits for the frame whose time is not known yet, and returns when it had been drawn, if there was one.
+    /// Drawing in software takes all processors, so that nothing else would be done meanwhile.
+    pub(super) fn wait(&mut self, device: &wgpu::Device) -> Option<Instant> {
+        let (level, began) = self.pending.take()?;
         // A lost device is found out by the next frame.
         let has_ended = device.poll(wgpu::PollType::wait_indefinitely()).is_ok();
         let now = Instant::now();
         if has_ended {
             self.pace.note(level, now.saturating_duration_since(began).as_secs_f64());
         }
-        now
+        Some(now)
     }
 }
 
