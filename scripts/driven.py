@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Draws the film of docs/live.md: three avatars with three lists of names, driven by one recording of a phone.
 
-    scripts/driven.py VIEWER TAKE.csv MAKEHUMAN OUT.webp
+    scripts/driven.py VIEWER TAKE.csv MAKEHUMAN TARGETS OUT.webp
 
-MAKEHUMAN is a folder with MakeHuman's base.obj and a folder `targets` of ARKit's shapes for it. On the left is the
-built-in face (joints and shapes), in the middle the other head (shapes alone), and on the right a VRM (expressions).
-Needs Pillow."""
+MAKEHUMAN is MakeHuman's folder with base.obj and the folders rigs and eyes, TARGETS one with ARKit's shapes and visemes
+for it, a .target each. On the left is the built-in face, in the middle MakeHuman's head, which has shapes alone, and on
+the right its body as a VRM, which has nothing but expressions. Needs Pillow."""
 
 import sys
 import tempfile
@@ -17,11 +17,11 @@ RATE = 15
 
 
 def main():
-    viewer, take, makehuman, out = sys.argv[1:]
+    viewer, take, makehuman, targets, out = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         films = []
-        for place, avatar in enumerate(heads.three(viewer, makehuman, folder)):
+        for place, avatar in enumerate(heads.three(Path(makehuman), Path(targets), folder)):
             frames = folder / str(place)
             command = [viewer, "record", *avatar, "--clip", take, "--quality", "low", "--fps", RATE]
             heads.run(*command, "--size", f"{heads.WIDTH}x{heads.HEIGHT}", "--out", f"{frames}/")

@@ -2,11 +2,11 @@
 """Draws the film of docs/speech.md in which three avatars say a German sentence and an
 English one.
 
-    scripts/languages.py VIEWER MAKEHUMAN OUT.mp4 OUT.webp
+    scripts/languages.py VIEWER MAKEHUMAN TARGETS OUT.mp4 OUT.webp
 
-MAKEHUMAN is a folder with MakeHuman's base.obj and a folder `targets` of ARKit's shapes for it. On the left is the
-built-in face, in the middle the other head, which has shapes alone, and on the right a VRM, which has nothing but
-expressions. Needs espeak-ng, ffmpeg and Pillow."""
+MAKEHUMAN is MakeHuman's folder with base.obj and the folders rigs and eyes, TARGETS one with ARKit's shapes and visemes
+for it, a .target each. On the left is the built-in face, in the middle MakeHuman's head, which has shapes alone, and on
+the right its body as a VRM, which has nothing but expressions. Needs espeak-ng, ffmpeg and Pillow."""
 
 import sys
 import tempfile
@@ -22,10 +22,10 @@ SENTENCES = [
 
 
 def main():
-    viewer, makehuman, film, moving = sys.argv[1:]
+    viewer, makehuman, targets, film, moving = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        avatars = heads.three(viewer, makehuman, folder)
+        avatars = heads.three(Path(makehuman), Path(targets), folder)
         pictures = []
         parts = []
         for voice, text in SENTENCES:
