@@ -126,6 +126,8 @@ pub enum Wish {
     },
     /// Hears other computers, too, or this one alone.
     HearOthers(bool),
+    /// Lets the page in that was turned away.
+    LetIn,
     /// Asks for a recording and plays it.
     Play,
     /// Follows the sender of this index in [`crate::Live::senders`]; `None` whoever sends a face.

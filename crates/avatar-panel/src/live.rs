@@ -46,6 +46,16 @@ fn inlets(ui: &mut Ui, live: &Live<'_>, actions: &mut Vec<Action>) {
     if others.changed() {
         wish(actions, Wish::HearOthers(hears_others));
     }
+    if let Some(page) = live.turned_away {
+        ui.horizontal(|ui| {
+            let let_in = ui.button("Let in");
+            if let_in.on_hover_text("It can move the face then.").clicked() {
+                wish(actions, Wish::LetIn);
+            }
+            let text = format!("A page of {page} was turned away.");
+            ui.add(egui::Label::new(RichText::new(&text).weak()).truncate()).on_hover_text(text);
+        });
+    }
     ui.horizontal(|ui| {
         if ui.button("Play a recording…").clicked() {
             wish(actions, Wish::Play);

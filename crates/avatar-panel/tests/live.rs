@@ -30,6 +30,7 @@ fn live() -> Live<'static> {
     Live {
         inlets: INLETS,
         hears_others: false,
+        turned_away: None,
         recording: None,
         senders: &[],
         is_choice: false,
@@ -71,10 +72,19 @@ fn formats_are_listened_to_and_others_are_heard() {
 }
 
 #[test]
+fn a_page_that_was_turned_away_is_let_in() {
+    assert!(window(Some(live())).query_by_label("Let in").is_none());
+    let mut window = window(Some(Live { turned_away: Some("https://example.org"), ..live() }));
+    assert!(window.query_by_label("A page of https://example.org was turned away.").is_some());
+    click(&mut window, "Let in");
+    assert_eq!(window.state().log, [Action::Live(Wish::LetIn)]);
+}
+
+#[test]
 fn a_sender_is_chosen_calibrated_smoothed_and_recorded() {
     let mut window = window(Some(Live { senders: SENDERS, draw_ms: Some(7.6), ..live() }));
     assert!(window.query_by_label("livelink: 10 lost (1.0 %), delay 24 ms").is_some());
-    assert!(window.query_by_label("A packet is drawn 8 ms after its time has come.").is_some());
+    assert!(window.query_by_label("A face is drawn 8 ms after its time.").is_some());
     click(&mut window, "sender Bob, silent");
     click(&mut window, "Calibrate");
     click(&mut window, "As in a mirror");

@@ -12,6 +12,10 @@ pub(crate) struct LiveOptions {
     /// WebSocket (with :PORT and so on); may be repeated
     #[arg(long, value_name = "FORMAT[:ADDRESS][:PORT]", required_unless_present = "play")]
     pub(crate) listen: Vec<Listen>,
+    /// A page in a browser that may send faces by WebSocket although it is not of this computer, such as
+    /// https://example.org (`null` for a file); may be repeated
+    #[arg(long, value_name = "ORIGIN", requires = "listen")]
+    pub(crate) page: Vec<String>,
     /// Plays a recording of Live Link Face with its own times
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) play: Option<PathBuf>,

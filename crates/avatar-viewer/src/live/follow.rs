@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn a_recording_for_which_there_is_no_room_is_over_and_the_face_goes_on() {
         let pack = Pack::load(&DefaultFace).expect("the built-in face");
-        let inbox = Inbox::open(&[], || ()).expect("nothing to listen to");
+        let inbox = Inbox::open(&[], crate::live::Pages::default(), || ()).expect("nothing to listen to");
         let mut follow = Follow::new(&pack, inbox, 0.0, false, false);
         let mut frame = Frame::default();
         frame.set_named("jawOpen", 0.5);

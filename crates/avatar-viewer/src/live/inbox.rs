@@ -1,6 +1,7 @@
 //! Threads that read sockets and standard input, and a bounded queue of what they read.
 
 use super::listen::{Listen, Place};
+use super::pages::Pages;
 use super::queue::{LOOK, Packet, Queue};
 use super::web_socket;
 use anyhow::{Context, Result, anyhow};
@@ -48,13 +49,17 @@ impl fmt::Debug for Inbox {
 }
 
 impl Inbox {
-    /// Begins to listen. `wake` is called after each packet, by other threads.
+    /// Begins to listen. `wake` is called after each packet, and when a page is turned away, by other threads.
     ///
     /// # Errors
     /// As those of [`Self::listen`].
-    pub(crate) fn open(listens: &[Listen], wake: impl Fn() + Send + Sync + 'static) -> Result<Self> {
+    pub(crate) fn open(
+        listens: &[Listen],
+        pages: Pages,
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> Result<Self> {
         let (sender, packets) = sync_channel(WAITING);
-        let queue = Queue { packets: sender, is_over: Arc::default(), wake: Arc::new(wake) };
+        let queue = Queue { packets: sender, is_over: Arc::default(), pages, wake: Arc::new(wake) };
         let mut inbox = Self { packets, queue, inlets: Vec::new() };
         listens.iter().try_for_each(|listen| inbox.listen(*listen))?;
         Ok(inbox)
@@ -130,6 +135,11 @@ impl Inbox {
         self.inlets.iter().map(|inlet| (inlet.protocol, inlet.place))
     }
 
+    /// Which pages in a browser may send.
+    pub(crate) fn pages(&self) -> &Pages {
+        &self.queue.pages
+    }
+
     /// A packet that has arrived.
     pub(crate) fn take(&self) -> Option<Packet> {
         self.packets.try_recv().ok()
@@ -193,7 +203,7 @@ mod tests {
     fn one_port_that_is_taken_keeps_no_other_from_moving() {
         let here = |protocol| Listen { protocol, place: Place::Datagrams(([127, 0, 0, 1], 0).into()) };
         let listens = [Protocol::LiveLink, Protocol::Vmc].map(here);
-        let mut inbox = Inbox::open(&listens, || ()).expect("free ports");
+        let mut inbox = Inbox::open(&listens, Pages::default(), || ()).expect("free ports");
         let address = |(_, place): (Protocol, Place)| place.address().expect("a socket");
         let ports: Vec<u16> = inbox.places().map(|place| address(place).port()).collect();
         // Another program has the first one's port at another address: then nobody can have it at all.

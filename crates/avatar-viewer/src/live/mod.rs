@@ -2,6 +2,7 @@
 
 mod calibration;
 mod listen;
+mod pages;
 mod queue;
 mod inbox;
 mod web_socket;
@@ -13,5 +14,6 @@ pub(crate) use calibration::CalibrationFile;
 pub(crate) use follow::{Follow, line};
 pub(crate) use inbox::Inbox;
 pub(crate) use listen::{FORMATS, Listen, SendTo, everywhere, usual};
+pub(crate) use pages::Pages;
 pub(crate) use send::Sending;
 pub(crate) use taken::{Recorder, Take};

@@ -1,5 +1,6 @@
 //! What threads that listen hand packets to.
 
+use super::pages::Pages;
 use avatar_live::Protocol;
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -24,6 +25,8 @@ pub(crate) struct Packet {
 pub(super) struct Queue {
     pub(super) packets: SyncSender<Packet>,
     pub(super) is_over: Arc<AtomicBool>,
+    /// Who may send by WebSocket.
+    pub(super) pages: Pages,
     /// Called after each packet.
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
 }

@@ -6,6 +6,8 @@ use std::io::ErrorKind;
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use tungstenite::handshake::server::{ErrorResponse, Request, Response};
+use tungstenite::http::{StatusCode, header::ORIGIN};
 use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, HandshakeError, Message, WebSocket};
 
@@ -67,6 +69,7 @@ fn hear(stream: TcpStream, origin: SocketAddr, protocol: Protocol, queue: &Queue
 }
 
 /// The handshake, of a page that takes its time but not too long.
+#[expect(clippy::result_large_err, reason = "it is the library that asks for a whole response")]
 fn greet(stream: TcpStream, protocol: Protocol, queue: &Queue) -> Option<WebSocket<TcpStream>> {
     stream.set_nonblocking(false).ok()?;
     stream.set_read_timeout(Some(LOOK)).ok()?;
@@ -74,7 +77,21 @@ fn greet(stream: TcpStream, protocol: Protocol, queue: &Queue) -> Option<WebSock
     let limit = Some(protocol.limit());
     let config = WebSocketConfig::default().max_message_size(limit).max_frame_size(limit);
     let start = Instant::now();
-    let mut greeted = tungstenite::accept_with_config(stream, Some(config));
+    let whose = |request: &Request, response: Response| {
+        let origin = request.headers().get(ORIGIN).map(|origin| String::from_utf8_lossy(origin.as_bytes()));
+        let before = queue.pages.turned_away();
+        if queue.pages.admits(origin.as_deref()) {
+            return Ok(response);
+        }
+        // Whoever looks at the window may let it in.
+        if queue.pages.turned_away() != before {
+            (queue.wake)();
+        }
+        let mut refusal = ErrorResponse::new(Some("expected a page of this computer".to_owned()));
+        *refusal.status_mut() = StatusCode::FORBIDDEN;
+        Err(refusal)
+    };
+    let mut greeted = tungstenite::accept_hdr_with_config(stream, whose, Some(config));
     loop {
         match greeted {
             Ok(socket) => return Some(socket),

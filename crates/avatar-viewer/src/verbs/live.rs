@@ -29,7 +29,7 @@ pub(super) fn run(args: &LiveArgs, matches: &ArgMatches) -> Result<()> {
     let pack = files.load_pack()?;
     let mut values = pack.controls().defaults();
     window.face.resolve(&pack, matches)?.start_values().clone_into(&mut values);
-    let inbox = Inbox::open(&args.listen, || {})?;
+    let inbox = Inbox::open(&args.listen, crate::live::Pages::new(&args.page), || {})?;
     let mut follow = Follow::new(&pack, inbox, args.smooth, args.calibrate, args.mirror);
     if let Some(path) = &args.play {
         follow.play(path, 0.0)?;

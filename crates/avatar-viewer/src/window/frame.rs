@@ -142,13 +142,13 @@ impl App {
     fn lay_out(&mut self, actions: &mut Vec<avatar_panel::Action>) -> Option<Painted> {
         let messages: Vec<_> = self.messages.shown().collect();
         let live = &self.live;
-        let (inlets, senders) = (live.inlets(), live.senders());
+        let (inlets, senders, turned_away) = (live.inlets(), live.senders(), live.turned_away());
         let around = Around {
             keys: &self.input.keys,
             messages: &messages,
             recent: &self.config.recent,
             talking: &self.talking,
-            live: live.model(&inlets, &senders),
+            live: live.model(&inlets, &senders, turned_away.as_deref()),
         };
         self.presenter.lay_out(&self.session, &around, actions)
     }

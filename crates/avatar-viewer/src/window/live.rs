@@ -5,7 +5,9 @@ use super::messages::{About, Messages};
 use super::session::Session;
 use super::stage::Drawn;
 use super::watch::Wake;
-use crate::live::{CalibrationFile, FORMATS, Follow, Inbox, Recorder, Sending, Take, everywhere, usual};
+use crate::live::{
+    CalibrationFile, FORMATS, Follow, Inbox, Pages, Recorder, Sending, Take, everywhere, usual,
+};
 use crate::live_args::LiveOptions;
 use anyhow::{Result, bail};
 use avatar_live::Calibration;
@@ -73,7 +75,8 @@ impl Live {
                 let _ = window.send_event(Wake::Packet);
             }
         };
-        let inbox = Inbox::open(args.map_or(&[], |args| &args.listen), wake)?;
+        let pages = Pages::new(args.map_or(&[], |args| &args.page));
+        let inbox = Inbox::open(args.map_or(&[], |args| &args.listen), pages, wake)?;
         let (smooth, hz) = args.map_or((0.0, 60.0), |args| (args.smooth, args.hz));
         let (calibrate, mirror) = args.map_or((false, false), |args| (args.calibrate, args.mirror));
         let mut follow = Follow::new(session.face.pack(), inbox, smooth, calibrate, mirror);
@@ -313,6 +316,16 @@ impl Live {
         inlets
     }
 
+    /// Lets the page in that was turned away.
+    pub(super) fn let_in(&self) {
+        self.follow.inbox.pages().let_in();
+    }
+
+    /// The page that was turned away, for the panel.
+    pub(super) fn turned_away(&self) -> Option<String> {
+        self.follow.inbox.pages().turned_away()
+    }
+
     /// Who sends, for the panel.
     pub(super) fn senders(&self) -> Vec<LiveSender<'_>> {
         let senders = self.follow.receiver.senders().map(|sender| LiveSender {
@@ -334,11 +347,13 @@ impl Live {
         &'a self,
         inlets: &'a [Inlet<'a>],
         senders: &'a [LiveSender<'a>],
+        turned_away: Option<&'a str>,
     ) -> avatar_panel::Live<'a> {
         let receiver = &self.follow.receiver;
         avatar_panel::Live {
             inlets,
             hears_others: self.hears_others,
+            turned_away,
             recording: self.follow.tape_name(),
             senders,
             is_choice: receiver.is_choice(),

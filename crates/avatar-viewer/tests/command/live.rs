@@ -8,7 +8,9 @@ use std::net::{TcpStream, UdpSocket};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-use tungstenite::Message;
+use tungstenite::client::IntoClientRequest;
+use tungstenite::http::HeaderValue;
+use tungstenite::{Error, Message};
 
 fn time(frame: i32) -> FrameTime {
     FrameTime { frame, part: 0.0, numerator: 60, denominator: 1 }
@@ -139,7 +141,8 @@ fn packets_arrive_and_are_counted() {
 fn pages_in_a_browser_drive_the_face() {
     let mut command = viewer();
     command.arg("live").arg(golden_pack()).args(["--headless", "--seconds", "4", "--trace", "-"]);
-    let command = command.args(["--listen", "mediapipe:ws:0"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.args(["--listen", "mediapipe:ws:0", "--page", "https://example.org"]);
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     let mut errors = BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
@@ -159,7 +162,19 @@ fn pages_in_a_browser_drive_the_face() {
     let _silent = TcpStream::connect(&place).unwrap();
     let (mut loud, _) = tungstenite::connect(&address).unwrap();
     let _ = loud.send(Message::text("x".repeat(300_000)));
-    let (mut page, _) = tungstenite::connect(&address).unwrap();
+    // A page from elsewhere that is open on this computer.
+    let of = |origin: &'static str| {
+        let mut request = address.as_str().into_client_request().unwrap();
+        request.headers_mut().insert("Origin", HeaderValue::from_static(origin));
+        tungstenite::connect(request)
+    };
+    for origin in ["https://elsewhere.example", "null"] {
+        let error = of(origin).unwrap_err();
+        assert!(matches!(&error, Error::Http(response) if response.status() == 403), "{origin}: {error}");
+    }
+    drop(of("http://localhost:8000").unwrap());
+    // One that was named.
+    let (mut page, _) = of("https://example.org").unwrap();
     let start = Instant::now();
     for frame in 0..150 {
         std::thread::sleep(Duration::from_secs_f64(f64::from(frame) / 60.0).saturating_sub(start.elapsed()));
@@ -174,6 +189,11 @@ fn pages_in_a_browser_drive_the_face() {
     errors.read_to_string(&mut rest).unwrap();
     assert!(child.wait().unwrap().success(), "{rest}");
     assert!(rest.contains("150 received, 0 lost"), "{rest}");
+    assert!(
+        rest.contains("https://elsewhere.example: --page https://elsewhere.example lets it in"),
+        "{rest}"
+    );
+    assert!(!rest.contains("null"), "once is enough: {rest}");
     let turn = column(&reader.join().unwrap(), "head.turn");
     assert!(turn.iter().any(|turn| *turn > 15.0) && turn.iter().any(|turn| *turn < -15.0));
     assert!(turn[240].abs() < 3.0, "{}", turn[240]);
