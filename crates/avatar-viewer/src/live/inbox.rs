@@ -11,12 +11,9 @@ use std::io::{BufRead, ErrorKind, Read};
 use std::net::{IpAddr, SocketAddr, TcpListener, UdpSocket};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// So many packets wait; more are dropped.
-const WAITING: usize = 256;
 /// A socket that is read.
 struct Inlet {
     protocol: Protocol,
@@ -37,7 +34,6 @@ impl Drop for Inlet {
 
 /// What has arrived. Threads end when it is dropped; the one that reads standard input with the program.
 pub(crate) struct Inbox {
-    packets: Receiver<Packet>,
     queue: Queue,
     inlets: Vec<Inlet>,
 }
@@ -58,9 +54,8 @@ impl Inbox {
         pages: Pages,
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self> {
-        let (sender, packets) = sync_channel(WAITING);
-        let queue = Queue { packets: sender, is_over: Arc::default(), pages, wake: Arc::new(wake) };
-        let mut inbox = Self { packets, queue, inlets: Vec::new() };
+        let queue = Queue { packets: Arc::default(), is_over: Arc::default(), pages, wake: Arc::new(wake) };
+        let mut inbox = Self { queue, inlets: Vec::new() };
         listens.iter().try_for_each(|listen| inbox.listen(*listen))?;
         Ok(inbox)
     }
@@ -142,12 +137,12 @@ impl Inbox {
 
     /// A packet that has arrived.
     pub(crate) fn take(&self) -> Option<Packet> {
-        self.packets.try_recv().ok()
+        self.queue.packets.take()
     }
 
     /// The next packet, if it arrives by then.
     pub(crate) fn take_until(&self, then: Instant) -> Option<Packet> {
-        self.packets.recv_timeout(then.saturating_duration_since(Instant::now())).ok()
+        self.queue.packets.take_until(then)
     }
 }
 
@@ -188,10 +183,7 @@ fn read_lines(protocol: Protocol, queue: &Queue) {
             Ok(_) => {}
         }
         // A pipe waits, so no line is lost.
-        if queue.packets.send(Packet { at: Instant::now(), origin, protocol, bytes }).is_err() {
-            break;
-        }
-        (queue.wake)();
+        queue.put(origin, protocol, bytes);
     }
 }
 

@@ -2,14 +2,16 @@
 
 use super::pages::Pages;
 use avatar_live::Protocol;
+use std::collections::VecDeque;
 use std::net::SocketAddr;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::SyncSender;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How often a thread looks whether it is to end.
 pub(super) const LOOK: Duration = Duration::from_millis(100);
+/// So many packets wait.
+const WAITING: usize = 256;
 
 /// A packet, and when it arrived.
 #[derive(Debug)]
@@ -23,7 +25,7 @@ pub(crate) struct Packet {
 /// What threads hand packets to.
 #[derive(Clone)]
 pub(super) struct Queue {
-    pub(super) packets: SyncSender<Packet>,
+    pub(super) packets: Arc<Packets>,
     pub(super) is_over: Arc<AtomicBool>,
     /// Who may send by WebSocket.
     pub(super) pages: Pages,
@@ -37,11 +39,190 @@ impl Queue {
         self.is_over.load(Ordering::Relaxed)
     }
 
-    /// Hands a packet over that has arrived now, unless too many wait.
+    /// Hands a packet over that has arrived now, unless too many of its source wait.
     pub(super) fn offer(&self, origin: SocketAddr, protocol: Protocol, bytes: &[u8]) {
         let packet = Packet { at: Instant::now(), origin, protocol, bytes: bytes.to_vec() };
-        if self.packets.try_send(packet).is_ok() {
+        if self.packets.offer(packet) {
             (self.wake)();
         }
+    }
+
+    /// Hands a packet over, and waits until there is room.
+    pub(super) fn put(&self, origin: SocketAddr, protocol: Protocol, bytes: Vec<u8>) {
+        self.packets.put(Packet { at: Instant::now(), origin, protocol, bytes }, || self.is_over());
+        (self.wake)();
+    }
+}
+
+/// Packets that wait, in the order in which they came. Where there are too many, the source that has most of them
+/// gives one up: a flood takes no room from a phone.
+#[derive(Default)]
+pub(super) struct Packets {
+    waiting: Mutex<Waiting>,
+    /// Something has come, or has been taken.
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct Waiting {
+    packets: VecDeque<Packet>,
+    /// How many there are of each source.
+    counts: Vec<(SocketAddr, usize)>,
+}
+
+impl Waiting {
+    fn count(&self, origin: SocketAddr) -> usize {
+        self.counts.iter().find(|(source, _)| *source == origin).map_or(0, |(_, count)| *count)
+    }
+
+    fn push(&mut self, packet: Packet) {
+        match self.counts.iter_mut().find(|(source, _)| *source == packet.origin) {
+            Some((_, count)) => *count += 1,
+            None => self.counts.push((packet.origin, 1)),
+        }
+        self.packets.push_back(packet);
+    }
+
+    fn remove(&mut self, place: usize) -> Option<Packet> {
+        let packet = self.packets.remove(place)?;
+        if let Some((_, count)) = self.counts.iter_mut().find(|(source, _)| *source == packet.origin) {
+            *count -= 1;
+        }
+        self.counts.retain(|(_, count)| *count > 0);
+        Some(packet)
+    }
+}
+
+impl Packets {
+    fn waiting(&self) -> MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a packet in; whether there was room for it.
+    fn offer(&self, packet: Packet) -> bool {
+        let mut waiting = self.waiting();
+        if waiting.packets.len() >= WAITING {
+            let most = waiting.counts.iter().max_by_key(|(_, count)| *count).copied();
+            let Some((source, count)) = most else { return false };
+            if waiting.count(packet.origin) + 1 >= count {
+                return false;
+            }
+            // Its last one: what came first is due first.
+            let place = waiting.packets.iter().rposition(|packet| packet.origin == source);
+            place.and_then(|place| waiting.remove(place));
+        }
+        waiting.push(packet);
+        drop(waiting);
+        self.changed.notify_all();
+        true
+    }
+
+    /// Takes a packet in as soon as there is room.
+    fn put(&self, packet: Packet, is_over: impl Fn() -> bool) {
+        let mut waiting = self.waiting();
+        while waiting.packets.len() >= WAITING && !is_over() {
+            waiting = self.changed.wait_timeout(waiting, LOOK).unwrap_or_else(PoisonError::into_inner).0;
+        }
+        waiting.push(packet);
+        drop(waiting);
+        self.changed.notify_all();
+    }
+
+    /// The packet that came first.
+    pub(super) fn take(&self) -> Option<Packet> {
+        let packet = self.waiting().remove(0);
+        if packet.is_some() {
+            self.changed.notify_all();
+        }
+        packet
+    }
+
+    /// The packet that came first, if there is one by then.
+    pub(super) fn take_until(&self, then: Instant) -> Option<Packet> {
+        let mut waiting = self.waiting();
+        loop {
+            let left = then.saturating_duration_since(Instant::now());
+            if let Some(packet) = waiting.remove(0) {
+                drop(waiting);
+                self.changed.notify_all();
+                return Some(packet);
+            }
+            if left.is_zero() {
+                return None;
+            }
+            waiting = self.changed.wait_timeout(waiting, left).unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn packet(port: u16, number: usize) -> Packet {
+        let bytes = number.to_le_bytes().to_vec();
+        Packet {
+            at: Instant::now(),
+            origin: ([127, 0, 0, 1], port).into(),
+            protocol: Protocol::LiveLink,
+            bytes,
+        }
+    }
+
+    /// However much somebody sends between two frames of the window, a phone's packets all wait.
+    #[test]
+    fn a_flood_takes_no_room_from_a_phone() {
+        let packets = Packets::default();
+        let mut flooded = 0;
+        for number in 0..60_000 {
+            flooded += usize::from(packets.offer(packet(1, number)));
+            if number % 1000 == 0 {
+                assert!(packets.offer(packet(2, number / 1000)), "{number}");
+            }
+        }
+        assert!((WAITING - 60..=WAITING).contains(&flooded), "{flooded}");
+        let mut of_phone = Vec::new();
+        let mut count = 0;
+        while let Some(packet) = packets.take() {
+            count += 1;
+            if packet.origin.port() == 2 {
+                of_phone.push(usize::from_le_bytes(packet.bytes.try_into().expect("eight bytes")));
+            }
+        }
+        assert_eq!((count, of_phone), (WAITING, (0..60).collect::<Vec<_>>()));
+        // Two floods share the room.
+        for number in 0..1000 {
+            packets.offer(packet(1, number));
+        }
+        for number in 0..1000 {
+            packets.offer(packet(2, number));
+        }
+        let counts = packets.waiting().counts.clone();
+        assert!(counts.iter().all(|(_, count)| count.abs_diff(WAITING / 2) <= 1), "{counts:?}");
+        while packets.take().is_some() {}
+        assert!(packets.waiting().counts.is_empty());
+        let then = Instant::now() + Duration::from_millis(20);
+        assert!(packets.take_until(then).is_none() && Instant::now() >= then);
+    }
+
+    #[test]
+    fn who_may_not_lose_anything_waits_for_room() {
+        let queue = Queue {
+            packets: Arc::default(),
+            is_over: Arc::default(),
+            pages: Pages::default(),
+            wake: Arc::new(|| ()),
+        };
+        let origin = ([127, 0, 0, 1], 0).into();
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                (0..1000u16).for_each(|n| queue.put(origin, Protocol::MediaPipe, n.to_le_bytes().to_vec()))
+            });
+            let then = Instant::now() + Duration::from_secs(60);
+            for expected in 0..1000u16 {
+                let packet = queue.packets.take_until(then).expect("a packet");
+                assert_eq!(packet.bytes, expected.to_le_bytes());
+            }
+        });
     }
 }
