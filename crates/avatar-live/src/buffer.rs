@@ -95,8 +95,16 @@ impl Buffer {
 
     /// The first frame after a time.
     pub(crate) fn after(&self, secs: f64) -> Option<&(f64, Frame)> {
-        let place = self.frames.partition_point(|(other, _)| *other <= secs + 1e-9);
-        self.frames.get(place)
+        self.frames.get(self.place_after(secs))
+    }
+
+    /// All frames after a time.
+    pub(crate) fn all_after(&self, secs: f64) -> impl Iterator<Item = &Frame> {
+        self.frames.range(self.place_after(secs)..).map(|(_, frame)| frame)
+    }
+
+    fn place_after(&self, secs: f64) -> usize {
+        self.frames.partition_point(|(other, _)| *other <= secs + 1e-9)
     }
 
     pub(crate) fn newest(&self) -> Option<&(f64, Frame)> {

@@ -58,10 +58,20 @@ impl Motion {
         self.lags.get(channel).map_or(0.0, TwoLags::value)
     }
 
-    /// Whether it stays where it is until another frame comes.
+    /// Whether it stays where it is until another frame comes: those that have come show the same face.
     pub(crate) fn rests(&self, buffer: &Buffer) -> bool {
-        let is_over = buffer.after(self.to_secs).is_none() && self.play_secs >= self.to_secs;
-        is_over && self.lags.iter().zip(&self.to).all(|(lags, to)| lags.is_at(*to, NEAR))
+        let is_over = self.play_secs >= self.to_secs;
+        let mut line = self.from.iter().zip(&self.to).zip(&self.lags);
+        line.all(|((from, to), lags)| lags.is_at(*to, NEAR) && (is_over || (from - to).abs() < NEAR))
+            && buffer.all_after(self.to_secs).all(|frame| self.is_at(frame))
+    }
+
+    /// Whether the line ends at this frame.
+    fn is_at(&self, frame: &Frame) -> bool {
+        frame.iter().all(|(channel, value)| {
+            let value = self.calibration.apply(channel, value);
+            self.to.get(channel).is_some_and(|to| (value - to).abs() < NEAR)
+        })
     }
 
     /// Goes on by some seconds, toward a time of the sender's clock.

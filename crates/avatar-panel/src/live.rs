@@ -52,7 +52,7 @@ fn inlets(ui: &mut Ui, live: &Live<'_>, actions: &mut Vec<Action>) {
             if let_in.on_hover_text("It can move the face then.").clicked() {
                 wish(actions, Wish::LetIn);
             }
-            let text = format!("A page of {page} was turned away.");
+            let text = format!("{page} was turned away.");
             ui.add(egui::Label::new(RichText::new(&text).weak()).truncate()).on_hover_text(text);
         });
     }

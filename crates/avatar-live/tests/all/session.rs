@@ -147,6 +147,25 @@ fn the_time_of_drawing_is_made_up_for() {
     }
 }
 
+/// A sender that says the same again and again moves nothing: nobody has to draw until it says something else.
+#[test]
+fn a_face_that_stays_the_same_rests_though_packets_come() {
+    for smooth_secs in [None, Some(0.05)] {
+        let mut receiver = Receiver::new(Settings { smooth_secs, ..Settings::default() });
+        let mut wakes = Vec::new();
+        for frame in 0..900 {
+            let now_secs = f64::from(frame) / 60.0;
+            let jaw = if frame == 600 { 0.5 } else { 0.3 };
+            receiver.receive(now_secs, PHONE, Protocol::LiveLink, &packet("Ann", frame, jaw)).unwrap();
+            receiver.advance(now_secs);
+            wakes.push(receiver.wakes_at().is_some_and(|secs| secs <= now_secs));
+        }
+        assert!(wakes[..60].iter().any(|wakes| *wakes) && !wakes[300..600].iter().any(|wakes| *wakes));
+        assert!(wakes[600..602].iter().all(|wakes| *wakes), "another face moves");
+        assert!(!wakes[800..].iter().any(|wakes| *wakes));
+    }
+}
+
 #[test]
 fn a_gap_is_held_then_eased_to_neutral_and_back() {
     let mut receiver = Receiver::new(Settings::default());
