@@ -15,7 +15,8 @@ PARTS = {
     "suit": (["helper-tights"], (0.16, 0.32, 0.36), 0.8),
 }
 
-# Each bone of VRM, and the bones of MakeHuman that begin it; what hangs on them without a name here follows them.
+# Each bone of VRM, and the bones of MakeHuman that begin it; what hangs on them without a name here follows
+# them.
 BONES = {"hips": "root", "spine": "spine05", "chest": "spine03", "upperChest": "spine01", "neck": "neck01", "head": "head"}
 SIDED = {"Eye": "eye", "Shoulder": "clavicle", "UpperArm": "upperarm01", "LowerArm": "lowerarm01", "Hand": "wrist"}
 SIDED |= {"UpperLeg": "upperleg01", "LowerLeg": "lowerleg01", "Foot": "foot"}

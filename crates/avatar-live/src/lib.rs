@@ -14,9 +14,9 @@
 //!   the 52 shapes of ARKit and the 18 expressions of VRM 1.0 as weights from 0 to 1, and the angles of
 //!   head and eyes in degrees, with the signs of [`pose_anim::face`]. Left and right are the character's
 //!   own.
-//! - Codecs take bytes and keep nothing of them, but for [`MediaPipeReader`], which keeps a sender's last line to
-//!   compare. Whatever stands in a packet, they do not panic, what they
-//!   hold is bounded, and an error says at which byte what was expected ([`DecodeError`]).
+//! - Codecs take bytes and keep nothing of them, but for [`MediaPipeReader`], which keeps a sender's last
+//!   line to compare. Whatever stands in a packet, they do not panic, what they hold is bounded, and an error
+//!   says at which byte what was expected ([`DecodeError`]).
 //! - A [`Receiver`] has no socket and no clock: whoever has both hands it packets with the time of their
 //!   arrival, and asks for the face at a time. Nothing of that allocates once a sender is known.
 //!

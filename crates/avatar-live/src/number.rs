@@ -3,8 +3,8 @@
 /// The number at the beginning of bytes, as JSON writes numbers, and how many bytes it has.
 pub(crate) struct Number<'a> {
     text: &'a [u8],
-    /// Its digits without the point, and the power of ten that they are multiplied by; `None` where they have no
-    /// room.
+    /// Its digits without the point, and the power of ten that they are multiplied by; `None` where they have
+    /// no room.
     decimal: Option<(u64, i32)>,
 }
 
@@ -75,8 +75,8 @@ impl<'a> Number<'a> {
     /// The same, rounded to `f32`.
     pub(crate) fn to_f32(&self) -> Option<f32> {
         let number = match self.decimal {
-            // Each of the two steps is off by at most half of a unit in the last place of an `f64`. That matters
-            // only in the middle between two numbers of `f32`, whose mantissa is 29 bits shorter.
+            // Each of the two steps is off by at most half of a unit in the last place of an `f64`. That
+            // matters only in the middle between two numbers of `f32`, whose mantissa is 29 bits shorter.
             Some((digits, power @ -22..=0)) => {
                 let number = digits as f64 / exact(power)?;
                 let is_clear = (number.to_bits() & 0x1fff_ffff).abs_diff(0x1000_0000) > 4;
@@ -126,8 +126,8 @@ impl Digits<'_> {
     }
 }
 
-/// The value of eight digits, the first of which is the first byte; `None` if one is no digit. All are looked at
-/// together, and neighbours joined to numbers of two, four and eight digits.
+/// The value of eight digits, the first of which is the first byte; `None` if one is no digit. All are looked
+/// at together, and neighbours joined to numbers of two, four and eight digits.
 fn eight_digits(bytes: [u8; 8]) -> Option<u64> {
     let text = u64::from_le_bytes(bytes);
     let values = text ^ 0x3030_3030_3030_3030;

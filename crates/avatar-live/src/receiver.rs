@@ -1,7 +1,7 @@
 use crate::bucket::Gate;
 use crate::channel::{CHANNELS, channels};
 use crate::lag::{Step, ThreeLags};
-use crate::sender::{Sender, UNSEEN};
+use crate::sender::{Sender, UNSEEN, is_shown_as, shown};
 use crate::{
     Calibration, DecodeError, Frame, IFacialMocap, LiveLink, MediaPipe, Protocol, Settings, Status, Vmc,
 };
@@ -13,8 +13,6 @@ const SENDERS: usize = 8;
 const SILENT_SECS: f64 = 10.0;
 /// Who is followed without having been chosen is let go after so long without a face.
 const LET_GO_SECS: f64 = 3.0;
-/// Names are shown no longer than this, in characters.
-const NAME_LENGTH: usize = 48;
 /// Steps of time are no longer, so that gaps are seen where they begin.
 const LONGEST_STEP_SECS: f64 = 1.0 / 60.0;
 /// After a longer pause the face goes on as if less had passed.
@@ -138,10 +136,9 @@ impl Receiver {
                 self.accept(now_secs, origin, protocol, ["", ""], &frame)
             }
             Protocol::MediaPipe => {
-                let frame = match self.find(origin, protocol, ["", ""]) {
-                    Some((_, sender)) => sender.mediapipe.read(packet),
-                    None => MediaPipe::decode(packet),
-                }?;
+                let known = self.find(origin, protocol, ["", ""]);
+                let read = known.map(|(_, sender)| sender.mediapipe.read(packet));
+                let frame = read.unwrap_or_else(|| MediaPipe::decode(packet))?;
                 self.accept(now_secs, origin, protocol, ["", ""], &frame)
             }
             Protocol::Vmc => self.vmc(now_secs, origin, packet),
@@ -390,13 +387,4 @@ impl Receiver {
         });
         times.min_by(f64::total_cmp)
     }
-}
-
-/// A name without what could move a terminal's cursor, and not too long.
-fn shown(name: &str) -> impl Iterator<Item = char> {
-    name.chars().take(NAME_LENGTH).map(|c| if c.is_control() { '?' } else { c })
-}
-
-fn is_shown_as(name: &str, other: &str) -> bool {
-    shown(name).eq(other.chars())
 }

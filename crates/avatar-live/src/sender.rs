@@ -17,6 +17,8 @@ const OTHER_CLOCK_SECS: f64 = 5.0;
 /// A share that cannot be seen, and one that is rounded away.
 pub(crate) const UNSEEN: f64 = 1e-5;
 const NOTHING: f64 = 1e-9;
+/// Names are shown no longer than this, in characters.
+const NAME_LENGTH: usize = 48;
 /// Seconds over which the rate of frames is taken.
 const RATE_SECS: f64 = 1.0;
 
@@ -172,7 +174,8 @@ impl Sender {
         }
     }
 
-    /// How much later than it could be the line is where frames are: that bridges jitter and leads to the next one.
+    /// How much later than it could be the line is where frames are: that bridges jitter and leads to the
+    /// next one.
     fn bridged_secs(&self, settings: &Settings) -> f64 {
         let period_secs = self.period_secs();
         self.jitter_secs + period_secs - settings.lead_secs.min(period_secs / 2.0).max(0.0)
@@ -273,4 +276,13 @@ impl Sender {
             drift_ppm: self.clock.as_ref().map_or(0.0, |clock| clock.drift() * 1e6),
         }
     }
+}
+
+/// A name without what could move a terminal's cursor, and not too long.
+pub(crate) fn shown(name: &str) -> impl Iterator<Item = char> {
+    name.chars().take(NAME_LENGTH).map(|c| if c.is_control() { '?' } else { c })
+}
+
+pub(crate) fn is_shown_as(name: &str, other: &str) -> bool {
+    shown(name).eq(other.chars())
 }

@@ -7,8 +7,8 @@ pub struct Settings {
     pub smooth_secs: Option<f64>,
     /// Jitter beyond this is not waited for, in seconds.
     pub jitter_limit_secs: f64,
-    /// How long it takes until the face of [`crate::Receiver::advance`] is seen, in seconds: drawing it. That is made
-    /// up for by being early, by at most half of the time between frames.
+    /// How long it takes until the face of [`crate::Receiver::advance`] is seen, in seconds: drawing it. That
+    /// is made up for by being early, by at most half of the time between frames.
     pub lead_secs: f64,
     /// How long the last frame is held when none comes, in seconds.
     pub hold_secs: f64,
@@ -17,7 +17,8 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// 5 ms of lags, no 1€ filter, no time for drawing, up to 200 ms of jitter, 0.3 s of holding, 0.3 s of easing.
+    /// 5 ms of lags, no 1€ filter, no time for drawing, up to 200 ms of jitter, 0.3 s of holding, 0.3 s of
+    /// easing.
     fn default() -> Self {
         Self {
             lag_secs: 0.005,

@@ -5,13 +5,16 @@ use crate::number::Number;
 /// Longer texts, and texts with more numbers, are not remembered.
 const LENGTH: usize = 64 * 1024;
 const NUMBERS: usize = 4096;
-/// Senders that change more than numbers are looked at anew ever less often, but at least once in so many texts.
+/// Senders that change more than numbers are looked at anew ever less often, but at least once in so many
+/// texts.
 const RARELY: u32 = 256;
 
-/// The last text of a sender, and what its numbers mean. A tracker says the same words frame after frame, with
-/// other numbers between them: comparing the words takes a tenth of the time that understanding them takes.
+/// The last text of a sender, and what its numbers mean. A tracker says the same words frame after frame,
+/// with other numbers between them: comparing the words takes a tenth of the time that understanding them
+/// takes.
 ///
-/// A text that has the same words is read as it would be without a template, to the bit; any other one is refused.
+/// A text that has the same words is read as it would be without a template, to the bit; any other one is
+/// refused.
 #[derive(Clone, Debug)]
 pub(crate) struct Template<M> {
     /// All of the text.
@@ -19,8 +22,8 @@ pub(crate) struct Template<M> {
     numbers: Vec<Place<M>>,
     /// Texts in a row that had other words.
     misses: u32,
-    /// Whether numbers without a meaning have been seen to change. Until then they are taken for words: most of them
-    /// count what stays the same.
+    /// Whether numbers without a meaning have been seen to change. Until then they are taken for words: most
+    /// of them count what stays the same.
     changes_all: bool,
 }
 
@@ -38,8 +41,8 @@ impl<M> Default for Template<M> {
 }
 
 impl<M: Copy> Template<M> {
-    /// Shows the numbers of a text that have a meaning, one after the other. Returns false if its words are others,
-    /// or if `show` refuses a number; what has been shown is worth nothing then.
+    /// Shows the numbers of a text that have a meaning, one after the other. Returns false if its words are
+    /// others, or if `show` refuses a number; what has been shown is worth nothing then.
     pub(crate) fn read(&mut self, text: &[u8], show: &mut dyn FnMut(M, &Number<'_>) -> Option<()>) -> bool {
         let is_read = self.compare(text, show).is_some();
         self.misses = if is_read { 0 } else { self.misses.saturating_add(1) };
@@ -70,9 +73,9 @@ impl<M: Copy> Template<M> {
         (rest == words).then_some(())
     }
 
-    /// Remembers a text of JSON that [`Self::read`] has refused and that is well-formed otherwise. `meanings` are
-    /// those of its numbers: how many numbers of the text stand before each, and what it means, in the order of
-    /// the text.
+    /// Remembers a text of JSON that [`Self::read`] has refused and that is well-formed otherwise. `meanings`
+    /// are those of its numbers: how many numbers of the text stand before each, and what it means, in the
+    /// order of the text.
     pub(crate) fn learn(&mut self, text: &[u8], meanings: &[(usize, M)]) {
         self.text.clear();
         self.numbers.clear();

@@ -56,8 +56,8 @@ impl Vmc {
     /// of its messages were understood.
     ///
     /// # Errors
-    /// As those of [`crate::read_osc`]; what stands before the mistake counts. Messages that are well-formed but say
-    /// something else are passed over.
+    /// As those of [`crate::read_osc`]; what stands before the mistake counts. Messages that are well-formed
+    /// but say something else are passed over.
     pub fn read(&mut self, packet: &[u8]) -> Result<(Option<Frame>, usize), DecodeError> {
         let (mut understood, mut done, mut plain) = (0, None, None);
         read_osc_unless(packet, &mut |read| {
@@ -178,8 +178,8 @@ impl Vmc {
     }
 }
 
-/// The bytes of a message that gives a channel its value, as all senders write it: a packet has dozens of them,
-/// and reading them as any other message takes three times as long. `None` for what has to be read so.
+/// The bytes of a message that gives a channel its value, as all senders write it: a packet has dozens of
+/// them, and reading them as any other message takes three times as long. `None` for what has to be read so.
 fn known_value(bytes: &[u8]) -> Option<(usize, f32)> {
     let (text, value) = bytes.strip_prefix(b"/VMC/Ext/Blend/Val\0\0,sf\0")?.split_last_chunk()?;
     let value = f32::from_be_bytes(*value);

@@ -53,8 +53,8 @@ enum Meaning {
     Time,
 }
 
-/// Reads the lines of one sender, as [`MediaPipe::decode`] does and four times as fast: a line that differs from
-/// the last one in nothing but its numbers is not taken apart again.
+/// Reads the lines of one sender, as [`MediaPipe::decode`] does and four times as fast: a line that differs
+/// from the last one in nothing but its numbers is not taken apart again.
 ///
 /// ```
 /// # use avatar_live::{MediaPipe, MediaPipeReader};

@@ -106,7 +106,7 @@ fn a_line_does_not_depend_on_the_lines_before_it() {
                     _ => {}
                 }
             }
-            if chance.bits() % 16 == 0 {
+            if chance.bits().is_multiple_of(16) {
                 let at = chance.bits() as usize % changed.len();
                 changed.splice(at..at, *b"0.5");
             }

@@ -134,8 +134,8 @@ fn the_time_of_drawing_is_made_up_for() {
         let (worst, delay_secs) = run(draw_secs, draw_secs);
         let (without, _) = run(draw_secs, 0.0);
         assert!((delay_secs - (1.0 / 60.0 + 0.005 - draw_secs)).abs() < 1e-6, "{delay_secs}");
-        // The jaw moves by 3 a second at most, and twice as fast on the way to a frame. 5 ms after that ends, two
-        // lags of 2.5 ms are behind by 4 · exp(−2) · 2.5 ms of it.
+        // The jaw moves by 3 a second at most, and twice as fast on the way to a frame. 5 ms after that ends,
+        // two lags of 2.5 ms are behind by 4 · exp(−2) · 2.5 ms of it.
         println!("{draw_secs}: {worst}, {without}");
         assert!(worst < 2.0 * 3.0 * 0.00136, "{worst}");
         assert!(without > 1.5 * worst, "{without} {worst}");
@@ -147,7 +147,8 @@ fn the_time_of_drawing_is_made_up_for() {
     }
 }
 
-/// A sender that says the same again and again moves nothing: nobody has to draw until it says something else.
+/// A sender that says the same again and again moves nothing: nobody has to draw until it says something
+/// else.
 #[test]
 fn a_face_that_stays_the_same_rests_though_packets_come() {
     for smooth_secs in [None, Some(0.05)] {

@@ -45,7 +45,8 @@ impl fmt::Debug for Inbox {
 }
 
 impl Inbox {
-    /// Begins to listen. `wake` is called after each packet, and when a page is turned away, by other threads.
+    /// Begins to listen. `wake` is called after each packet, and when a page is turned away, by other
+    /// threads.
     ///
     /// # Errors
     /// As those of [`Self::listen`].

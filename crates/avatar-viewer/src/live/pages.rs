@@ -9,9 +9,9 @@ const LENGTH: usize = 256;
 /// So many pages are let in at most.
 const PAGES: usize = 64;
 
-/// Pages of this computer may send faces, and those that somebody let in. A browser says with each connection whose
-/// page makes it (RFC 6454), and lets every page connect to this computer: without this, any page that is open could
-/// move the face.
+/// Pages of this computer may send faces, and those that somebody let in. A browser says with each connection
+/// whose page makes it (RFC 6454), and lets every page connect to this computer: without this, any page that
+/// is open could move the face.
 #[derive(Clone, Default)]
 pub(crate) struct Pages(Arc<Mutex<State>>);
 

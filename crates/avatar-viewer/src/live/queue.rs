@@ -54,8 +54,8 @@ impl Queue {
     }
 }
 
-/// Packets that wait, in the order in which they came. Where there are too many, the source that has most of them
-/// gives one up: a flood takes no room from a phone.
+/// Packets that wait, in the order in which they came. Where there are too many, the source that has most of
+/// them gives one up: a flood takes no room from a phone.
 #[derive(Default)]
 pub(super) struct Packets {
     waiting: Mutex<Waiting>,

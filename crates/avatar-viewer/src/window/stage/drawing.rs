@@ -25,9 +25,9 @@ pub(in crate::window) struct Drawn {
 }
 
 impl Stage {
-    /// Waits until a frame can be drawn at once: for the one before it where software draws, and for a picture of
-    /// the surface. What the frame shows is computed after that: before, it would be a frame old when it is
-    /// seen. Returns when the frame before was finished, if that was waited for.
+    /// Waits until a frame can be drawn at once: for the one before it where software draws, and for a
+    /// picture of the surface. What the frame shows is computed after that: before, it would be a frame old
+    /// when it is seen. Returns when the frame before was finished, if that was waited for.
     pub(in crate::window) fn ready(&mut self) -> Result<Option<Instant>> {
         let finished = self.motion.as_mut().and_then(|motion| motion.wait(&self.gpu.device));
         if self.targets.is_some() && self.next.is_none() {
