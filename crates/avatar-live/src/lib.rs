@@ -18,7 +18,8 @@
 //!   line to compare. Whatever stands in a packet, they do not panic, what they hold is bounded, and an error
 //!   says at which byte what was expected ([`DecodeError`]).
 //! - A [`Receiver`] has no socket and no clock: whoever has both hands it packets with the time of their
-//!   arrival, and asks for the face at a time. Nothing of that allocates once a sender is known.
+//!   arrival, and asks for the face at a time. Nothing of that allocates once a sender is known, but for
+//!   lines of MediaPipe that have other words than the last ones.
 //!
 //! # Smoothness
 //!

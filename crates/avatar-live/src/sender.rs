@@ -174,8 +174,8 @@ impl Sender {
         }
     }
 
-    /// How much later than it could be the line is where frames are: that bridges jitter and leads to the
-    /// next one.
+    /// How long after a fast packet's arrival the line is at its frame: jitter is bridged, and there has to
+    /// be a next frame to go to.
     fn bridged_secs(&self, settings: &Settings) -> f64 {
         let period_secs = self.period_secs();
         self.jitter_secs + period_secs - settings.lead_secs.min(period_secs / 2.0).max(0.0)

@@ -22,8 +22,8 @@ pub(crate) struct Template<M> {
     numbers: Vec<Place<M>>,
     /// Texts in a row that had other words.
     misses: u32,
-    /// Whether numbers without a meaning have been seen to change. Until then they are taken for words: most
-    /// of them count what stays the same.
+    /// Whether numbers without a meaning have been seen to change. Until then they are compared as words are:
+    /// most of them, such as indices, stay the same.
     changes_all: bool,
 }
 

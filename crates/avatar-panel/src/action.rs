@@ -126,8 +126,8 @@ pub enum Wish {
     },
     /// Hears other computers, too, or this one alone.
     HearOthers(bool),
-    /// Lets the page in that was turned away.
-    LetIn,
+    /// Lets the page of this index in [`crate::Live::turned_away`] in.
+    LetIn(usize),
     /// Asks for a recording and plays it.
     Play,
     /// Follows the sender of this index in [`crate::Live::senders`]; `None` whoever sends a face.

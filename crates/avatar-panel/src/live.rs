@@ -46,16 +46,6 @@ fn inlets(ui: &mut Ui, live: &Live<'_>, actions: &mut Vec<Action>) {
     if others.changed() {
         wish(actions, Wish::HearOthers(hears_others));
     }
-    if let Some(page) = live.turned_away {
-        ui.horizontal(|ui| {
-            let let_in = ui.button("Let in");
-            if let_in.on_hover_text("It can move the face then.").clicked() {
-                wish(actions, Wish::LetIn);
-            }
-            let text = format!("{page} was turned away.");
-            ui.add(egui::Label::new(RichText::new(&text).weak()).truncate()).on_hover_text(text);
-        });
-    }
     ui.horizontal(|ui| {
         if ui.button("Play a recording…").clicked() {
             wish(actions, Wish::Play);
@@ -64,6 +54,28 @@ fn inlets(ui: &mut Ui, live: &Live<'_>, actions: &mut Vec<Action>) {
             ui.add(egui::Label::new(RichText::new(name).weak()).truncate()).on_hover_text(name);
         }
     });
+    // Below what is there without them: nothing may move under a pointer that is about to press.
+    for (index, page) in live.turned_away.iter().enumerate() {
+        ui.horizontal(|ui| {
+            let let_in = ui.button("Let in");
+            named(&let_in, || format!("Let in {page}"));
+            if let_in.on_hover_text("It can move the face then.").clicked() {
+                wish(actions, Wish::LetIn(index));
+            }
+            ui.weak(shortened(page)).on_hover_text(format!("{page} was turned away."));
+        });
+    }
+}
+
+/// An address of which beginning and end are seen: whose it is stands at the end.
+fn shortened(page: &str) -> String {
+    let (count, most) = (page.chars().count(), 32);
+    if count <= most {
+        return page.to_owned();
+    }
+    let first: String = page.chars().take(8).collect();
+    let last: String = page.chars().skip(count - (most - 9)).collect();
+    format!("{first}…{last}")
 }
 
 fn senders(ui: &mut Ui, live: &Live<'_>, actions: &mut Vec<Action>) {

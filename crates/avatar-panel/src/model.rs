@@ -185,8 +185,8 @@ pub struct Live<'a> {
     pub inlets: &'a [Inlet<'a>],
     /// Whether other computers are heard, too.
     pub hears_others: bool,
-    /// The page in a browser that was turned away, since it is not of this computer.
-    pub turned_away: Option<&'a str>,
+    /// Pages in a browser that were turned away, since they are not of this computer.
+    pub turned_away: &'a [String],
     /// Name of the recording that is played.
     pub recording: Option<&'a str>,
     /// Who has sent something.

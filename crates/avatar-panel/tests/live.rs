@@ -30,7 +30,7 @@ fn live() -> Live<'static> {
     Live {
         inlets: INLETS,
         hears_others: false,
-        turned_away: None,
+        turned_away: &[],
         recording: None,
         senders: &[],
         is_choice: false,
@@ -72,12 +72,15 @@ fn formats_are_listened_to_and_others_are_heard() {
 }
 
 #[test]
-fn a_page_that_was_turned_away_is_let_in() {
-    assert!(window(Some(live())).query_by_label("Let in").is_none());
-    let mut window = window(Some(Live { turned_away: Some("https://example.org"), ..live() }));
-    assert!(window.query_by_label("https://example.org was turned away.").is_some());
-    click(&mut window, "Let in");
-    assert_eq!(window.state().log, [Action::Live(Wish::LetIn)]);
+fn pages_that_were_turned_away_are_let_in() {
+    let long = format!("https://example.org.{}.elsewhere.example", "a".repeat(60));
+    let pages: &'static [String] = Vec::leak(vec!["https://example.org".to_owned(), long]);
+    let mut window = window(Some(Live { turned_away: pages, ..live() }));
+    assert!(window.query_by_label("https://example.org").is_some());
+    assert!(window.query_by_label("https://…aaaaa.elsewhere.example").is_some(), "whose it is can be seen");
+    click(&mut window, &format!("Let in {}", pages[1]));
+    click(&mut window, "Let in https://example.org");
+    assert_eq!(window.state().log, [1, 0].map(|page| Action::Live(Wish::LetIn(page))));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-use crate::live::{Listen, SendTo};
+use crate::live::{Listen, Origin, SendTo};
 use crate::numbers::positive;
 use clap::Args;
 use std::path::PathBuf;
@@ -13,9 +13,10 @@ pub(crate) struct LiveOptions {
     #[arg(long, value_name = "FORMAT[:ADDRESS][:PORT]", required_unless_present = "play")]
     pub(crate) listen: Vec<Listen>,
     /// A page in a browser that may send faces by WebSocket although it is not of this computer, such as
-    /// https://example.org (`null` for a file); may be repeated
+    /// `https://example.org`; may be repeated. `null` is a file that a browser shows, but also a frame in any
+    /// page
     #[arg(long, value_name = "ORIGIN", requires = "listen")]
-    pub(crate) page: Vec<String>,
+    pub(crate) page: Vec<Origin>,
     /// Plays a recording of Live Link Face with its own times
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) play: Option<PathBuf>,

@@ -70,6 +70,14 @@ impl<'m> Reading<'m> {
         }
     }
 
+    /// A score that has been learned is this channel's.
+    fn name(&mut self, number: usize, channel: usize) {
+        let scores = self.meanings.iter_mut().flat_map(|meanings| meanings.iter_mut().rev());
+        if let Some((_, meaning)) = scores.into_iter().find(|(other, _)| *other == number) {
+            *meaning = Meaning::Score(Some(channel));
+        }
+    }
+
     fn pass(&mut self) -> usize {
         self.passed += 1;
         self.passed - 1
@@ -219,13 +227,18 @@ impl<'de> Visitor<'de> for Category<'_, '_> {
         while let Some(key) = map.next_key()? {
             match key {
                 Key::Name => channel = map.next_value_seed(Name)?,
-                Key::Score => score = Some((map.next_value::<f32>()?, self.0.pass())),
+                Key::Score => {
+                    let value = map.next_value::<f32>()?;
+                    let number = self.0.pass();
+                    self.0.learn(number, Meaning::Score(None));
+                    score = Some((value, number));
+                }
                 _ => map.next_value_seed(Passed(self.0))?,
             }
         }
         if let (Some(channel), Some((score, number))) = (channel, score) {
             self.0.frame.set(channel, score);
-            self.0.learn(number, Meaning::Score(channel));
+            self.0.name(number, channel);
         }
         Ok(())
     }

@@ -45,8 +45,8 @@ impl MediaPipe {
 /// What a number of a line means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Meaning {
-    /// The score of this channel.
-    Score(usize),
+    /// The score of this channel, or one that says nothing and has to be a number of 32 bits all the same.
+    Score(Option<usize>),
     /// The next one of the matrix.
     OfMatrix,
     /// The time in milliseconds.
@@ -109,7 +109,12 @@ impl MediaPipeReader {
         matrix.has_rows = self.has_rows;
         let is_read = self.template.read(line, &mut |meaning, number| {
             match meaning {
-                Meaning::Score(channel) => frame.set(channel, number.to_f32()?),
+                Meaning::Score(channel) => {
+                    let score = number.to_f32()?;
+                    if let Some(channel) = channel {
+                        frame.set(channel, score);
+                    }
+                }
                 Meaning::OfMatrix => matrix.push(number.to_f64()?)?,
                 Meaning::Time => frame.time_secs = Some(number.to_f64()? / 1000.0),
             }
@@ -171,4 +176,53 @@ fn placed(error: &serde_json::Error, line: &[u8]) -> DecodeError {
         _ => line.get(at).map_or(Found::End, |byte| Found::Byte(*byte)),
     };
     DecodeError::new(at, "a line of JSON with faceBlendshapes and facialTransformationMatrixes", found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The quick way is taken, and says what the other one says: also where numbers change that mean nothing.
+    #[test]
+    fn lines_with_other_numbers_are_read_as_the_last_one() {
+        let line = |score: f32, neutral: f32, count: usize| {
+            format!(
+                r#"{{"frame":{count},"faceBlendshapes":[{{"categories":[{{"index":0,"score":{neutral},"categoryName":"_neutral"}},{{"index":25,"score":{score},"categoryName":"jawOpen"}}]}}],"facialTransformationMatrixes":[{{"rows":4,"columns":4,"data":[{score},0,-1,0,0,1,0,0,1,0,{score},0,0,0,-40,1]}}],"timestampMs":{count}.5}}"#
+            )
+        };
+        let mut reader = MediaPipeReader::default();
+        for (index, count) in [7, 7, 7, 8, 9, 10].into_iter().enumerate() {
+            let line = line(0.1 + index as f32 / 16.0, index as f32 / 1000.0, count);
+            let expected = MediaPipe::decode(line.as_bytes());
+            let is_quick = reader.clone().read_as_last(line.as_bytes()).is_some();
+            // The first line is learned, and the first one with another count.
+            assert_eq!(is_quick, index != 0 && index != 3, "{index}");
+            assert_eq!(reader.read(line.as_bytes()), expected);
+            assert_eq!(expected.map(|frame| frame.named("jawOpen").is_some()), Ok(true));
+        }
+    }
+
+    /// Scores that are too large are refused in both ways, whoever they belong to.
+    #[test]
+    fn scores_have_32_bits() {
+        let line = |known: &str, unknown: &str| {
+            format!(
+                r#"{{"faceBlendshapes":[{{"categories":[{{"score":{known},"categoryName":"jawOpen"}},{{"score":{unknown},"categoryName":"x"}}]}}]}}"#
+            )
+        };
+        let mut reader = MediaPipeReader::default();
+        for (known, unknown, is_read) in [
+            ("0.5", "0.25", true),
+            ("0.5000000298023223877", "0.2500000149011611939", true),
+            ("1e39", "0", false),
+            ("0.5", "3.5e38", false),
+            ("0.5", "1e999", false),
+            ("0.25", "0.75", true),
+        ] {
+            let line = line(known, unknown);
+            let expected = MediaPipe::decode(line.as_bytes());
+            assert_eq!(expected.is_ok(), is_read, "{line}");
+            assert_eq!(reader.read(line.as_bytes()), expected, "{line}");
+        }
+    }
 }

@@ -14,6 +14,6 @@ pub(crate) use calibration::CalibrationFile;
 pub(crate) use follow::{Follow, line};
 pub(crate) use inbox::Inbox;
 pub(crate) use listen::{FORMATS, Listen, SendTo, everywhere, usual};
-pub(crate) use pages::Pages;
+pub(crate) use pages::{Origin, Pages};
 pub(crate) use send::Sending;
 pub(crate) use taken::{Recorder, Take};

@@ -20,6 +20,8 @@ pub(crate) struct Packet {
     pub(crate) origin: SocketAddr,
     pub(crate) protocol: Protocol,
     pub(crate) bytes: Vec<u8>,
+    /// Its source waits until there is room: nothing of it is given up.
+    waits: bool,
 }
 
 /// What threads hand packets to.
@@ -41,7 +43,7 @@ impl Queue {
 
     /// Hands a packet over that has arrived now, unless too many of its source wait.
     pub(super) fn offer(&self, origin: SocketAddr, protocol: Protocol, bytes: &[u8]) {
-        let packet = Packet { at: Instant::now(), origin, protocol, bytes: bytes.to_vec() };
+        let packet = Packet { at: Instant::now(), origin, protocol, bytes: bytes.to_vec(), waits: false };
         if self.packets.offer(packet) {
             (self.wake)();
         }
@@ -49,13 +51,15 @@ impl Queue {
 
     /// Hands a packet over, and waits until there is room.
     pub(super) fn put(&self, origin: SocketAddr, protocol: Protocol, bytes: Vec<u8>) {
-        self.packets.put(Packet { at: Instant::now(), origin, protocol, bytes }, || self.is_over());
+        self.packets.wait_for_room(|| self.is_over());
+        self.packets.push(Packet { at: Instant::now(), origin, protocol, bytes, waits: true });
         (self.wake)();
     }
 }
 
-/// Packets that wait, in the order in which they came. Where there are too many, the source that has most of
-/// them gives one up: a flood takes no room from a phone.
+/// Packets that wait, in the order in which they came. At most [`WAITING`] are from sources that do not wait
+/// for room: beyond that, the last packet of the busiest of them is dropped for that of a quieter one, so
+/// that a flood takes no room from a phone.
 #[derive(Default)]
 pub(super) struct Packets {
     waiting: Mutex<Waiting>,
@@ -66,8 +70,10 @@ pub(super) struct Packets {
 #[derive(Default)]
 struct Waiting {
     packets: VecDeque<Packet>,
-    /// How many there are of each source.
+    /// How many there are of each source that does not wait.
     counts: Vec<(SocketAddr, usize)>,
+    /// How many there are of those that do.
+    kept: usize,
 }
 
 impl Waiting {
@@ -77,6 +83,7 @@ impl Waiting {
 
     fn push(&mut self, packet: Packet) {
         match self.counts.iter_mut().find(|(source, _)| *source == packet.origin) {
+            _ if packet.waits => self.kept += 1,
             Some((_, count)) => *count += 1,
             None => self.counts.push((packet.origin, 1)),
         }
@@ -85,8 +92,10 @@ impl Waiting {
 
     fn remove(&mut self, place: usize) -> Option<Packet> {
         let packet = self.packets.remove(place)?;
-        if let Some((_, count)) = self.counts.iter_mut().find(|(source, _)| *source == packet.origin) {
-            *count -= 1;
+        match self.counts.iter_mut().find(|(source, _)| *source == packet.origin) {
+            _ if packet.waits => self.kept = self.kept.saturating_sub(1),
+            Some((_, count)) => *count = count.saturating_sub(1),
+            None => {}
         }
         self.counts.retain(|(_, count)| *count > 0);
         Some(packet)
@@ -101,14 +110,14 @@ impl Packets {
     /// Takes a packet in; whether there was room for it.
     fn offer(&self, packet: Packet) -> bool {
         let mut waiting = self.waiting();
-        if waiting.packets.len() >= WAITING {
+        if waiting.packets.len().saturating_sub(waiting.kept) >= WAITING {
             let most = waiting.counts.iter().max_by_key(|(_, count)| *count).copied();
             let Some((source, count)) = most else { return false };
             if waiting.count(packet.origin) + 1 >= count {
                 return false;
             }
             // Its last one: what came first is due first.
-            let place = waiting.packets.iter().rposition(|packet| packet.origin == source);
+            let place = waiting.packets.iter().rposition(|packet| packet.origin == source && !packet.waits);
             place.and_then(|place| waiting.remove(place));
         }
         waiting.push(packet);
@@ -117,14 +126,16 @@ impl Packets {
         true
     }
 
-    /// Takes a packet in as soon as there is room.
-    fn put(&self, packet: Packet, is_over: impl Fn() -> bool) {
+    /// Waits until there is room for one more of those that wait.
+    fn wait_for_room(&self, is_over: impl Fn() -> bool) {
         let mut waiting = self.waiting();
-        while waiting.packets.len() >= WAITING && !is_over() {
+        while waiting.kept >= WAITING && !is_over() {
             waiting = self.changed.wait_timeout(waiting, LOOK).unwrap_or_else(PoisonError::into_inner).0;
         }
-        waiting.push(packet);
-        drop(waiting);
+    }
+
+    fn push(&self, packet: Packet) {
+        self.waiting().push(packet);
         self.changed.notify_all();
     }
 
@@ -166,6 +177,7 @@ mod tests {
             origin: ([127, 0, 0, 1], port).into(),
             protocol: Protocol::LiveLink,
             bytes,
+            waits: false,
         }
     }
 
@@ -218,11 +230,21 @@ mod tests {
             scope.spawn(|| {
                 (0..1000u16).for_each(|n| queue.put(origin, Protocol::MediaPipe, n.to_le_bytes().to_vec()))
             });
+            // A flood meanwhile.
+            scope.spawn(|| {
+                while !queue.is_over() {
+                    queue.offer(([127, 0, 0, 1], 9).into(), Protocol::LiveLink, &[]);
+                }
+            });
             let then = Instant::now() + Duration::from_secs(60);
-            for expected in 0..1000u16 {
+            let mut expected = 0..1000u16;
+            while !expected.is_empty() {
                 let packet = queue.packets.take_until(then).expect("a packet");
-                assert_eq!(packet.bytes, expected.to_le_bytes());
+                if packet.origin == origin {
+                    assert_eq!(packet.bytes, expected.next().unwrap_or_default().to_le_bytes());
+                }
             }
+            queue.is_over.store(true, Ordering::Relaxed);
         });
     }
 }

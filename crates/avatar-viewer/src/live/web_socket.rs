@@ -79,13 +79,9 @@ fn greet(stream: TcpStream, protocol: Protocol, queue: &Queue) -> Option<WebSock
     let start = Instant::now();
     let whose = |request: &Request, response: Response| {
         let origin = request.headers().get(ORIGIN).map(|origin| String::from_utf8_lossy(origin.as_bytes()));
-        let before = queue.pages.turned_away();
-        if queue.pages.admits(origin.as_deref()) {
-            return Ok(response);
-        }
         // Whoever looks at the window may let it in.
-        if queue.pages.turned_away() != before {
-            (queue.wake)();
+        if queue.pages.admits(origin.as_deref(), || (queue.wake)()) {
+            return Ok(response);
         }
         let mut refusal = ErrorResponse::new(Some("expected a page of this computer".to_owned()));
         *refusal.status_mut() = StatusCode::FORBIDDEN;

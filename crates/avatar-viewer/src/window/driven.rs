@@ -19,7 +19,7 @@ impl App {
                 let done = live.hear_others(hears_others);
                 self.messages.report(About::Live, "Nothing arrives there.", done);
             }
-            Wish::LetIn => live.let_in(),
+            Wish::LetIn(page) => live.let_in(page),
             Wish::Play => super::loading::ask_for_recording(self.proxy.clone()),
             Wish::Follow(sender) => live.follow.receiver.choose(sender),
             Wish::Calibrate => {

@@ -37,9 +37,8 @@ impl App {
         if self.presenter.stage.as_ref().is_some_and(Stage::is_lost) {
             return self.reopen(event_loop);
         }
-        if let Some(stage) = &mut self.presenter.stage {
-            self.live.finished(stage.ready()?);
-        }
+        let ready = self.presenter.stage.as_mut().map_or(Ok(None), Stage::ready);
+        self.live.finished(ready.as_ref().ok().copied().flatten());
         let began = Instant::now();
         self.presenter.frames.begin(began);
         if self.presenter.frames.runs() {
@@ -48,6 +47,8 @@ impl App {
         if let Err(error) = self.live.frame(&mut self.session.face) {
             self.messages.error(About::Live, "The recording has ended.", &error);
         }
+        // Packets have been taken: the next ones wake the window again.
+        ready?;
         self.keep_calibration();
         if self.session.face.recording_is_full() {
             self.act(event_loop, Action::Panel(avatar_panel::Action::Edit(Edit::StopRecording)));
@@ -148,7 +149,7 @@ impl App {
             messages: &messages,
             recent: &self.config.recent,
             talking: &self.talking,
-            live: live.model(&inlets, &senders, turned_away.as_deref()),
+            live: live.model(&inlets, &senders, &turned_away),
         };
         self.presenter.lay_out(&self.session, &around, actions)
     }

@@ -16,13 +16,16 @@ use avatar_panel::{Inlet, LiveSender};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
 /// A pause of the window that is longer is not recorded whole.
 const LONGEST_PAUSE_SECS: f64 = 5.0;
 /// The share of a new measurement in the mean.
 const NEWEST: f32 = 0.1;
+
+/// What takes longer is no frame that was drawn at once.
+const LONGEST_DRAWING: Duration = Duration::from_secs(1);
 
 /// The title of an error.
 pub(super) const CALIBRATION_NOT_READ: &str = "The calibration was not read.";
@@ -225,8 +228,10 @@ impl Live {
     /// The frame before was finished then, if that is known.
     pub(super) fn finished(&mut self, then: Option<Instant>) {
         let is_drawing = std::mem::take(&mut self.is_drawing);
-        if let Some(then) = then.filter(|_| is_drawing) {
-            let ms = then.saturating_duration_since(self.shown_at).as_secs_f32() * 1e3;
+        let passed = then.map(|then| then.saturating_duration_since(self.shown_at));
+        // A window that is hidden meanwhile tells nothing of drawing.
+        if let Some(passed) = passed.filter(|passed| is_drawing && *passed < LONGEST_DRAWING) {
+            let ms = passed.as_secs_f32() * 1e3;
             self.draw_ms = Some(self.draw_ms.map_or(ms, |mean| mean + NEWEST * (ms - mean)));
         }
     }
@@ -316,13 +321,13 @@ impl Live {
         inlets
     }
 
-    /// Lets the page in that was turned away.
-    pub(super) fn let_in(&self) {
-        self.follow.inbox.pages().let_in();
+    /// Lets one of the pages in that were turned away.
+    pub(super) fn let_in(&self, page: usize) {
+        self.follow.inbox.pages().let_in(page);
     }
 
-    /// The page that was turned away, for the panel.
-    pub(super) fn turned_away(&self) -> Option<String> {
+    /// The pages that were turned away, for the panel.
+    pub(super) fn turned_away(&self) -> Vec<String> {
         self.follow.inbox.pages().turned_away()
     }
 
@@ -347,7 +352,7 @@ impl Live {
         &'a self,
         inlets: &'a [Inlet<'a>],
         senders: &'a [LiveSender<'a>],
-        turned_away: Option<&'a str>,
+        turned_away: &'a [String],
     ) -> avatar_panel::Live<'a> {
         let receiver = &self.follow.receiver;
         avatar_panel::Live {

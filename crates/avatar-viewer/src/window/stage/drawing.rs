@@ -52,10 +52,7 @@ impl Stage {
         if self.targets.is_none() {
             return Ok(Drawn::default());
         }
-        let next = self.next.take();
-        let Some(frame) = next.map_or_else(|| self.acquire(), |next| Ok(Some(next)))? else {
-            return Ok(Drawn::default());
-        };
+        let Some(frame) = self.next.take() else { return Ok(Drawn::default()) };
         let shown = self.see_through.as_ref().map_or(&frame.texture, SeeThrough::texture).clone();
         let label = Some("frame");
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label });

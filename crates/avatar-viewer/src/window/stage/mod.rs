@@ -206,7 +206,10 @@ impl Stage {
         if size.width == 0 || size.height == 0 {
             return Ok(());
         }
-        self.next = None;
+        if self.next.take().is_some() {
+            // That frame is not drawn any more.
+            self.window.request_redraw();
+        }
         (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
         self.surface.configure(&self.gpu.device, &self.config);
         let (width, height) = (self.config.width, self.config.height);
