@@ -54,7 +54,7 @@ impl App {
             self.act(event_loop, Action::Panel(avatar_panel::Action::Edit(Edit::StopRecording)));
         }
         let drive = self.live.wakes_at();
-        let is_driven = drive.is_some_and(|then| then <= Instant::now());
+        let is_driven = self.live.is_driven(drive);
         let acts = self.session.face.acts() || is_driven;
         let has_more = self.presenter.draw_miniature(&self.session, !self.session.face.acts())?;
 

@@ -24,6 +24,8 @@ const LONGEST_PAUSE_SECS: f64 = 5.0;
 /// The share of a new measurement in the mean.
 const NEWEST: f32 = 0.1;
 
+/// A face that somebody moves rests when it has been still for so long.
+const STILL: Duration = Duration::from_secs(1);
 /// What takes longer is no frame that was drawn at once.
 const LONGEST_DRAWING: Duration = Duration::from_secs(1);
 
@@ -56,6 +58,8 @@ pub(super) struct Live {
     /// The time that the last frame shows, and how many milliseconds later it was drawn, in the mean.
     shown_at: Instant,
     draw_ms: Option<f32>,
+    /// When somebody last moved the face.
+    moved_at: Option<Instant>,
     /// That frame is still being drawn.
     is_drawing: bool,
 }
@@ -106,6 +110,7 @@ impl Live {
             named: args.and_then(|args| args.calibration.clone()),
             shown_at: Instant::now(),
             draw_ms: None,
+            moved_at: None,
             is_drawing: false,
         };
         let calibration = live.read_calibration(session);
@@ -213,6 +218,18 @@ impl Live {
     /// When the next frame is to be drawn, should nothing arrive.
     pub(super) fn wakes_at(&self) -> Option<Instant> {
         self.follow.wakes_at().map(|secs| self.follow.instant(secs))
+    }
+
+    /// Whether somebody moves the face now, or may go on at any moment: nobody who has just held still wants
+    /// to wait for a picture that is drawn with all care. `wakes_at` is when a frame is due.
+    pub(super) fn is_driven(&mut self, wakes_at: Option<Instant>) -> bool {
+        let now = Instant::now();
+        if wakes_at.is_some_and(|then| then <= now) {
+            self.moved_at = Some(now);
+            return true;
+        }
+        let has_moved = self.moved_at.is_some_and(|moved| now.saturating_duration_since(moved) < STILL);
+        has_moved && self.follow.receiver.senders().any(|sender| sender.is_chosen && sender.is_live)
     }
 
     /// A frame with a face that is driven has been handed over to be drawn.
