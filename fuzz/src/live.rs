@@ -1,6 +1,6 @@
 use avatar_live::{
-    Calibration, ControlMap, Frame, IFacialMocap, LiveLink, MediaPipe, MediaPipeReader, Protocol, Receiver, Separator,
-    Settings, Vmc, VmcSender, mediapipe_line, read_osc, read_table,
+    Calibration, ControlMap, Frame, IFacialMocap, LiveLink, MediaPipe, MediaPipeReader, Protocol, Receiver,
+    Separator, Settings, Vmc, VmcSender, mediapipe_line, read_osc, read_table,
 };
 use pose_anim::ControlTable;
 
