@@ -129,7 +129,7 @@ pub fn read_osc<'a>(packet: &'a [u8], show: &mut dyn FnMut(Message<'a>)) -> Resu
     })
 }
 
-/// A message, before it has been looked at and after.
+/// A message: its bytes, and then what they say.
 pub(crate) enum Read<'a> {
     Bytes(&'a [u8]),
     Message(Message<'a>),

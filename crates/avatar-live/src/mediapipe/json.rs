@@ -47,7 +47,7 @@ pub(super) struct Reading<'m> {
     pub(super) matrixes: usize,
     /// How many numbers of the line have been passed; counted only for those who learn what they mean.
     passed: usize,
-    /// How many numbers stand before one, and what it means.
+    /// For each number that means something: how many numbers of the line stand before it, and what it means.
     meanings: Option<&'m mut Vec<(usize, Meaning)>>,
 }
 
@@ -70,10 +70,10 @@ impl<'m> Reading<'m> {
         }
     }
 
-    /// A score that has been learned is this channel's.
+    /// Says whose score this number is; its channel is known only once the whole category has been read.
     fn name(&mut self, number: usize, channel: usize) {
-        let scores = self.meanings.iter_mut().flat_map(|meanings| meanings.iter_mut().rev());
-        if let Some((_, meaning)) = scores.into_iter().find(|(other, _)| *other == number) {
+        let mut learned = self.meanings.iter_mut().flat_map(|meanings| meanings.iter_mut().rev());
+        if let Some((_, meaning)) = learned.find(|(other, _)| *other == number) {
             *meaning = Meaning::Score(Some(channel));
         }
     }

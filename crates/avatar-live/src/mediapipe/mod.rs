@@ -45,7 +45,7 @@ impl MediaPipe {
 /// What a number of a line means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Meaning {
-    /// The score of this channel, or one that says nothing and has to be a number of 32 bits all the same.
+    /// The score of this channel. Without a channel it changes nothing, but has to be within `f32`.
     Score(Option<usize>),
     /// The next one of the matrix.
     OfMatrix,
@@ -72,7 +72,7 @@ pub struct MediaPipeReader {
     template: Template<Meaning>,
     /// Whether the matrix of the line that is remembered has rows of its own.
     has_rows: bool,
-    /// Of the line that is being learned.
+    /// What the numbers mean of the line that is being learned.
     meanings: Vec<(usize, Meaning)>,
 }
 
@@ -91,7 +91,7 @@ impl MediaPipeReader {
         self.meanings.clear();
         let mut reading = Reading::learning(&mut self.meanings);
         if reading.whole(line).is_err() {
-            // What has no meaning is read more loosely by those who do not learn.
+            // `decode` passes over mistakes in what it does not need, such as numbers that are too large.
             return MediaPipe::decode(line);
         }
         let Reading { frame, times, matrixes, has_rows, .. } = reading;

@@ -54,7 +54,11 @@ impl App {
             self.act(event_loop, Action::Panel(avatar_panel::Action::Edit(Edit::StopRecording)));
         }
         let drive = self.live.wakes_at();
-        let is_driven = self.live.is_driven(drive);
+        let moves = drive.is_some_and(|then| then <= Instant::now());
+        if moves {
+            self.live.moved();
+        }
+        let is_driven = moves || self.live.may_go_on();
         let acts = self.session.face.acts() || is_driven;
         let has_more = self.presenter.draw_miniature(&self.session, !self.session.face.acts())?;
 

@@ -220,16 +220,16 @@ impl Live {
         self.follow.wakes_at().map(|secs| self.follow.instant(secs))
     }
 
-    /// Whether somebody moves the face now, or may go on at any moment: nobody who has just held still wants
-    /// to wait for a picture that is drawn with all care. `wakes_at` is when a frame is due.
-    pub(super) fn is_driven(&mut self, wakes_at: Option<Instant>) -> bool {
-        let now = Instant::now();
-        if wakes_at.is_some_and(|then| then <= now) {
-            self.moved_at = Some(now);
-            return true;
-        }
-        let has_moved = self.moved_at.is_some_and(|moved| now.saturating_duration_since(moved) < STILL);
-        has_moved && self.follow.receiver.senders().any(|sender| sender.is_chosen && sender.is_live)
+    /// Somebody moves the face now.
+    pub(super) fn moved(&mut self) {
+        self.moved_at = Some(Instant::now());
+    }
+
+    /// Whether somebody has moved the face just before, and may go on at any moment: nobody who has just held
+    /// still wants to wait for a picture that is drawn with all care.
+    pub(super) fn may_go_on(&self) -> bool {
+        self.moved_at.is_some_and(|moved| moved.elapsed() < STILL)
+            && self.follow.receiver.senders().any(|sender| sender.is_chosen && sender.is_live)
     }
 
     /// A frame with a face that is driven has been handed over to be drawn.
